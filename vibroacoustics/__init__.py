@@ -14,7 +14,8 @@ searches of your own.
 `write_report(results, folder)` writes the report with tables and figures.
 `data_sheet(results, option)` makes the data sheet of an option, a `DataSheet`, predicted;
 `write_data_sheet(sheet, folder)` writes it as page, CSV and JSON.
-`open_results(path)` reads results from a file.
+`open_results(path)` reads results from a file; `estimate(results, variable, …)` gives a value
+with its 80 % interval, an `Estimate`.
 `export_forces(results, path)` writes their forces for a machine of `kind = "table"`.
 `curves(study)` shows what goes on inside: pressures, films, friction, torques, critical speeds;
 also of a machine alone, from `load_machine(path)`.

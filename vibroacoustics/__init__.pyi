@@ -100,6 +100,8 @@ from .report.columns import Column as Column
 from .report.data_sheet.model import DataSheet as DataSheet
 from .report.data_sheet.sheet import data_sheet as data_sheet
 from .report.sections import Section as Section
+from .results.estimates import Estimate as Estimate
+from .results.estimates import estimate as estimate
 from .results.figure_limit import FigureLimit as FigureLimit
 from .results.limit import Limit as Limit
 from .results.limits_file import read_figure_limits as read_figure_limits

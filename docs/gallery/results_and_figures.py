@@ -69,7 +69,7 @@ with tempfile.TemporaryDirectory() as folder:
 # --------------
 # ``vibroacoustics datasheet RESULTS.nc --option twin-oldham`` writes what a maker states of a
 # machine, predicted (:doc:`/data_sheet`). Bands outside the model are empty; beside them stands the
-# remainder of the published level.
+# unmodelled noise of the published level.
 sheet = va.data_sheet(results, "twin-oldham", points_m={"discharge": (0.0, 0.08, 0.35)})
 power = sheet.sound_power
 print(f"L_WA = {power.level_dba:.1f} dB, of the model alone {power.modelled_dba:.1f} dB")

@@ -1,9 +1,10 @@
 """
-What carries the level, and how well is it known?
-=================================================
+Dominant sources, and how well they are known
+=============================================
 
-Gas forces, Oldham keys and motor drive an elastic shell. What is not known is sampled from its
-range; every sample keeps its levels. Method and findings: :doc:`/sources_of_sound`.
+Gas forces, Oldham keys and motor drive an elastic shell. Uncertain parameters are sampled from
+their ranges, and every quantity is computed in every sample. Method and findings:
+:doc:`/sources_of_sound`.
 
 .. literalinclude:: /gallery/studies/sources.toml
    :language: toml
@@ -18,37 +19,67 @@ import vibroacoustics as va
 
 study = va.load_study("studies/sources.toml")
 results = va.run(study, radiation=rough_radiation).sel(receiver="front_1m", speed=2900.0)
+print(f"{results.sizes['prior_sample']} samples at the published level")
+print(f"{results.sizes['sample']} rows in all cases: samples with ten discrepancies each")
 
 # %%
-# Levels by source, as assumed
-# ----------------------------
-alone = results["source_level"].sel(option="none")
-for source in alone["sound_source"].values:
-    print(f"{source:15s} {alone.sel(sound_source=source).item():7.1f} dB(A)")
-print(
-    f"{'all of them':15s} {results['level_modelled'].sel(option='none', weighting='A').item():7.1f}"
-)
+# Levels by source
+# ----------------
+# ``va.estimate`` gives the median of the weighted samples and its 80 % interval; the nominal value
+# has a variable of its own. Levels of parts do not add up to that of the machine.
+none = results.sel(option="none")
+for source in none["sound_source"].values:
+    low, value, high = va.estimate(none, "source_level", sound_source=source)
+    nominal = none["source_level_nominal"].sel(sound_source=source).item()
+    print(f"{source:15s} {value:7.1f} ({low:.1f} to {high:.1f}), nominal {nominal:.1f} dB(A)")
+low, value, high = va.estimate(none, "level_total")
+print(f"{'machine':15s} {value:7.1f} ({low:.1f} to {high:.1f}) dB(A)")
 
 # %%
-# Which way it comes
-# ------------------
+# Shares of the energy are means: with that of unmodelled noise they add up to 100 %.
+shares = {
+    str(source): none["source_share"].sel(sound_source=source).item()
+    for source in none["sound_source"].values
+}
+shares["unmodelled"] = none["unmodelled_share"].item()
+for name, share in shares.items():
+    print(f"{name:15s} {round(100.0 * share, 1) + 0.0:6.1f} %")
+print(f"{'sum':15s} {100.0 * sum(shares.values()):6.1f} %")
+
+# %%
+# Changes
+# -------
+# A change is the median of the changes in the samples. Its probability is the weight of the samples
+# in which it is at least what could be measured.
+damping = results.sel(option="damping")
+low, value, high = (round(one, 1) + 0.0 for one in va.estimate(damping, "change_total"))
+print(f"damping changes the total by {value:+.1f} dB ({low:+.1f} to {high:+.1f})")
+louder = damping["increase_probability"].sel(judged_quantity="level_total").item()
+print(f"probability that it is louder by 0.5 dB or more: {100.0 * louder:.0f} %")
+
+# %%
+# Transfer paths
+# --------------
 # Source, where it acts, in which direction: shares of the modelled energy add up to one over all
-# paths, and those that work against the others are negative (:doc:`/report`).
+# paths, and those that work against the others are negative (:doc:`/report`). Paths have phases, so
+# they are those of the representative sample.
 share = results["path_share"].sel(option="none", path_speed=2900.0)
 for path in share["path"].values[np.argsort(-abs(share.values))[:6]]:
     print(f"{path:35s} {100.0 * share.sel(path=path).item():+6.1f} %")
 
 # %%
-# With the samples
-# --------------
-# Samples were weighed by how well they agree with the published level; those that do went on.
-print(f"{results.sizes['prior_sample']} samples were weighed, {results.sizes['sample']} went on")
-sampled = results["source_level_by_sample"].sel(option="none")
+# The samples themselves
+# ----------------------
+# Dots are samples with a discrepancy; the larger, the more weight. Lines are medians, crosses are
+# nominal values.
+sampled = none["source_level_by_sample"]
+size = 400.0 * results["sample_weight"].isel(prior=0)
 figure, axes = plt.subplots(layout="constrained")
 for number, source in enumerate(("gas", "keys", "moving_parts")):
     levels = sampled.sel(sound_source=source)
-    axes.plot(np.full(levels.size, number), levels, "o", alpha=0.5)
-    axes.plot(number, alone.sel(sound_source=source), "k_", markersize=30)
+    axes.scatter(np.full(levels.size, number), levels, s=size, alpha=0.5)
+    axes.plot(number, none["source_level"].sel(sound_source=source), "k_", markersize=30)
+    axes.plot(number, none["source_level_nominal"].sel(sound_source=source), "kx")
 axes.set(xticks=range(3), xticklabels=["gas", "keys", "moving parts"], ylabel="level, dB(A)")
 
 # %%
@@ -56,7 +87,7 @@ axes.set(xticks=range(3), xticklabels=["gas", "keys", "moving parts"], ylabel="l
 # ---------------------
 # Rank correlation of each sampled value with the level of all modelled sources, the twelve largest;
 # more samples make it sharper.
-level = results["level_modelled_by_sample"].sel(option="none")
+level = none["level_modelled_by_sample"]
 ranks = {
     name: np.argsort(np.argsort(results["sampled_value"].sel(uncertain_parameter=name)))
     for name in results["uncertain_parameter"].values

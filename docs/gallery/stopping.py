@@ -3,8 +3,8 @@ A stop
 ======
 
 After switch-off the motor's torque is gone and the gas brakes the machine within two or three
-revolutions. Force, foot force and sound around that moment, from each speed. Model and what it
-leaves out: :doc:`/mechanisms`.
+revolutions. Force, foot force and sound around that moment, from each speed. In a study with
+samples the machine is the representative sample. Model and neglected effects: :doc:`/mechanisms`.
 
 .. literalinclude:: /gallery/studies/stopping.toml
    :language: toml

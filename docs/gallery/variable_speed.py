@@ -24,8 +24,8 @@ results = va.run(study.replace(few), radiation=rough_radiation)
 results = results.sel(receiver="front_1m", option="none", speed=2900.0)
 
 # %%
-# Levels by source, as assumed
-# ----------------------------
+# Levels by source, medians
+# -------------------------
 for name in ("gas", "motor", "forces"):
     print(f"{name:6s} {results['source_level'].sel(sound_source=name).item():6.1f} dB(A)")
 

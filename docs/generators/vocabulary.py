@@ -7,7 +7,15 @@ from pathlib import Path
 from typing import Final
 
 import vibroacoustics
-from vibroacoustics.base.vocabulary import COORDINATES, VARIABLES
+from vibroacoustics.base.vocabulary import (
+    COORDINATES,
+    MEAN,
+    MEDIAN,
+    NOMINAL,
+    REPRESENTATIVE,
+    SUFFIXES,
+    VARIABLES,
+)
 
 from .tables import code, table
 
@@ -18,12 +26,19 @@ CHAIN: Final = (
     "stopping", "scores", "columns", "recordings", "orders", "comparison", "limits",
 )  # fmt: skip
 """Subjects in the order of the chain; further ones stand behind."""
+STATISTICS: Final = {
+    MEDIAN: " (with samples their median)",
+    MEAN: " (with samples their mean)",
+    REPRESENTATIVE: " (with samples of the representative one)",
+}
 HEAD: Final = """# Vocabulary of results
 
 Every variable and coordinate that a result may hold, by subject. Nothing leaves a
 stage without passing this list: a variable that is not in it, or has other dimensions or another
 unit, is refused (`SchemaError`). Phasors are complex peaks, x(t) = Re{X exp(jωt)}; for degrees of
 freedom that turn, the unit has rad in place of m. Conventions: [](../conventions.md).
+In a run with samples a variable is nominal where its meaning names no other
+[statistic](../results.md#values-intervals-and-nominal-values).
 """
 
 
@@ -47,7 +62,8 @@ def page() -> str:
 def row(one) -> tuple[str, str, str, str]:
     """Name, dimensions, unit and meaning of a variable or a coordinate."""
     phasor = ", phasor" if getattr(one, "complex_peak", False) else ""
-    return code(one.name), ", ".join(one.dims), one.units, one.long_name + phasor
+    statistic = STATISTICS.get(getattr(one, "statistic", NOMINAL), "")
+    return code(one.name), ", ".join(one.dims), one.units, one.long_name + phasor + statistic
 
 
 def by_subject() -> dict[str, list[str]]:
@@ -56,13 +72,19 @@ def by_subject() -> dict[str, list[str]]:
     subjects: dict[str, list[str]] = {}
     for file in sorted(SUBJECTS.glob("*.toml"), key=place):
         text = file.read_text(encoding="utf-8")
-        named = [name for tables in tomllib.loads(text).values() for name in tables]
+        listed = [name for tables in tomllib.loads(text).values() for name in tables]
+        named = [name for one in listed for name in (one, *beside(one))]
         title = text.partition("\n")[0].removeprefix("# ").rstrip(".")
         subjects[title] = [name for name in named if name in left]
         left -= set(named)
     if left:
         subjects["Further"] = sorted(left)
     return subjects
+
+
+def beside(name: str) -> list[str]:
+    """Names of the ends of the interval and of the nominal value of a variable."""
+    return [one.name for one in VARIABLES[name].of_samples()] if name in VARIABLES else []
 
 
 def place(file: Path) -> tuple[int, str]:
@@ -73,17 +95,28 @@ def place(file: Path) -> tuple[int, str]:
 
 @cache
 def sources() -> dict[str, str]:
-    """Text of every file of the package but those of the base."""
+    """Text of every file of the package but those of the base and of older versions."""
     files = [file for file in sorted(PACKAGE.rglob("*.py")) if PACKAGE / "base" not in file.parents]
-    return {str(file.relative_to(PACKAGE)): file.read_text(encoding="utf-8") for file in files}
+    texts = {file.relative_to(PACKAGE): file.read_text(encoding="utf-8") for file in files}
+    return {
+        file.as_posix(): re.sub(r"^ *>>> .*$", "", text, flags=re.MULTILINE)
+        for file, text in texts.items()
+        if not file.stem.startswith("version_")
+    }
 
 
 def makers_of(name: str) -> list[str]:
-    """Files of the package that stamp a variable; else those below the report that name it."""
+    """Files of the package that stamp a variable; else those below the report that name it.
+
+    Statistics of a variable are made with it.
+    """
+    for suffix in SUFFIXES.values():
+        if name.removesuffix(suffix) in VARIABLES:
+            name = name.removesuffix(suffix)
     texts = sources()
     stamped = [file for file, text in texts.items() if re.search(rf'stamp\(\s*"{name}"', text)]
     named = [file for file, text in texts.items() if f'"{name}"' in text]
-    beside = [file for file in named if "stamp(" in texts[file]]
+    beside = [file for file in named if re.search(r"\bstamp(ed)?\(", texts[file])]
     below = [file for file in named if not file.startswith(("report", "commands", "plot"))]
     return stamped or beside or below or composers_of(name)
 

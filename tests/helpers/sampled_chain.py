@@ -66,7 +66,7 @@ class SampledChain:
             replace(of, cases={key: of.cases[key] for key in keys}),
             replace(nominal, sound={key: nominal.sound[key] for key in keys}),
         )
-        return [sampled.sound for sampled in sounds_of(chain, samples, lambda number: None)]
+        return sounds_of(chain, samples, lambda number: None)
 
 
 def of_few_ranges(study, names):

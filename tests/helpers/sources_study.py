@@ -1,5 +1,7 @@
 """A small study of several sources, with transfer vectors made up."""
 
+from unittest.mock import patch
+
 import numpy as np
 import xarray as xr
 from kept_results import kept
@@ -11,7 +13,9 @@ from vibroacoustics.machine.frame import PARTS
 from vibroacoustics.machine.source import Case
 from vibroacoustics.mechanics.loads import Lines, Loads, lines_of
 from vibroacoustics.sources.cases import cases_of
+from vibroacoustics.stages.samples import Samples
 from vibroacoustics.stages.shell import shell_path
+from vibroacoustics.stages.stage import Given
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 from vibroacoustics.transfer.path import ShellPath
@@ -52,6 +56,16 @@ def run_made_up(study: Study, gain: float = 1.0) -> xr.Dataset:
 def sources_run() -> xr.Dataset:
     """Results of the study as it is, with made-up transfer vectors."""
     return kept("sources", lambda: run_made_up(load_study(SOURCES_STUDY)))
+
+
+def nominal_run() -> xr.Dataset:
+    """Results of the same study and shell with the nominal values alone: no sample goes on."""
+
+    def run() -> xr.Dataset:
+        with patch.object(Samples, "run", lambda *_: Given()):
+            return run_made_up(load_study(SOURCES_STUDY))
+
+    return kept("sources_nominal", run)
 
 
 def case_of(study: Study, option: str = REFERENCE_OPTION) -> Case:

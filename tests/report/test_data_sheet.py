@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 from data_sheets import BANDS, NAMES, POWER_DB, modelled_power_db, results_of, study_of
 from pydantic import ValidationError
+from sources_study import sources_run
 from support import assert_refused, command_here, tiny_run
 
 import vibroacoustics as va
@@ -19,6 +20,7 @@ from vibroacoustics.report.data_sheet.files import data_sheet_csv, data_sheet_ht
 from vibroacoustics.report.data_sheet.model import DataSheet
 from vibroacoustics.report.data_sheet.vibration import peak_to_peak, point_velocity
 from vibroacoustics.results import storage
+from vibroacoustics.sound.tone_spectra import tone_variables
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +46,7 @@ def _column(sheet: DataSheet, name: str) -> np.ndarray:
 def test_known_sound_power_in_every_band(results: xr.Dataset) -> None:
     sheet = va.data_sheet(results, "none", microphones=NAMES)
     assert _column(sheet, "total_db") == pytest.approx(POWER_DB, abs=1e-9)  # of 0.3 dB
-    assert sheet.sound_power.rest == "baseline"
+    assert sheet.sound_power.unmodelled_kind == "baseline"
     known = 2.0 * np.pi * 2.0**2
     assert sheet.sound_power.surface_m2 == pytest.approx(known, rel=0.01)
 
@@ -57,7 +59,7 @@ def test_modelled_part_is_the_closed_form_and_empty_outside(results: xr.Dataset)
     assert np.isfinite(modelled[inside]).all()
     assert np.isnan(modelled[~inside]).all()
     rest = 10.0 * np.log10(10.0 ** (POWER_DB / 10.0) - np.nan_to_num(10.0 ** (expected / 10.0)))
-    np.testing.assert_allclose(_column(sheet, "rest_db"), rest, atol=1e-3)
+    np.testing.assert_allclose(_column(sheet, "unmodelled_db"), rest, atol=1e-3)
 
 
 def test_option_changes_the_measured_power_by_its_modelled_part(results: xr.Dataset) -> None:
@@ -71,26 +73,41 @@ def test_option_changes_the_measured_power_by_its_modelled_part(results: xr.Data
 
 
 def test_nothing_beside_the_model_leaves_bands_empty_never_zero(tiny: xr.Dataset) -> None:
-    silent = tiny.assign(unmodelled_band_level=tiny["unmodelled_band_level"] * 0.0 - 300.0)
+    silent = tiny.assign(
+        unmodelled_band_level=tiny["unmodelled_band_level"] * 0.0 - 300.0,
+        total_band_level=tiny["sources_band_level"],
+    )
     sheet = va.data_sheet(silent, "none")
-    total, rest = _column(sheet, "total_db"), _column(sheet, "rest_db")
+    total, rest = _column(sheet, "total_db"), _column(sheet, "unmodelled_db")
     beyond = np.array([band.band_hz > 800.0 for band in sheet.sound_power.bands])
     assert np.isnan(total[beyond]).all()
     assert np.isnan(rest).all()
+    page = data_sheet_html(sheet).decode()
+    below = _column(sheet, "modelled_below_db")
+    empty = np.isnan(_column(sheet, "modelled_db"))
+    _, highest_hz = sheet.sound_power.model_range_hz
+    covered = np.array([band.lower_hz < highest_hz for band in BANDS])
+    assert highest_hz == 1000.0
+    assert (below[empty & covered] == -40.0).all()
+    assert np.isnan(below[~empty | ~covered]).all()
+    assert page.count("model: below −40") == np.count_nonzero(empty & covered) > 0
+    assert page.count("<td>not modelled") == np.count_nonzero(~covered)
     rows = list(csv.DictReader(io.StringIO(data_sheet_csv(sheet).decode())))
     of_band = [row for row in rows if row["item"] == "2000 Hz"]
-    assert [row["value"] for row in of_band] == ["", "", ""]
+    assert [row["value"] for row in of_band] == [""] * 4
     band = json.loads(sheet.model_dump_json())["sound_power"]["bands"][13]
-    assert band == {"band_hz": 2000.0, "modelled_db": None, "rest_db": None, "total_db": None}
+    names = ("modelled_db", "modelled_below_db", "unmodelled_db", "total_db")
+    assert band == {"band_hz": 2000.0, **dict.fromkeys(names)}
 
 
-def test_remainder_is_that_of_the_published_level(tiny: xr.Dataset) -> None:
+def test_unmodelled_noise_is_that_of_the_published_level(tiny: xr.Dataset) -> None:
     sheet = va.data_sheet(tiny, "none")
     power = sheet.sound_power
     level = tiny["level_total"].sel(option="none").item()
     square = 1.0825**2 + 0.24**2
     assert power.level_dba == pytest.approx(level + 10.0 * np.log10(2.0 * np.pi * square))
-    assert power.rest == "remainder"
+    assert power.unmodelled_kind == "unmodelled noise"
+    assert power.prior == "none: nothing was sampled"
     assert "ISO 3744 asks for ten" in power.determined
 
 
@@ -131,17 +148,38 @@ def test_level_is_the_median_and_k_what_95_percent_of_the_samples_stay_below(
     assert power.level_dba == pytest.approx(given.level_dba - below_db, abs=error_db)
     assert power.modelled_dba == pytest.approx(given.modelled_dba - below_db, abs=error_db)
     assert power.nominal_dba == given.nominal_dba == given.level_dba
-    assert f"which give {given.nominal_dba:.1f} dB" in power.uncertainty_words
-    assert power.uncertainty_k_db == pytest.approx(1.645 * deviation_db, abs=0.1)
+    assert f"with the nominal values it is {given.nominal_dba:.1f} dB" in power.uncertainty_words
+    assert power.model_spread_db == pytest.approx(1.645 * deviation_db, abs=0.1)
+    both_db = np.hypot(deviation_db, 1.5)  # of ISO 3744, grade 2
+    assert power.uncertainty_k_db == pytest.approx(1.645 * both_db, abs=0.1)
+    assert "a deviation of 1.5 dB" in power.uncertainty_words
+    assert "assumed" not in power.uncertainty_words
+    assert power.prior.startswith("unmodelled noise anywhere from 26 dB below")
     assert power.declared is not None
     level_db, k_db = power.declared
     exact = power.level_dba + power.uncertainty_k_db
     assert exact <= level_db + k_db < exact + 1.0
-    assert f"L_WA = {level_db} dB, K_WA = {k_db} dB" in headline(va.data_sheet(sampled, "none"))
+    said = headline(va.data_sheet(sampled, "none"))
+    assert f"L_WA = {level_db} dB, K_WA = {k_db} dB" in said
+    assert "single machine" in said
+    batch = va.data_sheet(sampled, "none", batch_deviation_db=2.0)
+    of_batch_db = np.sqrt(deviation_db**2 + 1.5**2 + 2.0**2)
+    assert batch.sound_power.level_dba == power.level_dba
+    assert batch.sound_power.uncertainty_k_db == pytest.approx(1.645 * of_batch_db, abs=0.1)
+    assert "production, an assumed deviation of 2 dB" in batch.sound_power.uncertainty_words
+    assert "batch" in headline(batch)
 
 
-def test_k_is_never_zero(tiny: xr.Dataset) -> None:
-    """At least 1 dB where samples differ a little; not known where they do not."""
+@pytest.mark.parametrize("deviation_db", [0.0, -1.0, 10.5, np.nan])
+def test_deviations_of_a_batch_that_cannot_be_are_refused(
+    tiny: xr.Dataset, deviation_db: float
+) -> None:
+    with pytest.raises(ParameterError, match="must be above 0, to 10 dB"):
+        va.data_sheet(tiny, "none", batch_deviation_db=deviation_db)
+
+
+def test_k_of_samples_that_hardly_differ_is_that_of_measuring(tiny: xr.Dataset) -> None:
+    """1.645 · 1.5 dB where samples differ a little; not known where they do not."""
     weight = np.full(100, 0.01)
     same = va.data_sheet(_sampled(tiny, np.zeros(100), weight), "none")
     assert same.sound_power.uncertainty_k_db is None
@@ -149,7 +187,7 @@ def test_k_is_never_zero(tiny: xr.Dataset) -> None:
     level = va.data_sheet(tiny, "none").sound_power.level_dba
     shift = np.floor(level) + 0.6 - level  # 0.6 dB above a whole decibel rounds up
     little = va.data_sheet(_sampled(tiny, shift + np.linspace(-0.2, 0.2, 100), weight), "none")
-    assert little.sound_power.declared == (np.floor(level) + 1, 1)
+    assert little.sound_power.declared == (np.floor(level) + 1, 3)  # 0.6 + 1.645 · 1.5 dB
 
 
 def test_displacement_of_the_feet_is_the_force_over_the_stiffness(tiny: xr.Dataset) -> None:
@@ -193,10 +231,25 @@ def test_operating_point_and_mounting(tiny: xr.Dataset) -> None:
     facts = {one.name: (one.value, one.unit) for one in (*sheet.operating, *sheet.mounting)}
     assert facts["shaft speed"] == (2900.0, "rpm")
     assert facts["suction pressure"] == (15.0, "bar")
+    assert facts["operating point"] == ("values of the machine's file", "")
+    assert facts["refrigerant"] == ("R410A", "")
+    assert "the 10 microphones of ISO 3744: the study has 1" in sheet.not_available
     assert facts["vertical stiffness of a mount"] == (50.0, "N/mm")
     assert facts["mass on the mounts"] == (35.0, "kg")
     assert facts["feet"] == (4.0, "")
     assert facts["floor"] == ("hard to sound, rigid under the feet", "")
+
+
+def test_source_of_the_pressures_and_point_of_operation(tiny: xr.Dataset) -> None:
+    study = json.loads(tiny.attrs["parameters"])
+    source = "derived: evaporating at 7.2 °C, condensing at 54.4 °C"
+    record = {**study["records"][0], "field": "gas.suction_pressure_bar", "source": source}
+    study["records"].append(record)
+    study["operation"]["point"] = "ari"
+    sheet = va.data_sheet(tiny.assign_attrs(parameters=json.dumps(study)), "none")
+    facts = {one.name: one.value for one in sheet.operating}
+    assert facts["source of the suction pressure"] == source
+    assert facts["operating point"] == "ari"
 
 
 def test_files_of_a_sheet(tiny: xr.Dataset, file: Path, tmp_path: Path) -> None:
@@ -260,12 +313,20 @@ def test_without_a_floor_the_sphere_about_the_centre_of_mass(tiny: xr.Dataset) -
     assert free.sound_power.surface_m2 == pytest.approx(4.0 * np.pi * square)
 
 
+def _judged_again(results: xr.Dataset) -> xr.Dataset:
+    """The results with the tones of their present lines and noise."""
+    tones = tone_variables(results)
+    others = results.drop_vars([*tones.data_vars, "judged_tone", "judged_tone_frequency"])
+    return others.merge(tones)
+
+
 def test_tones_that_stand_out_are_stated_at_their_microphone(results: xr.Dataset) -> None:
     """An order far above the noise; with the measured bands above it there is none."""
     sheet = va.data_sheet(results, "none", microphones=["p1", "p2"])
     assert sheet.tones == ()
     quiet = results.drop_vars("baseline_band_level")
     quiet["unmodelled_band_level"] = quiet["unmodelled_band_level"] * 0.0 + 20.0
+    quiet = _judged_again(quiet)
     stated = va.data_sheet(quiet, "none", microphones=["p1", "p2"]).tones
     assert stated
     (tone,) = [one for one in stated if one.name == "order 5"]
@@ -273,6 +334,8 @@ def test_tones_that_stand_out_are_stated_at_their_microphone(results: xr.Dataset
     assert tone.microphone in ("p1", "p2")
     level = results["order_level"].sel(option="none", receiver=tone.microphone, order=5)
     assert tone.level_db >= level.sel(weighting="Z").item() - 1e-6
+    assert 0.0 <= tone.excess_db <= 60.0
+    assert tone.probability == 1.0
     page = data_sheet_html(va.data_sheet(quiet, "none", microphones=["p1", "p2"])).decode()
     assert "Prominent tones (ECMA-418-1" in page
 
@@ -282,8 +345,43 @@ def test_tones_without_noise_are_not_judged(results: xr.Dataset) -> None:
     bare = results.drop_vars("baseline_band_level")
     for name in ("unmodelled_band_level", "noise_band_level"):
         bare[name] = bare[name] * 0.0 - 300.0
+    bare = _judged_again(bare)
     sheet = va.data_sheet(bare, "none", microphones=["p1", "p2"])
     assert sheet.tones == ()
     assert sheet.tones_not_judged > 1
     page = data_sheet_html(sheet).decode()
     assert f"{sheet.tones_not_judged} audible tones without noise in the critical band" in page
+
+
+def test_a_sampled_machine_has_the_medians_of_its_samples() -> None:
+    """L_WA of the power in every sample, bands of the medians, tones by their probability."""
+    run = sources_run()
+    (speed,) = run["speed"].values
+    sheet = va.data_sheet(run, "none")
+    power = sheet.sound_power
+    at = run.sel(option="none", speed=speed)
+    levels, weight = at["level_total_by_sample"].values, run["sample_weight"].values[0]
+    area = 2.0 * np.pi * np.array([_distance_squared(run, name) for name in power.microphones])
+    by_sample = 10.0 * np.log10((10.0 ** (levels / 10.0) * area).mean(axis=1))
+    order = np.argsort(by_sample)
+    middle = np.searchsorted(np.cumsum(weight[order]), 0.5)
+    near = by_sample[order][middle - 2 : middle + 3]
+    assert near[0] <= power.level_dba <= near[-1]
+    assert power.uncertainty_k_db > power.model_spread_db > 0.0
+    total = 10.0 ** (at["total_band_level"].sel(noise_band=1000.0).values / 10.0)
+    (band,) = [band for band in power.bands if band.band_hz == 1000.0]
+    assert band.total_db == pytest.approx(10.0 * np.log10(np.mean(total * area)))
+    chance = at["tone_probability"].max("receiver")
+    listed = {str(name) for name in run["judged_tone"].values[chance.values > 0.5]}
+    assert {tone.name for tone in sheet.tones} == listed
+    assert sheet.any_tone_probability == at["any_tone_probability"].max().item()
+    for tone in sheet.tones:
+        assert tone.probability > 0.5
+        assert tone.excess_low_db is None or tone.excess_low_db <= tone.excess_db
+        assert tone.excess_db <= tone.excess_high_db <= 60.0
+
+
+def _distance_squared(results: xr.Dataset, name: str) -> float:
+    """From the axis on the floor to a microphone, m²."""
+    at = json.loads(results.attrs["parameters"])["receivers"][name]
+    return float(at["x_m"] ** 2 + at["y_m"] ** 2 + at["height_m"] ** 2)

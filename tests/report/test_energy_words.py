@@ -1,47 +1,69 @@
-"""Shares of the energy in words: those of all samples at the published level, once."""
-
-import json
+"""Level and shares with less evidence and with the second prior, in words."""
 
 import pytest
 import xarray as xr
+from test_report_sources import with_sources
 
-from vibroacoustics.report.energy_words import energy_table, spectrum_sentence
-from vibroacoustics.report.source_words import _carries, _modelled_and_rest, source_share
+from vibroacoustics.base.vocabulary import stamp
+from vibroacoustics.report.energy_words import alternatives_table, spectrum_sentence
 
-SHARES = {  # quantiles of gas, keys and unmodelled noise
-    "all data": [[0.02, 0.2, 0.7], [0.002, 0.3, 0.8], [0.1, 0.4, 0.9]],
-    "level alone": [[0.1, 0.7, 0.9], [0.01, 0.2, 0.6], [0.0, 0.1, 0.5]],
+PARTS = ["gas", "keys", "motor", "moving_parts", "unmodelled"]
+SHARE = {
+    "level alone": [0.70, 0.20, 0.0, 0.0, 0.10],
+    "other prior": [0.30, 0.10, 0.002, 0.0, 0.598],
 }
+LEVEL_DBA = {"level alone": 55.0, "other prior": 57.0}
 
 
-@pytest.fixture
+def with_alternatives() -> xr.Dataset:
+    """Results whose samples have 0.8 to 1.2 of these shares, levels 2 dB off, if worth 100."""
+    results = with_sources({"none": 40.0})
+    names = {"alternative": [*SHARE]}
+    by_part = {**names, "energy_part": PARTS}
+    share, level = [*SHARE.values()], [*LEVEL_DBA.values()]
+    made = {"alternative_effective": stamp("alternative_effective", [100.0, 200.0], names)}
+    for suffix, factor, off_db in (("", 1.0, 0.0), ("_10_percent", 0.8, -2.0),
+                                   ("_90_percent", 1.2, 2.0)):  # fmt: skip
+        of_parts = [[factor * value for value in row] for row in share]
+        name = f"alternative_share{suffix}"
+        made[name] = stamp(name, of_parts, by_part)
+        name = f"alternative_level{suffix}"
+        made[name] = stamp(name, [one + off_db for one in level], names)
+    return results.assign(made)
+
+
+@pytest.fixture(scope="module")
 def results() -> xr.Dataset:
-    parts = ["gas", "keys", "unmodelled"]
-    return xr.Dataset(
-        {
-            "energy_share": (("evidence", "energy_part", "datum_quantile"), [*SHARES.values()]),
-            "energy_majority": (("evidence", "energy_part"), [[0.16, 0.3, 0.4], [0.6, 0.1, 0.1]]),
-            "evidence_effective": ("evidence", [100.0, 200.0]),
-        },
-        {"evidence": [*SHARES], "energy_part": parts, "datum_quantile": [0.1, 0.5, 0.9]},
-        {"words": json.dumps({"sources": {"gas": "gas forces", "keys": "Oldham keys"}})},
-    )
+    return with_alternatives()
 
 
-def test_sentences_have_the_numbers_of_the_table(results: xr.Dataset) -> None:
-    assert source_share(results, "gas")[:3] == (0.02, 0.2, 0.7)
-    assert _carries(results, "keys", 0) == pytest.approx(0.3)
-    modelled, rest = _modelled_and_rest(results, 0)
-    assert modelled[:3] == pytest.approx((0.1, 0.6, 0.9))
-    assert rest[:3] == (0.1, 0.4, 0.9)
-    table = energy_table(results)
+def plain(text: str) -> str:
+    return text.replace("\u00a0", " ")
+
+
+def test_table_has_level_and_share_of_every_part_by_alternative(results: xr.Dataset) -> None:
+    table = alternatives_table(results)
     assert table is not None
-    assert table.rows[1][1] == "30\u00a0% (<1\u00a0% to 80\u00a0%)"
+    assert table.head[1:] == ("all data, first prior", "published level alone", "second prior")
+    assert "100 with published level alone, 200 with second prior" in table.caption
+    rows = {row[0]: [plain(cell) for cell in row[1:]] for row in table.rows}
+    # Interval of 4 dB over √100 times 0.667 and 0.489: 0.27 and 0.2 dB.
+    assert rows["Level of the machine, dB(A)"][1:] == [
+        "55.0 (53.0 to 57.0)", "57.0 (55.0 to 59.0)",
+    ]  # fmt: skip
+    assert rows["Share of gas forces"] == [
+        "30 % (10 % to 50 %)", "70 % (56 % to 84 %)", "30 % (24 % to 36 %)",
+    ]  # fmt: skip
+    assert rows["Share of motor at twice the line frequency"][2] == "<1 %"
+    assert rows["Share of unmodelled noise"][1] == "10 % (8 % to 12 %)"
+    assert len(rows) == 1 + len(PARTS)
+    assert alternatives_table(results.drop_dims("alternative")) is None
 
 
 def test_the_sentence_is_about_the_source_that_the_spectrum_changes_most(
     results: xr.Dataset,
 ) -> None:
-    sentence = spectrum_sentence(results)
-    assert sentence.startswith("With the published spectral share gas forces make 20\u00a0%")
-    assert spectrum_sentence(results.isel(evidence=[0])) == ""
+    sentence = plain(spectrum_sentence(results))
+    assert sentence.startswith("With the published spectral share gas forces make 30 %")
+    assert "with the level alone 70 % (56 % to 84 %)" in sentence
+    assert spectrum_sentence(results.isel(alternative=[1])) == ""

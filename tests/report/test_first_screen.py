@@ -1,5 +1,7 @@
-"""The drawing and the chart that open the report."""
+"""The first screen of the report, and the folded drawing and chart of the machine."""
 
+import csv
+import io
 import json
 import re
 from collections.abc import Sequence
@@ -7,17 +9,21 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 import xarray as xr
+from sources_study import sources_run
 from support import tiny_run
 from test_report import make_results
 
 from vibroacoustics.base.errors import SchemaError
-from vibroacoustics.report.blocks import Beside, Lights
+from vibroacoustics.report import first_screen, render
+from vibroacoustics.report.bands import Band
+from vibroacoustics.report.blocks import Beside, Details, Intervals, Lights, Text
 from vibroacoustics.report.drawing import machine_picture
 from vibroacoustics.report.drawing.loads import loads, turn
 from vibroacoustics.report.drawing.outline import feet_m, outline
 from vibroacoustics.report.drawing.view import bar, fitted
+from vibroacoustics.report.first_screen import sentences
 from vibroacoustics.report.lights import light, lights
-from vibroacoustics.report.quantities import FOOT_FORCE, FORCE, LINE
+from vibroacoustics.report.quantities import FOOT_FORCE, FORCE, LINE, TOTAL
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.shifts import Shift
 from vibroacoustics.results.complete import check_run
@@ -30,7 +36,6 @@ SHELL = {
     "centre_of_mass_height_m": 0.15,
     "floor_clearance_m": 0.03,
 }
-WEIGHT = np.full(4, 0.25)
 
 
 @pytest.fixture(scope="module")
@@ -41,9 +46,14 @@ def results() -> xr.Dataset:
 def changed_by(percent: Sequence[float]) -> Shift:
     """A force of 10 N that changes by as much in each of four samples."""
     before, changes = np.array([10.0]), np.asarray(percent, dtype=float)
-    sampled_db = 20.0 * np.log10(1.0 + changes[:, None] / 100.0)
+    least = Measurable()
     after = before * (1.0 + changes.mean() / 100.0)
-    return Shift(FORCE, before, after, sampled_db, WEIGHT, Measurable())
+    gain_db = 20.0 * np.log10(after / before)
+    interval = Band(changes.min(), float(np.median(changes)), changes.max())
+    grown, fallen = (
+        float((sign * changes > 100.0 * least.force_ratio).mean()) for sign in (1.0, -1.0)
+    )
+    return Shift(FORCE, before, after, gain_db, (interval,), grown, fallen, least)
 
 
 @pytest.mark.parametrize(
@@ -76,7 +86,8 @@ def test_what_goes_beyond_the_scale_ends_at_it_and_keeps_its_number() -> None:
 
 
 def test_levels_are_in_db_of_a_scale_of_20() -> None:
-    quieter = Shift(LINE, np.array([40.0]), np.array([35.0]), np.array([[-5.0]]), np.ones(1),
+    change = (Band(-5.0, -5.0, -5.0),)
+    quieter = Shift(LINE, np.array([40.0]), np.array([35.0]), np.array([-5.0]), change, 0.0, 1.0,
                     Measurable())  # fmt: skip
     assert light([quieter]) == light([quieter, quieter])
     assert light([quieter]).band == pytest.approx((-0.25, -0.25))
@@ -141,12 +152,18 @@ def test_loads_are_those_of_none_and_turn_through_their_amplitude(results: xr.Da
     assert loads(results.drop_vars("force_order")) is None
 
 
-def test_first_section_shows_drawing_beside_chart_and_is_not_folded(results: xr.Dataset) -> None:
+def test_first_section_shows_two_charts_and_folds_the_machine(results: xr.Dataset) -> None:
     assert [name for name, section in SECTIONS.items() if not section.folded] == ["verdict"]
+    assert SECTIONS["verdict"].title == "Summary"
     blocks = SECTIONS["verdict"].blocks(results)
     (pair,) = (block for block in blocks if isinstance(block, Beside))
-    assert isinstance(pair.wide, Lights)
-    assert "front_1m, 0.24 m high" in str(pair.narrow)
+    assert isinstance(pair.narrow, Intervals)
+    assert isinstance(pair.wide, Intervals)
+    (folded,) = (block for block in blocks if isinstance(block, Details))
+    drawing, chart, ranking = folded.blocks
+    assert "front_1m, 0.24 m high" in str(drawing)
+    assert isinstance(chart, Lights)
+    assert isinstance(ranking, Text)
 
 
 def test_the_caption_gives_the_foot_force_of_the_tables(results: xr.Dataset) -> None:
@@ -193,9 +210,186 @@ def test_results_with_a_broken_geometry_are_refused(
         check_run(changed)
 
 
-def test_older_results_have_no_drawing_and_the_chart_alone(results: xr.Dataset) -> None:
+def test_results_without_forces_of_feet_have_no_drawing(results: xr.Dataset) -> None:
     older = results.drop_vars("foot_force_order")
     assert machine_picture(older) is None
     blocks = SECTIONS["verdict"].blocks(older)
-    assert not any(isinstance(block, Beside) for block in blocks)
-    assert any(isinstance(block, Lights) for block in blocks)
+    (folded,) = (block for block in blocks if isinstance(block, Details))
+    assert isinstance(folded.blocks[0], Lights)
+
+
+# --- sentences and charts ------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def sampled() -> xr.Dataset:
+    return sources_run()
+
+
+@pytest.fixture(scope="module")
+def tables(sampled: xr.Dataset) -> dict[str, list[dict[str, str]]]:
+    """Rows of the CSV files without an option at the published microphone."""
+    files = render(sampled)
+    rows = {
+        name: list(csv.DictReader(io.StringIO(files[name].decode())))
+        for name in ("comparison.csv", "sources.csv")
+    }
+    return {
+        name: [one for one in of_file if one["receiver"] == "front_1m"]
+        for name, of_file in rows.items()
+    }
+
+
+def numbers(text: str) -> list[tuple[float, float]]:
+    """Numbers of a text with half the unit of their last digit that is not zero."""
+    found = []
+    for sign, whole, decimals in re.findall(r"(−?)(\d+)(?:\.(\d+))?", text):
+        zeros = len(whole) - len(whole.rstrip("0")) if whole != "0" else 0
+        unit = 10.0 ** -len(decimals) if decimals else 10.0**zeros
+        value = float(f"{whole}.{decimals or 0}")
+        found.append((-value if sign else value, 0.5 * unit + 1e-9))
+    return found
+
+
+def assert_written(text: str, expected: Sequence[float]) -> None:
+    known = numbers(text)
+    assert len(known) == len(expected), text
+    for (value, half_unit), exact in zip(known, expected, strict=True):
+        assert value == pytest.approx(exact, abs=half_unit), text
+
+
+def of_parts(row: dict[str, str], stem: str, unit: str, factor: float = 1.0) -> list[float]:
+    """Value and ends of a column."""
+    parts = ("", "_10_percent", "_90_percent")
+    return [factor * float(row[f"{stem}{part}{unit}"]) for part in parts]
+
+
+@pytest.mark.parametrize("name", ["sampled", "results"])
+def test_the_first_screen_has_six_short_sentences_at_most(
+    name: str, request: pytest.FixtureRequest
+) -> None:
+    texts = sentences(request.getfixturevalue(name))
+    assert len(texts) <= 6
+    assert sum(len(text.split()) for text in texts) <= 90
+    assert max(len(text.split()) for text in texts) <= 25
+    assert all(text.endswith(".") for text in texts)
+
+
+def test_the_level_is_that_of_comparison_csv(
+    sampled: xr.Dataset, tables: dict[str, list[dict[str, str]]]
+) -> None:
+    none = next(row for row in tables["comparison.csv"] if row["option"] == "none")
+    (text, *_) = sentences(sampled)
+    name, _, rest = text.partition(" at 2900 rpm: ")
+    assert name == json.loads(sampled.attrs["parameters"])["machine"]["name"]
+    level, rest = rest.split(" dB(A) at front_1m ")
+    interval, published = rest.split("; published ")
+    value, low, high = of_parts(none, "level_total", "_dba")
+    assert_written(level, [value])
+    assert_written(interval.replace("80\u00a0%: ", ""), [low, high])
+    assert published == "56)."
+
+
+def test_the_dominant_source_is_that_of_sources_csv(
+    sampled: xr.Dataset, tables: dict[str, list[dict[str, str]]]
+) -> None:
+    rows = [row for row in tables["sources.csv"] if row["option"] == "none"]
+    largest = max(rows, key=lambda row: float(row["share_of_energy"]))
+    text = sentences(sampled)[1].replace("<1\u00a0%", "0\u00a0%")
+    assert json.loads(sampled.attrs["words"])["sources"][largest["source"]] in text
+    assert "not settled" in text
+    assert_written(text, of_parts(largest, "share_of_energy", "", 100.0))
+
+
+def test_the_best_option_for_the_feet_is_that_of_the_median_changes(
+    sampled: xr.Dataset, tables: dict[str, list[dict[str, str]]]
+) -> None:
+    change = sampled["foot_force_change_1x"].squeeze()
+    best = change["option"].values[int(np.argmin(change.values))]
+    text = next(one for one in sentences(sampled) if one.startswith("Best for the feet: "))
+    name, _, size = text.removeprefix("Best for the feet: ").partition(", 1× foot force ")
+    assert name == best
+    ratios = [
+        100.0
+        * (10.0 ** (sampled[f"foot_force_change_1x{end}"].squeeze().sel(option=best) / 20) - 1)
+        for end in ("", "_10_percent", "_90_percent")
+    ]
+    assert_written(size, [float(one) for one in ratios])
+    force = {row["option"]: float(row["foot_force_1x_n"]) for row in tables["comparison.csv"]}
+    of_medians = 100.0 * (force[best] / force["none"] - 1.0)
+    assert numbers(size)[0][0] == pytest.approx(of_medians, abs=3.0)
+
+
+def changed(change_db: float, low: float, high: float, up: float, down: float) -> Shift:
+    """A total that changes at two speeds, at the first by nothing."""
+    bands = (Band(0.0, 0.0, 0.0), Band(low, change_db, high))
+    level = np.array([50.0, 50.0])
+    gain = np.array([0.0, change_db])
+    return Shift(TOTAL, level, level + gain, gain, bands, up, down, Measurable())
+
+
+@pytest.mark.parametrize(
+    ("up", "down", "expected"),
+    [
+        (0.6, 0.0, "louder"),
+        (0.6, 0.6, "uncertain"),
+        (0.0, 0.6, "quieter"),
+        (0.4, 0.0, "uncertain"),
+        (0.0, 0.2, "uncertain"),
+        (0.09, 0.09, "no change"),
+    ],
+)
+def test_the_word_on_a_change_follows_its_probabilities(
+    up: float, down: float, expected: str
+) -> None:
+    one = changed(1.0, -1.0, 2.0, up, down)
+    assert first_screen.word(one) == expected
+    assert first_screen.largest(one) == 1
+
+
+def test_parts_of_the_level_are_those_of_the_results(sampled: xr.Dataset) -> None:
+    chart = first_screen.contributions(sampled)
+    rows = {row.name: row for row in chart.rows}
+    assert [row.word for row in chart.rows[:2]] == ["published", "total"]
+    assert (rows["published"].low, rows["published"].value, rows["published"].high) == (
+        54.0, 56.0, 58.0,
+    )  # fmt: skip
+    at = {"option": "none", "receiver": "front_1m", "speed": 2900.0}
+    names = json.loads(sampled.attrs["words"])["sources"]
+    gas = {**at, "sound_source": "gas"}
+    for name, variable, selection in (
+        ("machine", "level_total", at), ("unmodelled noise", "residual_level", at),
+        (names["gas"], "source_level", gas),
+    ):  # fmt: skip
+        expected = [
+            sampled[f"{variable}{end}"].sel(selection).item()
+            for end in ("_10_percent", "", "_90_percent")
+        ]
+        assert [rows[name].low, rows[name].value, rows[name].high] == expected
+    low, high = chart.scale
+    assert low <= min(row.value for row in chart.rows[:3])
+    assert high >= max(row.high for row in chart.rows)
+    assert chart.zone is None
+    quiet = {
+        name for source, name in names.items()
+        if sampled["source_level_90_percent"].sel({**at, "sound_source": source}).item()
+        < rows["machine"].value - 30.0
+    }  # fmt: skip
+    assert quiet
+    assert not quiet & set(rows)
+
+
+def test_changes_by_option_are_those_of_the_results(sampled: xr.Dataset) -> None:
+    chart = first_screen.changes(sampled)
+    assert chart is not None
+    assert [row.name for row in chart.rows] == sampled["option"].values.tolist()
+    at = {"receiver": "front_1m", "speed": 2900.0}
+    for row in chart.rows[1:]:
+        expected = [
+            sampled[f"change_total{end}"].sel(option=row.name, **at).item()
+            for end in ("_10_percent", "", "_90_percent")
+        ]
+        assert [row.low, row.value, row.high] == expected
+    assert chart.zone == (-0.5, 0.5)
+    assert chart.scale[0] == -chart.scale[1]
+    assert first_screen.changes(make_results({"none": 1.0})) is None

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from judged_results import judged
 
 from vibroacoustics.base.rounding import (
     level,
@@ -33,10 +34,11 @@ from vibroacoustics.report.assumptions import records_table
 from vibroacoustics.report.comparison import comparison, comparison_csv, comparison_tables
 from vibroacoustics.report.extremes import extremes_table
 from vibroacoustics.report.figures.scores import contributions
+from vibroacoustics.report.first_screen import sentences
 from vibroacoustics.report.housing import grid_error_sentence, isolation_sentence, shape_words
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.scores import published_table, scores_csv, wrong_sums
-from vibroacoustics.report.verdict import headline, reasons
+from vibroacoustics.report.verdict import reasons
 from vibroacoustics.scoring import score
 from vibroacoustics.study.scoring import CriterionScale, Scoring
 
@@ -44,8 +46,8 @@ pytestmark = pytest.mark.usefixtures("real_pictures")
 
 COLUMNS = (
     "option,speed_rpm,receiver,force_1x_n,force_2x_n,moment_1x_nm,foot_force_1x_n,level_1x_db,"
-    "level_2x_db,level_1x_dba,level_modelled_dba,level_total_dba,change_1x_db,change_modelled_dba,"
-    "change_total_dba"
+    "level_2x_db,level_1x_dba,level_modelled_dba,level_total_dba,change_1x_db,change_modelled_db,"
+    "change_total_db"
 )
 PUBLISHED_DBA = 56.0
 HOUSING = {
@@ -80,7 +82,7 @@ def make_results(
     ]
     results = xr.merge([check(part) for part in parts], join="exact")
     results.attrs = _attributes(options, list(receivers), published_dba)
-    return results
+    return judged(results)
 
 
 def _mechanics(coords: dict[str, Any], force: np.ndarray) -> xr.Dataset:
@@ -146,18 +148,9 @@ def _sound(
     spectra["transfer_vector_error"] = stamp(
         "transfer_vector_error", 0.01 * np.abs(transfer), field
     )
-    changes = {
-        name: stamp(name, values - values[:, [0]], at)
-        for name, values in {
-            "change_1x": levels[..., 1, 0],
-            "change_modelled": modelled[..., 1],
-            "change_total": total,
-        }.items()
-    }
     return xr.Dataset(
         {
             **spectra,
-            **changes,
             "order_level": stamp("order_level", levels, {**weighted, "order": orders}),
             "level_modelled": stamp("level_modelled", modelled, weighted),
             "level_total": stamp("level_total", total, at),
@@ -379,33 +372,55 @@ def test_why_a_better_option_ranks_behind_is_told_by_the_criteria_that_decide(
 
 
 def test_a_line_that_rises_elsewhere_makes_the_verdict_mixed() -> None:
-    results = make_results({"none": 1.0, "halved": 0.5})
+    results = make_results({"none": 1.0, "halved": 0.5}, published_dba=22.0)
     results["order_level"].loc[{"option": "halved", "receiver": "side_1m", "order": 1}] += 12.0
-    own = option_verdict(results, "halved")
+    own = option_verdict(judged(results), "halved")
     assert own.judgement == "mixed"
     assert own.worse_in == ("1× line at side_1m",)
     assert own.reason.endswith("; worse: 1× line +6.0 dB at side_1m")
     assert "at side_1m it rises by 6.0 dB" in " ".join(own.sentences)
 
 
-def test_a_line_that_no_microphone_tells_from_its_noise_makes_nothing_worse() -> None:
-    """At -9 dB without and -3 dB with the option; at +3 dB it would be worse."""
-    results = make_results({"none": 1.0, "halved": 0.5})
+@pytest.mark.parametrize(
+    ("line_db", "judgement"),
+    [
+        ((45.0, 51.0), "mixed"),
+        ((25.0, 31.0), "better"),  # below 32.1 dB, the threshold of hearing at 48.3 Hz
+        ((27.0, 33.0), "mixed"),
+    ],
+)
+def test_a_line_that_nobody_hears_makes_nothing_worse(
+    line_db: tuple[float, float], judgement: str
+) -> None:
+    results = make_results({"none": 1.0, "halved": 0.5}, speeds=(2900.0,), published_dba=10.0)
     line = {"receiver": "side_1m", "order": 1}
-    results["order_level"].loc[{"option": "none", **line}] = -9.0
-    results["order_level"].loc[{"option": "halved", **line}] = -3.0
-    assert option_verdict(results, "halved").judgement == "better"
-    results = results.copy(deep=True)
-    results["order_level"].loc[{"option": "halved", **line}] = 3.0
-    assert option_verdict(results, "halved").judgement == "mixed"
+    for option, level_db in zip(("none", "halved"), line_db, strict=True):
+        results["order_level"].loc[{"option": option, **line}] = level_db
+    results["level_total"].loc[{"receiver": "side_1m"}] = 10.0
+    assert option_verdict(judged(results), "halved").judgement == judgement
 
 
-def test_the_headline_says_whether_the_total_moves() -> None:
+def test_a_line_that_the_total_masks_makes_nothing_worse() -> None:
+    """51 dB at 48.3 Hz are 20.4 dB(A): at most 15 dB below the total of 35, not of 36 dB(A)."""
+    results = make_results({"none": 1.0, "halved": 0.5}, speeds=(2900.0,), published_dba=10.0)
+    line = {"receiver": "side_1m", "order": 1}
+    results["order_level"].loc[{"option": "none", **line}] = 45.0
+    results["order_level"].loc[{"option": "halved", **line}] = 51.0
+    for total_dba, judgement in ((35.0, "mixed"), (36.0, "better")):
+        masked = results.copy(deep=True)
+        masked["level_total"].loc[{"receiver": "side_1m"}] = total_dba
+        assert option_verdict(judged(masked), "halved").judgement == judgement
+
+
+def test_the_first_screen_says_whether_the_total_changes() -> None:
     factors = {"none": 1.0, "louder": 4.0}
-    assert "nobody can hear" in headline(make_results(factors))
-    assert "which can be heard" in headline(make_results(factors, published_dba=22.0))
-    assert "not at all" in headline(make_results({"none": 1.0, "idle": 1.0}))
-    assert "no balancing option" in headline(make_results({"none": 1.0}))
+    assert "No option lowers it by 0.5 dB or more." in sentences(make_results(factors))
+    louder = " ".join(sentences(make_results(factors, published_dba=22.0)))
+    assert "louder raises it: +" in louder
+    halved = make_results({"none": 4.0, "halved": 1.0}, published_dba=15.0)
+    assert "Best for the level: halved, −" in " ".join(sentences(halved))
+    alone = sentences(make_results({"none": 1.0}))
+    assert not any("option" in sentence for sentence in alone)
 
 
 def test_what_an_option_says_of_itself_is_in_its_verdict() -> None:
@@ -524,7 +539,7 @@ def test_the_report_is_the_same_twice(results: xr.Dataset, files: dict[str, byte
 def test_a_single_option_speed_and_microphone_without_published_table() -> None:
     results = make_results({"none": 1.0}, speeds=(2900.0,), receivers=("only",), published=False)
     files = render(results)
-    assert "no balancing option" in files["report.html"].decode()
+    assert "No option" not in files["report.html"].decode()
     assert len(files["comparison.csv"].decode().splitlines()) == 2
     assert "Published scores" not in files["report.html"].decode()
 

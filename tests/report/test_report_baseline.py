@@ -5,9 +5,9 @@ import re
 import pytest
 from sound_studies import result_with_baseline
 
-from vibroacoustics.report import baseline, verdict
+from vibroacoustics.commands.recorded_tones import tone_row
+from vibroacoustics.report import baseline, first_screen, verdict
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.tones import tone_row
 from vibroacoustics.sound import loudness, tonality
 from vibroacoustics.sound.ingredients import ingredients
 
@@ -41,7 +41,13 @@ def test_the_verdict_holds_the_model_against_what_was_measured(results):
     share = baseline.not_measured(results)
     how = "most of it assumed in bands that were not measured" if share > 0.5 else "as measured"
     assert f"The rest, {how}, {total:.1f} dB(A) at 900 rpm" in text
-    assert f"total of {round(total, 1):g} dB(A)" in verdict.headline(results)
+    at = {"speed": 950.0, "option": "none", "receiver": "front_1m"}
+    level = results["level_total"].sel(at).item()
+    (first, *_) = first_screen.sentences(results)
+    assert first == (
+        f"Reciprocating compressor by table at 950 rpm: {level:.1f} dB(A) at front_1m "
+        "(published 82)."
+    )
 
 
 def test_results_without_a_baseline_have_no_such_section(results):
@@ -52,7 +58,7 @@ def test_tones_and_loudness_of_every_option_stand_in_a_table(results):
     section = SECTIONS["tones"]
     assert section.applies(results)
     table, *_, note = section.blocks(results)
-    assert table.caption.endswith("at front_1m, 900 rpm")
+    assert table.caption.endswith("front_1m, 900 rpm")
     assert [row[0] for row in table.rows] == [str(name) for name in results["option"].values]
     assert {row[1] for row in table.rows} == {"none"}  # orders 1 to 4 of 15 Hz are below 89.1 Hz
     assert "ECMA-418-1" in note.words

@@ -12,7 +12,7 @@ from vibroacoustics.report import render
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("real_pictures")]
 
 HEADINGS = (
-    "Verdict",
+    "Summary",
     "Reasons, and each option in words",
     "Comparison",
     "Orders",
@@ -79,16 +79,29 @@ def test_every_section_has_its_heading(opened: Chrome) -> None:
 
 
 def test_first_screen_shows_every_option_and_folds_the_rest(opened: Chrome) -> None:
-    rows = opened.find_elements(By.CSS_SELECTOR, "#verdict .lights tbody tr")
-    assert len(rows) == 2
-    assert all(row.is_displayed() for row in rows)
-    assert "+80" in rows[0].text
+    parts, rows = (
+        table.find_elements(By.CSS_SELECTOR, "tbody tr")
+        for table in opened.find_elements(By.CSS_SELECTOR, "#verdict .intervals")
+    )
+    assert [row.text.split()[0] for row in parts] == [
+        "published",
+        "machine",
+        "unmodelled",
+        "moving",
+    ]
+    assert len(rows) == 3
+    assert all(row.is_displayed() for row in [*parts, *rows])
+    assert all("no change" in row.text for row in rows)
+    lights = opened.find_elements(By.CSS_SELECTOR, "#verdict .lights tbody tr")
+    assert [row.is_displayed() for row in lights] == [False, False]
     bottom = opened.execute_script(
         "return arguments[0].getBoundingClientRect().bottom + window.scrollY", rows[-1]
     )
     assert bottom < 1200.0
     shown = [part.is_displayed() for part in opened.find_elements(By.CSS_SELECTOR, ".part > div")]
     assert shown == [False] * (len(HEADINGS) - 1)
+    opened.find_element(By.CSS_SELECTOR, "#verdict details summary").click()
+    assert "+80" in lights[0].text
 
 
 def test_a_link_opens_its_section(opened: Chrome) -> None:

@@ -37,6 +37,17 @@ EVERY_BLOCK = (
             "Read.",
         ),
     ),
+    blocks.Intervals(
+        "Levels",
+        ("Part", "dB(A)"),
+        (
+            blocks.Interval("a|b", "50 (45 to 60)", 45.0, 50.0, 60.0, "part"),
+            blocks.Interval("half", "0.0", 40.0, 40.0, 40.0, "no change"),
+        ),
+        (40.0, 60.0),
+        (42.0, 44.0),
+        "Levels do not add up.",
+    ),
     blocks.Details("Fold", (blocks.Pictures((Picture("one", "alt", "caption", PNG),)),)),
 )
 BUILT_IN = [
@@ -106,6 +117,36 @@ def test_every_block_is_in_both_forms() -> None:
     assert 'aria-label="not sure"' in in_html
     assert 'class="bar not-sure"' in in_html
     assert page.pictures()["figures/one.png"].png == PNG
+
+
+def test_a_chart_of_intervals_is_drawn_to_its_scale() -> None:
+    """From 40 to 60: 45, 50 and 60 are 25, 50 and 100 % along the axis."""
+    page = Page("Title", "Machine", "now", (Part("mine", "Mine", EVERY_BLOCK),))
+    in_html, in_markdown = html(page).decode(), markdown(page).decode()
+    (table,) = re.findall(r'<table class="intervals">(.*?)</table>', in_html, re.DOTALL)
+    assert "<caption>Levels</caption>" in table
+    first, second = re.findall(r"<tr>(<th scope=\"row\".*?)</tr>", table, re.DOTALL)
+    drawn = [
+        [float(number) for number in re.findall(r"M([\d.]+) 5H([\d.]+)", row)[0]]
+        for row in (first, second)
+    ]
+    assert drawn == [[25.0, 100.0], [0.0, 0.0]]
+    assert [float(one) for one in re.findall(r"M([\d.]+) 1V9", table)] == [50.0, 0.0]
+    assert float(re.findall(r"M([\d.]+) 0H[\d.]+V10", first)[0]) == 10.0
+    assert float(re.findall(r"0H([\d.]+)V10", first)[0]) == 20.0
+    assert 'class="bar part"' in first
+    assert "<strong>" not in first
+    assert 'class="bar no-change"' in second
+    assert "<strong>no change</strong>" in second
+    assert "Levels do not add up." in in_html
+    assert "| a\\|b | 50 (45 to 60) | part |" in in_markdown
+    assert "| half | 0.0 | no change |" in in_markdown
+    assert "Levels do not add up." in in_markdown
+    (read,) = (
+        block for block in blocks.from_json(blocks.to_json(EVERY_BLOCK))
+        if isinstance(block, blocks.Intervals)
+    )  # fmt: skip
+    assert read in EVERY_BLOCK
 
 
 def test_what_is_no_block_is_refused() -> None:

@@ -327,15 +327,11 @@ def test_option_that_fails_when_the_study_is_read_is_left_out(forgotten, tmp_pat
     assert said in line
 
 
-@pytest.mark.parametrize("counting", [True, False])
-def test_criterion_may_be_no_number_in_a_sample_that_does_not_count(counting):
+def test_criterion_must_be_a_number_in_every_sample():
     sampled = xr.DataArray([[1.0, 2.0], [np.nan, 3.0]], dims=("sample", "option"))
-    counts = np.array([True, counting])
-    if counting:
-        with pytest.raises(ParameterError, match="odd_n: by sample has values that are not finite"):
-            values._of_samples("odd_n", sampled, counts)
-    else:
-        assert values._of_samples("odd_n", sampled, counts).shape == (2, 2)
+    with pytest.raises(ParameterError, match="odd_n: by sample has values that are not finite"):
+        values._of_samples("odd_n", sampled)
+    assert values._of_samples("odd_n", sampled.fillna(0.0)).shape == (2, 2)
 
 
 def test_run_goes_on_without_a_source(tmp_path, monkeypatch):

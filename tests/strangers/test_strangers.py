@@ -16,6 +16,7 @@ from support import ROOT, TINY, assert_refused, command_here
 from vibroacoustics.base import registry
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
+from vibroacoustics.results.estimates import nominal
 from vibroacoustics.results.storage import open_results
 from vibroacoustics.study.loading import load_study
 
@@ -119,6 +120,18 @@ def finished(study, tmp_path_factory) -> Path:
     return out
 
 
+@pytest.fixture(scope="module")
+def rigid(study, tmp_path_factory) -> Path:
+    """The same without the sources: no value is sampled."""
+    folder = tmp_path_factory.mktemp("rigid")
+    file = folder / "study.toml"
+    file.write_text(study.read_text().replace(SOURCE, "\n[radiation]\n"))
+    named = plugins("counter_shaft", "tuned_damper", "second_order")
+    outcome = forgetful_command("run", file, "--out", folder / "out", *named)
+    assert outcome.returncode == 0, outcome.stderr
+    return folder / "out"
+
+
 def test_balancer_and_criterion_are_in_force_level_score_and_report(finished):
     results = open_results(finished / "results.nc")
     force = results["force_order"].sel(option="counter-shaft", source="balancer", order=1)
@@ -162,7 +175,8 @@ def test_noise_on_the_rigid_machine_is_that_of_one_mass_on_its_mounts(finished):
     velocity = 1j * omega / (held - omega**2 * machine.housing.mass_kg)
     pressure = pressure_per_velocity(results["transfer_vector"])(frequency)[:, 2] * velocity
     density = 20.0**2 / 1000.0
-    levels = results["source_band_level"].sel(sound_source="rumble", option="none", speed=2900.0)
+    levels = nominal(results, "source_band_level").sel(sound_source="rumble", option="none")
+    levels = levels.sel(speed=2900.0)
     assert levels.sizes["band"] > 10
     for index, band in enumerate(levels["band"].values):
         middle = 10.0 ** (0.1 * np.round(10.0 * np.log10(band)))
@@ -185,9 +199,9 @@ def hand_made(machine) -> tuple[np.ndarray, np.ndarray]:
     return assembled(masses, [*on_feet(machine), Spring(1, 0, point, spring)])
 
 
-def test_tuned_damper_is_two_rigid_bodies_solved_by_hand(finished):
+def test_tuned_damper_is_two_rigid_bodies_solved_by_hand(rigid):
     """Housing, feet and natural frequencies to 1e-9 of the largest."""
-    results, machine = open_results(finished / "results.nc"), load_study(TINY).machine
+    results, machine = open_results(rigid / "results.nc"), load_study(TINY).machine
     mass, stiffness = hand_made(machine)
     own = results.sel(option="damper", speed=2900.0).sum("source")
     loads = np.concatenate([own["force_order"].transpose("axis", "order").values,

@@ -10,6 +10,22 @@ import xarray as xr
 from .errors import SchemaError
 from .registry import Registry
 
+NOMINAL: Final = "nominal"
+MEDIAN: Final = "median"
+MEAN: Final = "mean"
+REPRESENTATIVE: Final = "representative"
+STATISTICS: Final = (NOMINAL, MEDIAN, MEAN, REPRESENTATIVE)
+"""What the value of a variable is: nominal, the median or mean of the weighted samples, or that of
+the representative sample."""
+LOW: Final = "low"
+HIGH: Final = "high"
+SUFFIXES: Final = {LOW: "_10_percent", HIGH: "_90_percent", NOMINAL: "_nominal"}
+"""Of the variables beside one that was sampled: ends of its interval, and the nominal value."""
+_SUFFIX_WORDS: Final = {
+    LOW: "10 % of the samples are below", HIGH: "90 % of the samples are below",
+    NOMINAL: "nominal values",
+}  # fmt: skip
+
 
 @dataclass(frozen=True)
 class _Labelled:
@@ -43,6 +59,7 @@ class Variable(_Labelled):
     Attributes
     ----------
     complex_peak : whether its values are phasors, complex peaks
+    statistic : what its values are in a run with samples: nominal ones, or medians or means
 
     Examples
     --------
@@ -53,6 +70,24 @@ class Variable(_Labelled):
     """
 
     complex_peak: bool = False
+    statistic: str = NOMINAL
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.statistic not in STATISTICS:
+            raise SchemaError(f"{self.name}: statistic = {self.statistic!r}: is none")
+
+    def of_samples(self) -> "list[Variable]":
+        """Return the variables beside it: ends of the interval and nominal values; else none."""
+        if self.statistic not in (MEDIAN, MEAN):
+            return []
+        return [
+            Variable(
+                f"{self.name}{suffix}", self.dims, self.units,
+                f"{self.long_name}; {_SUFFIX_WORDS[part]}",
+            )
+            for part, suffix in SUFFIXES.items()
+        ]  # fmt: skip
 
 
 @dataclass(frozen=True)

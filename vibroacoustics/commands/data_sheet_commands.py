@@ -28,6 +28,13 @@ def datasheet_command(
             help="Point of the housing, mm, from the axis and above the floor.",
         ),
     ] = None,
+    batch: Annotated[
+        float | None,
+        typer.Option(
+            metavar="DB",
+            help="Assumed standard deviation of the machines of a batch; default: one machine.",
+        ),
+    ] = None,
     out: Annotated[Path | None, out_option("Folder; default: that of the file.")] = None,
     plugin: Plugins = None,
 ) -> None:
@@ -42,7 +49,7 @@ def datasheet_command(
     outputs.check_folder(folder)
     results, _ = outputs.open_run(results_file)
     with outputs.naming(results_file):
-        sheet = report.data_sheet(results, option, speed, names, points_m)
+        sheet = report.data_sheet(results, option, speed, names, points_m, batch)
     written = sheets.write_data_sheet(sheet, folder)
     typer.echo(report.data_sheet_headline(sheet))
     typer.echo(f"data sheet: {written}")

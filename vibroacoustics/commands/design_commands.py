@@ -94,6 +94,9 @@ def optimise_command(
     out: StudyOut = None,
     workers: Workers,
     plugin: Plugins = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the best designs as JSON on stdout alone.")
+    ] = False,
     pdf: Pdf = False,
     paper: Paper = None,
 ) -> None:
@@ -116,6 +119,9 @@ def optimise_command(
         search = searched_designs(problem, evaluate, progress)
     files = outputs.with_pdf(_report(problem, search, study_file, folder), prints)
     written = outputs.write_analysis(search, folder, DESIGNS_NAME, files, lambda _: [])
+    if as_json:
+        typer.echo(report.designs_json(search))
+        return
     typer.echo(report.designs_text(search))
     typer.echo(f"designs: {written}")
     if prints is not None:
@@ -146,7 +152,9 @@ def _report(
     from .. import report
     from ..design.best_studies import best_studies
 
-    texts = best_studies(problem, search, study_file, folder)
+    texts = {}
+    if not report.no_best(search):
+        texts = best_studies(problem, search, study_file, folder)
     return report.render_designs(search) | {name: text.encode() for name, text in texts.items()}
 
 

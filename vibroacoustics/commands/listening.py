@@ -66,7 +66,7 @@ def listen(
     --------
     >>> results = va.open_results("results.nc")
     >>> [path.name for path in va.listen(results, "sound", ["none"], duration_s=1.0)]
-    ['none_front_1m_2900rpm_0.5Pa.wav']
+    ['none_front_1m_2900rpm_1Pa.wav']
     """
     if file_format not in FORMATS:
         raise ParameterError(f"format = {file_format}: must be one of {', '.join(FORMATS)}")

@@ -1,16 +1,19 @@
 """Tones, loudness and sharpness of recorded sound as text."""
 
+import math
+
 import xarray as xr
 
 from ..base import rounding
 from ..base.errors import ParameterError
 from ..report.tables import Table, to_text
-from ..report.tones import TONE_HEAD, tone_row
+from ..sound.critical_bands import noise_criterion_db, prominence_criterion_db
 from ..sound.loudness import NEEDED, available, recorded_loudness
 from ..sound.recorded import narrow_bands, recorded_spectrum
 from ..sound.tonality import Tone, tones
 
 MOST_TONES = 20
+TONE_HEAD = ("Tone", "Hz", "dB", "over noise, dB", "over bands, dB")
 _COURSE_HEAD = ("time, %", "swing, dB")
 _PROMINENT = {(True, True): "both", (True, False): "noise", (False, True): "bands"}
 
@@ -54,6 +57,22 @@ def _of_channel(channel: xr.DataArray, sample_rate_hz: float) -> str:
     return (
         f"{text}loudness {loud.loudness_sone:.3g} sone, sharpness {loud.sharpness_acum:.2f} acum\n"
     )
+
+
+def tone_row(tone: Tone) -> tuple[str, ...]:
+    """Cells under `TONE_HEAD`: ratios with the criterion in brackets."""
+    return (
+        tone.name,
+        rounding.fixed(tone.frequency_hz),
+        rounding.level(tone.level_db),
+        _ratio(tone.noise_ratio_db, noise_criterion_db(tone.frequency_hz)),
+        _ratio(tone.prominence_db, prominence_criterion_db(tone.frequency_hz)),
+    )
+
+
+def _ratio(value_db: float, criterion_db: float) -> str:
+    value = rounding.fixed(value_db) if math.isfinite(value_db) else "∞"
+    return f"{value} ({rounding.fixed(criterion_db)})"
 
 
 def _course(tone: Tone) -> tuple[str, str]:

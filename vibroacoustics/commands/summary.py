@@ -10,6 +10,7 @@ import xarray as xr
 
 from ..base.regular_file import read_text
 from ..report.kwave_words import kwave_difference_db, receiver_methods
+from ..results.estimates import has_samples, sample_numbers
 from ..study.study import Study
 from .outputs import REPORT_NAME, RESULTS_NAME
 
@@ -34,7 +35,7 @@ def summary(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> 
         "results": str(folder / RESULTS_NAME),
         "report": str(folder / REPORT_NAME),
         "seconds": round(seconds, 1),
-        "samples": int(results.sizes.get("sample", 0)),
+        "samples": sample_numbers(results).computed if has_samples(results) else 0,
         "coarsened": list(study.coarsened),
         "kwave_difference_db": kwave_difference_db(results),
         "receivers": {

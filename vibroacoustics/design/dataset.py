@@ -73,7 +73,9 @@ def _of_wanted(problem: Problem, name: str) -> dict[str, Any]:
     named = wanted.reported if wanted.reported is not None else figure.name
     unit = split_key(named)[1]
     words = wanted.reported or figure.label or figure.name
-    over = f"speeds {wanted.speeds}, receivers {wanted.receivers}, samples {wanted.samples}"
+    over = (
+        f"speeds {wanted.speeds}, receivers {wanted.receivers}, samples {problem.statistic(wanted)}"
+    )
     order = f", order {wanted.order}" if wanted.order is not None else ""
     return {
         "units": unit.symbol if unit and unit.symbol else "1",

@@ -11,10 +11,10 @@ from .problem import Problem
 from .promise import promise
 from .search.chosen import best_by_one, best_of_front
 from .search.problem import Searched
-from .search_dataset import searched_dataset, with_best, with_shares
+from .search_dataset import searched_dataset, with_best, with_shares, with_total_change
 
 SPREAD_DESIGNS: Final = 1024
-"""Spread evenly, from which it is told what decides."""
+"""Designs spread evenly, which show what decides."""
 
 
 def explained(problem: Problem, searched: Searched, evaluate: Evaluate) -> xr.Dataset:
@@ -37,7 +37,19 @@ def explained(problem: Problem, searched: Searched, evaluate: Evaluate) -> xr.Da
     rows = _best_rows(problem, searched, search, settings.best)
     promises = [promise(problem, searched.designs[row], settings.fresh_samples) for row in rows]
     spread = _spread(problem, searched)
-    return with_shares(with_best(search, rows, promises), problem, spread, evaluate(spread))
+    evaluation = evaluate(spread)
+    allowed = np.concatenate([searched.designs[rows], spread[evaluation.violation <= 0.0]])
+    search = with_total_change(search, problem, _largest_change(problem, allowed))
+    return with_shares(with_best(search, rows, promises), problem, spread, evaluation)
+
+
+def _largest_change(problem: Problem, designs: Array) -> float | None:
+    """Change of the total that is largest in size, dB; none where no objective is a total."""
+    changes = [other.evaluate(designs).values for other in problem.total_changes()]
+    if not changes:
+        return None
+    every = np.nan_to_num(np.concatenate(changes).ravel())
+    return float(every[np.argmax(np.abs(every))])
 
 
 def _best_rows(problem: Problem, searched: Searched, search: xr.Dataset, count: int) -> IndexArray:

@@ -19,15 +19,13 @@ class Setting:
     ----------
     wanted : as the study's table gives it
     speeds_rpm : of the study, shape (speed,)
-    reference : gives what is seen of the study as given without an option, shape (1, ...)
-    remainder : gives the mean square that the model leaves of the machine's level as given,
-        shape (design or 1, speed, receiver), Pa²
+    unmodelled : gives the mean square beside the modelled sound, shape (design or 1, speed,
+        receiver), Pa²
     """
 
     wanted: Wanted
     speeds_rpm: Array
-    reference: Callable[[], Seen]
-    remainder: Callable[[], Array]
+    unmodelled: Callable[[], Array]
 
 
 class DesignFigure:
@@ -51,6 +49,8 @@ class DesignFigure:
     position: ClassVar[float] = LAST
     is_level: ClassVar[bool] = False
     """Whether it is a level: `values` are then powers over that of 0 dB, averaged as such."""
+    is_change: ClassVar[bool] = False
+    """Whether it is the change of `values` against the machine without an option."""
     of_speeds: ClassVar[bool] = True
     """Whether it has a value at each speed."""
 
@@ -72,10 +72,6 @@ class DesignFigure:
         setting : what else it is of
         """
         raise NotImplementedError
-
-    def reference(self, setting: Setting) -> Array | None:
-        """What is taken off the values of a change, shape (1, speed, receiver); none of others."""
-        return None
 
 
 class OfCriterion(DesignFigure):

@@ -100,7 +100,7 @@ def planned(problem: Problem, designs: Array, longest_s: float = LONGEST_S) -> P
     columns = len(problem.space.variables) + len(problem.wanted) + 2
     plan = Plan(
         count,
-        count * len(samples),
+        count * problem.weight(samples).size,
         len(problem.study.operation.speed_rpm),
         seconds,
         result_bytes(problem, count),

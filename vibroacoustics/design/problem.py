@@ -1,9 +1,10 @@
 """Designs and what is wanted of them: one call from rows of numbers to objectives."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -13,21 +14,26 @@ from ..base.vocabulary import REFERENCE_OPTION
 from ..radiation.given import Radiation
 from ..stages.radiation import transfer_vectors
 from ..study.criterion import CRITERIA
-from ..study.design import Constraint, Design, Objective, Wanted
+from ..study.design import Constraint, Design, Objective, Statistic, Wanted
 from ..study.study import Study
 from .engine.engine import Engine
-from .engine.option_engine import Outcome
 from .engine.seen import Need, Seen
+from .ensemble import ComparedMachine, compared_machines
 from .figure import FIGURES, DesignFigure, OfCriterion, Setting
-from .reference import reference_of, remainder_of
 from .space import Space
-from .statistics import of_each, over
+from .statistics import by_speed, of_each, over, over_weighted
 from .tolerances import Pieces
 
 LINEAR_PIECE: Final = 256
 RUN_PIECE: Final = 4
 MOST_PIECES: Final = 100_000
 """That are judged side by side."""
+MEDIAN: Final = 0.5
+CHANGE_OF_TOTAL: Final = "total_change_db"
+TOTALS: Final = ("level_total_dba", CHANGE_OF_TOTAL)
+"""Figures of the level of the machine with unmodelled noise."""
+MOST_PIECES_KEEP: Final = 0.9
+"""Share of nominal pieces that reach a value or better."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +53,21 @@ class Judged:
     objectives: Array
     constraints: Array
     failed: Mapping[int, str] = field(default_factory=dict)
+
+
+class Compared(NamedTuple):
+    """A machine without an option.
+
+    Attributes
+    ----------
+    seen : of its pieces and pairs
+    setting : gives what else a figure is of
+    changes : what changes are against, by figure; none of figures that are no change
+    """
+
+    seen: Seen
+    setting: Callable[[Wanted], Setting]
+    changes: list[Array | None]
 
 
 class Problem:
@@ -86,8 +107,8 @@ class Problem:
         each = zip(self.figures, self.wanted.items(), strict=True)
         needs = [_needs(study, self.design, figure, *item) for figure, item in each]
         self._radiation = radiation
-        every = tuple(dict.fromkeys(need for some in needs for need in some))
-        self.engine = Engine(self.pieces.wide, self.pieces.limits, every, radiation)
+        self._references: dict[tuple[int, bytes], Compared] = {}
+        self._needs = tuple(dict.fromkeys(need for some in needs for need in some))
 
     @property
     def names(self) -> list[str]:
@@ -106,14 +127,19 @@ class Problem:
         return LINEAR_PIECE if self.is_linear else RUN_PIECE
 
     @cached_property
-    def reference(self) -> Seen:
-        """What is seen of the study as given without an option."""
-        return reference_of(self.study, self.engine.needs, self.engine.ways)
+    def machines(self) -> list[ComparedMachine]:
+        """Samples of the study, the same for all designs, or the nominal machine alone."""
+        return compared_machines(self.study, self.pieces, self._needs, self._radiation)
 
-    @cached_property
-    def remainder(self) -> Array:
-        """What the model leaves of the machine's level, (option, speed, receiver), Pa²."""
-        return remainder_of(self.study, self.space.options, self._radiation)
+    @property
+    def is_sampled(self) -> bool:
+        """Whether designs are computed for samples of the machine."""
+        return self.machines[0].machine.deviation is not None
+
+    @property
+    def engine(self) -> Engine:
+        """The engine of the first machine; variables act alike in those of the others."""
+        return self.machines[0].engine
 
     def samples(self, count: int | None = None, number: int = 0) -> Array:
         """Samples of the tolerances, shape (sample, scatter); the same at every call.
@@ -134,7 +160,7 @@ class Problem:
         samples : of the tolerances, shape (sample, scatter); default: those of `samples()`
         """
         samples = self.samples() if samples is None else samples
-        size = max(MOST_PIECES // len(samples), 1)
+        size = max(MOST_PIECES // self.weight(samples).size, 1)
         parts = [
             self._judged(designs[first : first + size], samples, first)
             for first in range(0, len(designs), size)
@@ -153,7 +179,7 @@ class Problem:
         return Judged(values, *self._signed(values), failed)
 
     def by_sample(self, designs: Array, samples: Array) -> Array:
-        """Every wanted value of every piece, shape (design, sample, wanted), in its unit.
+        """Every wanted value by machine and piece, shape (design, sample, wanted), in its unit.
 
         Parameters
         ----------
@@ -162,19 +188,54 @@ class Problem:
         """
         return self._of_pieces(designs, samples)[0]
 
+    def weight(self, samples: Array) -> Array:
+        """Weights of the samples of `by_sample`, of sum one, shape (sample,).
+
+        Parameters
+        ----------
+        samples : of the tolerances, shape (sample, scatter)
+        """
+        each = [
+            np.tile(machine.machine.weight / len(shares), len(shares))
+            for machine, shares in self._shared_out(samples)
+        ]
+        weight = np.concatenate(each)
+        return np.asarray(weight / weight.sum())
+
     def without_option(self) -> Array:
-        """Every wanted value of the study as given without an option, shape (wanted,)."""
-        speeds = np.array(self.study.operation.speed_rpm)
+        """Every wanted value of the machine without an option, shape (wanted,)."""
+        rows = []
+        for compared in self.machines:
+            seen, setting, reference = self._compared(compared, self.pieces.present[None])
+            columns = [
+                of_each(figure, seen, setting(wanted), more_is_better(wanted), before)
+                for (figure, wanted), before in zip(self._each, reference, strict=True)
+            ]
+            rows.append(np.stack(columns, axis=1))
+        meant = np.full((1, len(self.pieces.scatters)), 0.5)
+        return np.asarray(self.over_samples(np.concatenate(rows)[None], self.weight(meant))[0])
 
-        def remainder() -> Array:
-            return remainder_of(self.study, (REFERENCE_OPTION,), self._radiation)
+    def total_changes(self) -> list["Problem"]:
+        """Return the same designs with the change of the total level instead of each total.
 
-        def value(figure: DesignFigure, wanted: Wanted) -> float:
-            setting = Setting(wanted, speeds, lambda: self.reference, remainder)
-            return float(of_each(figure, self.reference, setting, more_is_better(wanted))[0])
+        Those of the objectives that are totals, over their speeds and microphones, the median of
+        all samples and pieces.
+        """
+        _ = self.machines  # shared
+        return [
+            self._instead(one) for one in self.design.objectives.values() if one.figure in TOTALS
+        ]
 
-        each = zip(self.figures, self.wanted.values(), strict=True)
-        return np.array([value(figure, wanted) for figure, wanted in each])
+    def _instead(self, objective: Objective) -> "Problem":
+        """Make the change of a total the only objective of the designs."""
+        other, change = copy(self), {"figure": CHANGE_OF_TOTAL, "samples": MEDIAN}
+        other.wanted = {"change": objective.model_copy(update=change)}
+        other.figures = [FIGURES[CHANGE_OF_TOTAL]()]
+        other.design = self.design.model_copy(
+            update={"objectives": other.wanted, "constraints": {}}
+        )
+        other._references = {}
+        return other
 
     def in_units(self, objectives: Array, constraints: Array) -> Array:
         """Wanted values in their units, of signed objectives and constraints; see `Judged`."""
@@ -184,35 +245,104 @@ class Problem:
     def _no_values(self) -> Array:
         return np.zeros((0, len(self.wanted)))
 
+    @property
+    def _each(self) -> list[tuple[DesignFigure, Wanted]]:
+        """Figures with what is wanted of them."""
+        return list(zip(self.figures, self.wanted.values(), strict=True))
+
     def _judged(self, designs: Array, samples: Array, first: int) -> tuple[Array, dict[int, str]]:
-        by_sample, outcome = self._of_pieces(designs, samples)
-        values = np.stack(
-            [
-                over(by_sample[:, :, column], 1, wanted.samples, more_is_better(wanted))
-                for column, wanted in enumerate(self.wanted.values())
-            ],
-            axis=1,
-        )
-        failed = {first + row // len(samples): why for row, why in outcome.failed.items()}
-        values[[row - first for row in failed]] = np.nan
-        return values, failed
+        by_sample, failed = self._of_pieces(designs, samples)
+        values = self.over_samples(by_sample, self.weight(samples))
+        values[list(failed)] = np.nan
+        return values, {first + row: why for row, why in failed.items()}
 
-    def _of_pieces(self, designs: Array, samples: Array) -> tuple[Array, Outcome]:
-        pieces = self.pieces.made(designs, samples).reshape(len(designs) * len(samples), -1)
-        outcome = self.engine.outcome(pieces)
-        columns = [
-            of_each(figure, outcome.seen, self._setting(wanted, pieces), more_is_better(wanted))
-            for figure, wanted in zip(self.figures, self.wanted.values(), strict=True)
+    def over_samples(self, by_sample: Array, weight: Array) -> Array:
+        """Statistics of samples, shape (design, wanted); see `by_sample` and `weight`."""
+        columns = []
+        for column, wanted in enumerate(self.wanted.values()):
+            values, statistic = by_sample[:, :, column], self.statistic(wanted)
+            if self.is_sampled:
+                columns.append(over_weighted(values, weight, statistic, more_is_better(wanted)))
+            else:
+                columns.append(over(values, 1, statistic, more_is_better(wanted)))
+        return np.stack(columns, axis=1)
+
+    def statistic(self, wanted: Wanted) -> Statistic:
+        """Return the statistic over samples: without one the median, of nominal pieces 90 %."""
+        default = MEDIAN if self.is_sampled else MOST_PIECES_KEEP
+        return default if wanted.samples is None else wanted.samples
+
+    def _shared_out(self, samples: Array) -> list[tuple[ComparedMachine, Array]]:
+        """Machines, each with its own of the pieces, the same at every call."""
+        count, pieces = len(self.machines), len(samples)
+        return [(each, samples[n % pieces :: count]) for n, each in enumerate(self.machines)]
+
+    def _of_pieces(self, designs: Array, samples: Array) -> tuple[Array, dict[int, str]]:
+        """Wanted values, shape (design, sample, wanted), and why designs failed."""
+        parts: list[Array] = []
+        failed: dict[int, str] = {}
+        for machine, shares in self._shared_out(samples):
+            values, reasons = self._of_machine(machine, designs, shares)
+            parts.append(values)
+            failed |= reasons
+        return np.concatenate(parts, axis=1), failed
+
+    def _of_machine(
+        self, compared: ComparedMachine, designs: Array, shares: Array
+    ) -> tuple[Array, dict[int, str]]:
+        """Wanted values of the pieces of a machine, shape (design, piece and pair, wanted)."""
+        pieces = self.pieces.made(designs, shares).reshape(len(designs) * len(shares), -1)
+        outcome, pairs = compared.engine.outcome(pieces), compared.machine.weight.size
+        seen = by_row(outcome.seen, pairs)
+        _, _, reference = self._reference(compared, shares)
+
+        def unmodelled() -> Array:
+            each = np.array([compared.machine.unmodelled(name) for name in self.space.options])
+            chooses = len(self.space.options) > 1
+            return _rows(each[np.rint(pieces[:, 0] * chooses).astype(int)])
+
+        columns = []
+        for (figure, wanted), before in zip(self._each, reference, strict=True):
+            setting = Setting(wanted, self._speeds, unmodelled)
+            change = None if before is None else np.concatenate([before] * len(designs))
+            columns.append(of_each(figure, seen, setting, more_is_better(wanted), change))
+        values = np.stack(columns, axis=1).reshape(len(designs), len(shares) * pairs, -1)
+        return values, {row // len(shares): why for row, why in outcome.failed.items()}
+
+    def _reference(self, compared: ComparedMachine, shares: Array) -> Compared:
+        """What is seen of pieces of a machine without an option, kept."""
+        key = id(compared), shares.tobytes()
+        if key not in self._references:
+            nothing = np.zeros((1, len(self.space.variables)))
+            pieces = self.pieces.made(nothing, shares)[0, :, len(self.space.variables) :]
+            self._references[key] = self._compared(compared, pieces)
+        return self._references[key]
+
+    def _compared(self, compared: ComparedMachine, pieces: Array) -> Compared:
+        """What is seen of a machine without an option, and the values of changes.
+
+        Parameters
+        ----------
+        compared : the machine
+        pieces : values that scatter but no design chooses, shape (piece, value), SI
+        """
+        seen = by_row(compared.reference.outcome(pieces).seen, compared.machine.weight.size)
+
+        def setting(wanted: Wanted) -> Setting:
+            def unmodelled() -> Array:
+                return np.tile(compared.machine.unmodelled(REFERENCE_OPTION), (len(pieces), 1, 1))
+
+            return Setting(wanted, self._speeds, unmodelled)
+
+        changes = [
+            by_speed(figure, seen, setting(wanted)) if figure.is_change else None
+            for figure, wanted in self._each
         ]
-        return np.stack(columns, axis=1).reshape(len(designs), len(samples), -1), outcome
+        return Compared(seen, setting, changes)
 
-    def _setting(self, wanted: Wanted, pieces: Array) -> Setting:
-        def remainder() -> Array:
-            choice = np.rint(pieces[:, 0]).astype(int) if len(self.space.options) > 1 else [0]
-            return np.asarray(self.remainder[choice])
-
-        speeds = np.array(self.study.operation.speed_rpm)
-        return Setting(wanted, speeds, lambda: self.reference, remainder)
+    @property
+    def _speeds(self) -> Array:
+        return np.array(self.study.operation.speed_rpm)
 
     def _signed(self, values: Array) -> tuple[Array, Array]:
         """Objectives of which less is better, constraints that are met at zero and below."""
@@ -229,6 +359,25 @@ class Problem:
         ]
         side, limit = np.array(limits, dtype=float).reshape(-1, 2).T
         return np.array(sign), side, limit
+
+
+def by_row(seen: Seen, pairs: int) -> Seen:
+    """Return what is seen with a row for each pair of each design.
+
+    Parameters
+    ----------
+    seen : sound of shape (design, pair, ...), others of shape (design, ...)
+    pairs : of a discrepancy and an unmodelled level
+    """
+    return {
+        need: _rows(values) if need.what == "sound" else np.repeat(values, pairs, axis=0)
+        for need, values in seen.items()
+    }
+
+
+def _rows(values: Array) -> Array:
+    """The first two axes as one."""
+    return values.reshape(-1, *values.shape[2:])
 
 
 def more_is_better(wanted: Wanted) -> bool:

@@ -6,8 +6,9 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array
+from ..base.quantiles import weighted_quantiles
+from ..results.estimates import QUANTILES
 from .problem import Problem, more_is_better
-from .statistics import over
 
 _SET: Final = 1
 """Of the samples that the promise is made of; the search has set 0."""
@@ -22,8 +23,10 @@ class Promise:
     ----------
     meant : of the piece as meant, without a tolerance
     promised : the statistic over samples that the study asks for
-    low, high : 95 % limits of the promised value, from the number of samples alone
-    samples : number of pieces
+    low, high : ends of the 80 % interval over samples of the machine and pieces; of a nominal
+        machine 95 % limits of the promised value, from the number of pieces alone
+    samples : number of samples
+    is_sampled : whether they are of the machine too
     """
 
     meant: Array
@@ -31,6 +34,7 @@ class Promise:
     low: Array
     high: Array
     samples: int
+    is_sampled: bool
 
 
 def promise(problem: Problem, design: Array, count: int, number: int = _SET) -> Promise:
@@ -44,16 +48,19 @@ def promise(problem: Problem, design: Array, count: int, number: int = _SET) -> 
     number : of the set of samples
     """
     samples = problem.samples(count, number)
-    by_sample = problem.by_sample(design[None], samples)[0]
-    as_meant = problem.by_sample(design[None], np.full((1, samples.shape[1]), 0.5))[0, 0]
-    columns = []
-    for values, wanted in zip(by_sample.T, problem.wanted.values(), strict=True):
-        upwards = more_is_better(wanted)
-        value = over(values, 0, wanted.samples, upwards)
-        low, high = _limits(values, wanted.samples, upwards)
-        columns.append((float(value), low, high))
-    promised, low, high = np.array(columns).T
-    return Promise(as_meant, promised, low, high, len(samples))
+    as_meant = problem.evaluate(design[None], np.full((1, samples.shape[1]), 0.5)).values[0]
+    by_sample = problem.by_sample(design[None], samples)
+    promised = problem.over_samples(by_sample, problem.weight(samples))[0]
+    if problem.is_sampled:
+        low, high = weighted_quantiles(by_sample[0], problem.weight(samples), QUANTILES)
+    else:
+        each = zip(by_sample[0].T, problem.wanted.values(), strict=True)
+        ends = [
+            _limits(column, problem.statistic(wanted), more_is_better(wanted))
+            for column, wanted in each
+        ]
+        low, high = np.array(ends).T
+    return Promise(as_meant, promised, low, high, by_sample.shape[1], problem.is_sampled)
 
 
 def _limits(values: Array, statistic: str | float, upwards: bool) -> tuple[float, float]:

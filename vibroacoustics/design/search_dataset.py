@@ -18,7 +18,7 @@ from ..uncertainty.shares import shares_of
 from .evaluation import Evaluation
 from .figure import DesignFigure
 from .keys import acts_on
-from .problem import Problem
+from .problem import MEDIAN, TOTALS, Problem
 from .promise import Promise
 from .search.nondominated import nondominated
 from .search.problem import Searched
@@ -68,9 +68,48 @@ def _method(problem: Problem, count: int) -> str:
     name = "Differential evolution with a simplex at the end" if single else "NSGA-II (pymoo)"
     return (
         f"{name}: {search.population} designs a generation, at most {search.generations} "
-        f"generations, seed {search.seed}, {count} designs in all; "
-        f"{problem.design.tolerance_samples} samples of the tolerances, the same for all designs."
+        f"generations, seed {search.seed}, {count} designs in all. "
+        f"{_machine(problem)}"
     )
+
+
+def _machine(problem: Problem) -> str:
+    """Which machine designs were computed for, in sentences."""
+    samples, machines = problem.samples(), problem.machines
+    if not problem.is_sampled:
+        return (
+            f"{len(samples)} samples of the tolerances, the same for all designs. Values are those "
+            "of the nominal machine: the study has no uncertainty, or too few samples agree with "
+            "the published level."
+        )
+    return (
+        f"Values are medians over {len(machines)} samples of the machine, weighted by the "
+        f"published level, each with {machines[0].machine.weight.size} pairs of a discrepancy and "
+        f"an unmodelled level; {len(samples)} pieces of the tolerances. They are the same for all "
+        "designs and for the machine without an option."
+    )
+
+
+def with_total_change(dataset: xr.Dataset, problem: Problem, largest: float | None) -> xr.Dataset:
+    """The dataset with what is said of the total where no design changes it measurably.
+
+    The attribute `no_change` is empty where one does, or where no objective is a total.
+
+    Parameters
+    ----------
+    dataset : of the search
+    problem : that was searched
+    largest : change of the total that was found, dB
+    """
+    least = problem.study.scoring.measurable.level_db
+    words = ""
+    if largest is not None and abs(largest) < least:
+        words = (
+            f"nothing in this space changes the total by {least:g} dB "
+            f"(largest change found: {largest:.2g} dB)"
+        )
+    totals = all(wanted.figure in TOTALS for wanted in problem.design.objectives.values())
+    return dataset.assign_attrs({**dataset.attrs, "no_change": words, "only_totals": int(totals)})
 
 
 def with_best(dataset: xr.Dataset, rows: IndexArray, promises: list[Promise]) -> xr.Dataset:
@@ -87,7 +126,11 @@ def with_best(dataset: xr.Dataset, rows: IndexArray, promises: list[Promise]) ->
     samples = promises[0].samples if promises else 0
     return check(
         dataset.merge(best.assign_coords(ranks)).assign_attrs(
-            {**dataset.attrs, "promise_samples": samples}
+            {
+                **dataset.attrs,
+                "promise_samples": samples,
+                "is_sampled": int(bool(promises) and promises[0].is_sampled),
+            }
         )
     )
 
@@ -146,7 +189,7 @@ def _wanted_coords(problem: Problem) -> dict[str, Any]:
     return {
         "wanted": problem.names,
         "wanted_unit": ("wanted", [_unit(figure.name) for _, figure in each]),
-        "wanted_label": ("wanted", [_label(figure, one) for (_, one), figure in each]),
+        "wanted_label": ("wanted", [_label(problem, figure, one) for (_, one), figure in each]),
         "wanted_role": ("wanted", [_role(one) for (_, one), _ in each]),
         "wanted_limit": ("wanted", np.array([_limit(one) for (_, one), _ in each])),
     }
@@ -157,18 +200,21 @@ def _unit(key: str) -> str:
     return unit.symbol if unit else ""
 
 
-def _label(figure: DesignFigure, wanted: Wanted) -> str:
+def _label(problem: Problem, figure: DesignFigure, wanted: Wanted) -> str:
     """What a figure is, over what: `Level of an order, 1×, worst speed, 90 % of pieces`."""
     parts = [figure.label if wanted.reported is None else wanted.reported]
     parts += [f"{wanted.order}×"] if wanted.order is not None else []
     parts += [_over(wanted.speeds, "speed")] if figure.of_speeds else []
     parts += [_over(wanted.receivers, "microphone")] if figure.is_level else []
-    return ", ".join([*parts, _over(wanted.samples, "piece")])
+    noun = "sample" if problem.is_sampled else "piece"
+    return ", ".join([*parts, _over(problem.statistic(wanted), noun)])
 
 
 def _over(statistic: str | float, noun: str) -> str:
     if isinstance(statistic, str):
         return f"{statistic} {noun}" if statistic == "worst" else f"mean over {noun}s"
+    if statistic == MEDIAN:
+        return f"median of {noun}s"
     return f"{100.0 * statistic:g} % of {noun}s"
 
 

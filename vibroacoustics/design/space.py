@@ -11,6 +11,7 @@ from scipy.stats import qmc
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..base.units import si_key
 from ..base.vocabulary import REFERENCE_OPTION
 from ..study.design import DesignVariable
 from ..study.study import Study
@@ -70,7 +71,7 @@ class Space:
             raise ParameterError(
                 f"{study.source_file}: design.variables: name at least one value that varies"
             )
-        space = cls(_cut(study, design.option), design.option, tuple(variables))
+        space = cls(without_others(study, design.option), design.option, tuple(variables))
         space.check_ends(space.limits, "variables")
         return space
 
@@ -78,6 +79,12 @@ class Space:
     def names(self) -> list[str]:
         """Keys of the variables."""
         return [variable.key for variable in self.variables]
+
+    @cached_property
+    def machine_values(self) -> frozenset[tuple[str, str]]:
+        """Tables and fields of the machine whose values designs choose."""
+        keys = [key.split(".")[1:] for key in self.names if key.startswith("machine.")]
+        return frozenset((".".join(tables), si_key(last)[0]) for *tables, last in keys)
 
     @cached_property
     def limits(self) -> Array:
@@ -214,7 +221,7 @@ def _variable(study: Study, key: str, given: DesignVariable, options: Sequence[s
         raise ParameterError(f"{study.source_file}: {error}") from None
 
 
-def _cut(study: Study, options: Sequence[str]) -> Study:
+def without_others(study: Study, options: Sequence[str]) -> Study:
     """The study without the options that no design has, where the rest can stand without them."""
     kept = {REFERENCE_OPTION, *options}
     try:

@@ -4,6 +4,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.decibel import level_of_power
+from ..base.quantiles import weighted_quantiles
 from ..study.design import Statistic, Wanted
 from .engine.seen import Seen
 from .figure import DesignFigure, Setting
@@ -35,17 +36,48 @@ def over(values: Array, axis: int, statistic: Statistic, more_is_better: bool) -
     return np.asarray(-reached if more_is_better else reached)
 
 
-def of_each(figure: DesignFigure, seen: Seen, setting: Setting, more_is_better: bool) -> Array:
+def over_weighted(
+    values: Array, weight: Array, statistic: Statistic, more_is_better: bool
+) -> Array:
+    """Compute the worst value, the mean or a quantile of weighted samples, shape (design,).
+
+    Parameters
+    ----------
+    values : shape (design, sample)
+    weight : of the samples, shape (sample,)
+    statistic : worst, mean or a share; 0.5 is the median
+    more_is_better : whether the smallest value is the worst
+    """
+    if isinstance(statistic, str):
+        if statistic == "mean":
+            return np.asarray(values @ weight / weight.sum())
+        return over(values[:, weight > 0.0], 1, statistic, more_is_better)
+    share = 1.0 - statistic if more_is_better else statistic
+    return np.asarray(weighted_quantiles(values.T, weight, (share,))[0])
+
+
+def of_each(
+    figure: DesignFigure,
+    seen: Seen,
+    setting: Setting,
+    more_is_better: bool,
+    reference: Array | None = None,
+) -> Array:
     """One number of each design, over microphones and speeds, shape (design,).
 
     A mean over microphones is one of energies; a change is taken of means, or at each microphone.
     A figure without speeds is what it is.
+
+    Parameters
+    ----------
+    figure : of the designs
+    seen : of them
+    setting : what else it is of
+    more_is_better : whether the smallest value is the worst
+    reference : of a change, from `by_speed` for the machine without an option
     """
     wanted: Wanted = setting.wanted
-    values, reference = figure.values(seen, setting), figure.reference(setting)
-    if figure.is_level:
-        values = _level(values, wanted)
-        reference = None if reference is None else _level(reference, wanted)
+    values = by_speed(figure, seen, setting)
     if reference is not None:
         values = values - reference
     if values.ndim == 3:
@@ -53,6 +85,17 @@ def of_each(figure: DesignFigure, seen: Seen, setting: Setting, more_is_better: 
     if values.ndim == 2:
         values = over(values, 1, wanted.speeds, more_is_better)
     return values
+
+
+def by_speed(figure: DesignFigure, seen: Seen, setting: Setting) -> Array:
+    """Compute a figure by design, speed and, where it has them, microphone; levels in dB.
+
+    Parameters
+    ----------
+    figure, seen, setting : see `of_each`
+    """
+    values = figure.values(seen, setting)
+    return _level(values, setting.wanted) if figure.is_level else values
 
 
 def _level(power: Array, wanted: Wanted) -> Array:

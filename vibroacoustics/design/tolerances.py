@@ -9,9 +9,10 @@ from scipy.stats import qmc
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.units import split_key
+from ..base.vocabulary import REFERENCE_OPTION
 from ..study.study import Study
 from .keys import check_key, present_value
-from .space import Space
+from .space import Space, without_others
 from .variable import Variable
 
 _RANDOM: Final = 4
@@ -104,6 +105,18 @@ class Pieces:
             made = [scatter.at(ends, np.full(2, share)) for share in (0.0, 1.0)]
             limits[scatter.column] = np.min(made), np.max(made)
         return limits
+
+    @property
+    def without_designs(self) -> Space:
+        """The machine without an option, with the values that scatter but no design chooses."""
+        further = self.wide.variables[-self.present.size :] if self.present.size else ()
+        alone = without_others(self.wide.study, (REFERENCE_OPTION,))
+        return Space(alone, (REFERENCE_OPTION,), further)
+
+    @property
+    def limits_without_designs(self) -> Array:
+        """Lowest and highest values of these, shape (variable, 2), SI."""
+        return self.limits[len(self.limits) - self.present.size :]
 
     def samples(self, count: int, number: int = 0) -> Array:
         """Shares of the ranges, shape (sample, scatter), the same at every call.

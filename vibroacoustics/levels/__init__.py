@@ -18,7 +18,7 @@ from .bands import Band, band_mean_square, bands_between, measurable_bands
 from .block_levels import block_levels
 from .by_source import SourceSound, filled_thirds, source_sound
 from .filter_bank import band_filter, band_signal, class_1_limits_db
-from .labelled import level, level_variables, sample_level_variables
+from .labelled import level, level_variables
 from .measured_power import reverberant_absorption_area_m2
 from .signal_levels import (
     RecordedLevels,
@@ -63,7 +63,6 @@ __all__ = [
     "measurable_bands",
     "recorded_levels",
     "reverberant_absorption_area_m2",
-    "sample_level_variables",
     "sound_pressure_level",
     "source_sound",
     "time_weighted_mean_square",

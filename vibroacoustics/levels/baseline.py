@@ -138,15 +138,14 @@ def baseline_variables(
     sizes = (len(axes.speeds), len(axes.options), len(axes.receivers))
     order = np.array(axes.measured_orders)
     bands = np.full((*sizes, len(BASELINE_BANDS)), np.nan)
-    orders = np.full((*sizes, order.size), np.nan)
-    share, order_share = bands[:, 0].copy(), orders[:, 0].copy()
+    orders = baseline_orders(study, axes, points, sound)
+    share, order_share = bands[:, 0].copy(), orders[:, 0].copy() * np.nan
     phase, peak = order_share.copy(), np.zeros(order_share.shape, dtype=complex)
     none = list(axes.options).index(REFERENCE_OPTION)
     for (receiver, speed), point in points.items():
         s, r = axes.speeds.index(speed), axes.receivers.index(receiver)
         changed = _changed(study, axes, (receiver, speed), point, sound)
         chosen = _columns(axes, point)
-        orders[s][:, r, chosen] = _level(changed.order)
         phase[s, r, chosen], peak[s, r, chosen] = point.has_phase, point.peak
         square = 0.5 * np.abs(point.peak) ** 2
         order_share[s, r, chosen] = _ratio(changed.modelled_order[none], square)
@@ -163,6 +162,31 @@ def baseline_variables(
         }
     names = [band.nominal_hz for band in BASELINE_BANDS]
     return stamped(values, {**axes.by_receiver, "baseline_band": names, "baseline_order": order})
+
+
+def baseline_orders(
+    study: Study,
+    axes: LevelAxes,
+    points: Mapping[PointKey, MeasuredPoint],
+    sound: Mapping[CaseKey, SourceSound],
+) -> Array:
+    """Return levels of the measured orders with every option, empty where none was measured.
+
+    Parameters
+    ----------
+    study, axes, points, sound : see `baseline_variables`
+
+    Returns
+    -------
+    shape (speed, option, receiver, measured order), dB
+    """
+    sizes = (len(axes.speeds), len(axes.options), len(axes.receivers), len(axes.measured_orders))
+    orders = np.full(sizes, np.nan)
+    for (receiver, speed), point in points.items():
+        s, r = axes.speeds.index(speed), axes.receivers.index(receiver)
+        changed = _changed(study, axes, (receiver, speed), point, sound)
+        orders[s][:, r, _columns(axes, point)] = _level(changed.order)
+    return orders
 
 
 def _changed(

@@ -42,6 +42,7 @@ class SourceSound:
         Pa²; where lines of two sources cancel a part can be negative. The sum is the total
     mutual : A-weighted mean squares of each pair of sources in `GAIN_BANDS`, half the real part
         of p q*, whose sum is the total, shape (source, source, receiver, gain band), Pa²
+    band_hz : middle frequencies of the bands, shape (band,)
     order : shaft orders that were measured, complex peaks, shape (source, receiver, order), Pa
     order_hz : of these orders, shape (order,)
     beside : as `mutual`, without weighting and these orders, Pa²; empty without a baseline
@@ -51,14 +52,18 @@ class SourceSound:
     alone: Array
     part: Array
     mutual: Array = field(default_factory=lambda: _NO_BANDS)
+    band_hz: Array = field(default_factory=lambda: np.zeros(0))
     order: ComplexArray = field(default_factory=lambda: np.zeros((1, 1, 0), dtype=complex))
     order_hz: Array = field(default_factory=lambda: np.zeros(0))
     beside: Array = field(default_factory=lambda: _NO_BANDS)
 
     @property
     def unknown(self) -> "SourceSound":
-        """The same of a case without a solution: not a number."""
-        return SourceSound(*(np.full_like(part, np.nan) for part in vars(self).values()))
+        """The sound of a case without a solution: not a number."""
+        parts = vars(self).items()
+        return SourceSound(
+            **{n: part if n.endswith("_hz") else np.full_like(part, np.nan) for n, part in parts}
+        )
 
     @property
     def total(self) -> Array:
@@ -80,6 +85,16 @@ class SourceSound:
         """A-weighted mean squares of each source alone, shape (source, receiver, gain band)."""
         return np.asarray(np.einsum("ssri->sri", self.mutual))
 
+    def bands(self, gain: Array) -> Array:
+        """Compute A-weighted mean squares of all sources together, shape (receiver, gain band).
+
+        Parameters
+        ----------
+        gain : factors on the power of sources, shape (source, receiver, gain band)
+        """
+        root = np.sqrt(gain)
+        return np.asarray(np.einsum("sri,tri,stri->ri", root, root, self.mutual))
+
     def scaled(self, gain: Array) -> "SourceSound":
         """Return the sound with sources that are louder by factors on their power.
 
@@ -92,7 +107,8 @@ class SourceSound:
         root = np.sqrt(gain)
         mutual = np.einsum("sri,tri,stri->sr", root, root, self.mutual)
         alone = np.einsum("sri,sri->sr", gain, self.energy)
-        scaled = SourceSound(self.band, alone, mutual[None])
+        band = self.band * gain[..., gain_band_number(self.band_hz)]
+        scaled = SourceSound(band, alone, mutual[None], band_hz=self.band_hz)
         if not self.beside.size:
             return scaled
         order = self.order * root[..., gain_band_number(self.order_hz)]
@@ -186,10 +202,17 @@ def source_sound(
         )
         weighted[random.source] += loud[0]
         part[:, random.source] += loud
-        a_weight = weighting_power("A", random.frequency_hz)[:, None]
-        in_band = _in_gain_band(random.frequency_hz) * a_weight
+        in_band = a_weight_by_band(random.frequency_hz)
         mutual[random.source, random.source] += random.power @ in_band
-    return SourceSound(band, weighted, part, mutual)
+    return SourceSound(band, weighted, part, mutual, np.array([one.middle_hz for one in bands]))
+
+
+def a_weight_by_band(frequency_hz: Array) -> Array:
+    """Return the factor of A-weighting on mean squares, in the gain band of each frequency.
+
+    Shape (frequency, gain band); zero in the other bands.
+    """
+    return np.asarray(_in_gain_band(frequency_hz) * weighting_power("A", frequency_hz)[:, None])
 
 
 def _in_gain_band(frequency_hz: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Sound without tones by third octave: noise of the sources, and the remainder."""
+"""Sound by third octave: noise of the sources, unmodelled noise, and all sound."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -21,20 +21,45 @@ _OF_REMAINDER: Final = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
 def noise_levels(
     axes: LevelAxes, received: Mapping[CaseKey, ReceivedSound], remaining: Array
 ) -> xr.Dataset:
-    """Levels in third octaves of what is no tone, unweighted.
+    """Label the levels in third octaves of noise and, without a baseline, of all sound; unweighted.
 
     Parameters
     ----------
     axes : speeds, options and receivers
     received : sound of these cases, and of others
-    remaining : A-weighted remainder, shape (speed, option, band of `REMAINDER_BANDS`), Pa²
+    remaining : A-weighted unmodelled noise, shape (speed, option, band of `REMAINDER_BANDS`), Pa²
     """
     noise = np.array([[_noise(received[s, o], axes) for o in axes.options] for s in axes.speeds])
-    rest = np.zeros((*remaining.shape[:2], len(BASELINE_BANDS)))
-    rest[..., _OF_REMAINDER] = remaining / weighting_power("A", MIDDLE_HZ[_OF_REMAINDER])
+    rest = unmodelled_in_bands(remaining)
     bands = {"noise_band": [band.nominal_hz for band in BASELINE_BANDS]}
-    values = {"noise_band_level": level(noise), "unmodelled_band_level": level(rest)}
+    lines = [[_lines(received[s, o]) for o in axes.options] for s in axes.speeds]
+    sources = np.array(lines) + noise
+    values = {
+        "noise_band_level": level(noise),
+        "sources_band_level": level(sources),
+        "unmodelled_band_level": level(rest),
+    }
+    if not axes.measured_orders:
+        values["total_band_level"] = level(sources + rest[:, :, None])
     return stamped(values, axes.by_receiver | bands)
+
+
+def unmodelled_in_bands(remaining: Array) -> Array:
+    """Return unmodelled noise without weighting in `BASELINE_BANDS`, shape (..., band), Pa².
+
+    Parameters
+    ----------
+    remaining : A-weighted, in `REMAINDER_BANDS`, shape (..., band), Pa²
+    """
+    rest = np.zeros((*remaining.shape[:-1], len(BASELINE_BANDS)))
+    rest[..., _OF_REMAINDER] = remaining / weighting_power("A", MIDDLE_HZ[_OF_REMAINDER])
+    return rest
+
+
+def _lines(sound: ReceivedSound) -> Array:
+    """Mean squares of the lines of all sources together, shape (receiver, band), Pa²."""
+    square = 0.5 * np.abs(sound.pressure.sum(axis=0)) ** 2
+    return np.asarray(square @ membership(sound.lines.frequency_hz, BASELINE_BANDS))
 
 
 def _noise(sound: ReceivedSound, axes: LevelAxes) -> Array:

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array, ComplexArray
+from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, sound_pressure_level
 from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS, stamped
@@ -25,11 +25,11 @@ def level_variables(
     sound: Mapping[CaseKey, SourceSound],
     pressure_line: xr.DataArray,
     order_frequency: xr.DataArray,
-    remaining: Array,
-    remainder: float,
+    residual: Array,
+    unmodelled: float,
     baseline: xr.Dataset | None = None,
 ) -> xr.Dataset:
-    """Levels with the values as given.
+    """Label the levels with the nominal values.
 
     Parameters
     ----------
@@ -37,35 +37,31 @@ def level_variables(
     sound : of every case, with totals by the weightings A_FIRST
     pressure_line : of every source, orders first, complex peaks, Pa
     order_frequency : (speed, order), Hz
-    remaining : mean square that the model does not explain, shape (speed, option, receiver), Pa²
-    remainder : the same at the published point without an option, Pa²
-    baseline : of `baseline_variables`, whose orders stand for the modelled ones
+    residual : mean square of what the model leaves, shape (speed, option, receiver), Pa²
+    unmodelled : noise at the published point without an option, Pa²
+    baseline : of `baseline_variables`, whose orders are in place of the modelled ones
     """
     part = axes.gathered(sound, "part")
     totals = part.sum(axis=3)  # (speed, option, weighting, receiver)
     a_total = totals[:, :, A_FIRST.index("A")]
     modelled = [level(totals[:, :, A_FIRST.index(name)]) for name in WEIGHTINGS]
-    total = level(a_total + remaining)
-    orders = pressure_line.values[..., : order_frequency.sizes["order"]].sum(axis=2)
-    order_level = _order_level(orders, order_frequency)
+    hertz = order_frequency.values
+    orders = sound_pressure_level(pressure_line.values[..., : hertz.shape[1]].sum(axis=2))
     if baseline is not None and "baseline_order_level" in baseline:
-        order = order_frequency["order"].values.astype(float)
-        measured = baseline["baseline_order_level"].reindex(baseline_order=order).values
-        of_baseline = _weighted(measured, order_frequency)
-        order_level = np.where(np.isnan(of_baseline), order_level, of_baseline)
-    changes = {
-        "change_1x": order_level[..., 1, WEIGHTINGS.index("Z")],
-        "change_modelled": level(a_total),
-        "change_total": total,
+        orders = with_measured(
+            orders, baseline["baseline_order_level"].values, axes.measured_orders
+        )
+    levels = {
+        "order_level": weighted(orders, hertz),
+        "level_modelled": np.stack(modelled, axis=-1),
+        "level_total": level(a_total + residual),
     }
     reference = list(axes.options).index(REFERENCE_OPTION)
     values = {
-        "order_level": order_level,
-        "level_modelled": np.stack(modelled, axis=-1),
-        "level_total": total,
-        "level_unmodelled": level(np.asarray(remainder)),
-        **_of_sources(axes, sound),
-        **{name: every - every[:, [reference]] for name, every in changes.items()},
+        **levels,
+        **level_changes(levels, reference),
+        **source_levels(axes, sound, residual),
+        "level_unmodelled": level(np.asarray(unmodelled)),
     }
     coords = {
         **axes.by_source,
@@ -76,70 +72,74 @@ def level_variables(
     return stamped(values, coords)
 
 
-def _of_sources(axes: LevelAxes, sound: Mapping[CaseKey, SourceSound]) -> dict[str, Array]:
-    """A-weighted level, share of the modelled total and third octaves of each source."""
-    shares = axes.gathered(sound, "part")[:, :, A_FIRST.index("A")]
-    total = shares.sum(axis=2, keepdims=True)
-    return {
-        "source_level": level(axes.gathered(sound, "alone")),
-        "source_share": shares / np.where(total > 0.0, total, 1.0),
-        "source_band_level": level(axes.gathered(sound, "band")),
+def level_changes(levels: Mapping[str, Array], reference: int) -> dict[str, Array]:
+    """Compute the changes of levels against an option, dB.
+
+    Parameters
+    ----------
+    levels : `level_total` and `level_modelled` with their axis of options third from last or, by
+        weighting, fourth; and `order_level`
+    reference : number of the option
+    """
+    a, z = WEIGHTINGS.index("A"), WEIGHTINGS.index("Z")
+    every = {
+        "change_total": levels["level_total"],
+        "change_modelled": levels["level_modelled"][..., a],
+        "change_1x": levels["order_level"][..., 1, z],
     }
+    return {name: one - one[..., [reference], :] for name, one in every.items()}
 
 
-def sample_level_variables(
-    axes: LevelAxes,
-    sounds: Sequence[Mapping[CaseKey, SourceSound]],
-    remaining: Array,
-    remainder: Array,
-    weight: Array,
-    prior_names: Sequence[str],
-) -> xr.Dataset:
-    """A-weighted levels of every sample.
+def source_levels(
+    axes: LevelAxes, sound: Mapping[CaseKey, SourceSound], residual: Array
+) -> dict[str, Array]:
+    """Compute levels of each source, A-weighted and by third octave, and shares of the energy.
 
-    A sample without a solution has weight 0, and its levels are empty.
+    A source has half the energy of its interference with others, so that all shares, with that of
+    unmodelled noise, are one together; where lines cancel a share can be negative.
 
     Parameters
     ----------
     axes : of the levels
-    sounds : of every case, by sample
-    remaining : mean square that each sample leaves unexplained, Pa², shape (sample, speed, option,
-        receiver)
-    remainder : the same at the published point without an option, shape (sample,), Pa²
-    weight : of the samples, shape (prior, sample)
-    prior_names : of the remainder
+    sound : of every case
+    residual : mean square of what the model leaves, shape (speed, option, receiver), Pa²
     """
-    alone = np.array([axes.gathered(sound, "alone") for sound in sounds])
-    modelled = np.array([axes.gathered(sound, "part")[:, :, 0].sum(axis=2) for sound in sounds])
-    total = modelled + remaining
-    values = {
-        "source_level_by_sample": _level_or_none(alone),
-        "level_modelled_by_sample": _level_or_none(modelled),
-        "level_total_by_sample": _level_or_none(total),
-        "level_unmodelled_by_sample": level(remainder),
-        "sample_weight": _of_solved(weight, modelled),
+    part = axes.gathered(sound, "part")[:, :, A_FIRST.index("A")]
+    total = part.sum(axis=2) + residual
+    energy = np.where(total > 0.0, total, 1.0)
+    return {
+        "source_level": level(axes.gathered(sound, "alone")),
+        "source_band_level": level(axes.gathered(sound, "band")),
+        "source_share": part / energy[:, :, None],
+        "unmodelled_share": residual / energy,
+        "residual_level": level(np.maximum(residual, 0.0)),
     }
-    samples = np.arange(1, len(sounds) + 1)
-    return stamped(values, {**axes.by_source, "sample": samples, "prior": list(prior_names)})
 
 
-def _of_solved(weight: Array, modelled: Array) -> Array:
-    """Weights that sum up to one over the samples that have a solution, shape (prior, sample)."""
-    solved = ~np.isnan(modelled).any(axis=(1, 2, 3))
-    total = (weight * solved).sum(axis=1, keepdims=True)
-    return np.asarray(weight * solved / np.where(total > 0.0, total, 1.0))
+def with_measured(levels: Array, measured: Array, orders: Sequence[float]) -> Array:
+    """Return levels of shaft orders with the measured ones in place of the modelled.
+
+    Parameters
+    ----------
+    levels : of the orders 0, 1, 2, …, shape (..., order), dB
+    measured : of some orders, shape (..., measured order), dB; not a number where not measured
+    orders : that were measured
+    """
+    known = [n for n, one in enumerate(orders) if one in range(levels.shape[-1])]
+    columns = [int(orders[n]) for n in known]
+    together = levels.copy()
+    there = np.isfinite(measured[..., known])
+    together[..., columns] = np.where(there, measured[..., known], levels[..., columns])
+    return np.asarray(together)
 
 
-def _level_or_none(mean_square: Array) -> Array:
-    """Levels; empty where a sample has no solution."""
-    return np.where(np.isnan(mean_square), np.nan, level(np.nan_to_num(mean_square)))
+def weighted(levels: Array, frequency_hz: Array) -> Array:
+    """Return levels of orders by `WEIGHTINGS`, the last axis.
 
-
-def _order_level(pressure: ComplexArray, frequency: xr.DataArray) -> Array:
-    """Levels of the orders, (speed, option, receiver, order, weighting)."""
-    return _weighted(sound_pressure_level(pressure), frequency)
-
-
-def _weighted(unweighted: Array, frequency: xr.DataArray) -> Array:
-    hertz = frequency.values[:, None, None, :]
-    return np.stack([unweighted + WEIGHTING[name](hertz) for name in WEIGHTINGS], axis=-1)
+    Parameters
+    ----------
+    levels : unweighted, shape (..., speed, option, receiver, order), dB
+    frequency_hz : shape (speed, order)
+    """
+    hertz = frequency_hz[:, None, None, :]
+    return np.stack([levels + WEIGHTING[name](hertz) for name in WEIGHTINGS], axis=-1)

@@ -1,10 +1,12 @@
 """Sound pressure by source at all lines, labelled."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import xarray as xr
 
+from ..base.arrays import IndexArray
+from ..base.decibel import SILENCE_DB, amplitude_of_level, sound_pressure_level
 from ..base.vocabulary import stamped
 from ..machine.source import CaseKey
 from ..mechanics.received_sound import ReceivedSound
@@ -14,7 +16,39 @@ _ORDER = "order "
 """With what the names of lines begin that are orders."""
 
 
-def line_pressure(axes: LevelAxes, received: Mapping[CaseKey, ReceivedSound]) -> xr.Dataset:
+def order_columns(received: ReceivedSound, orders: int) -> tuple[IndexArray, IndexArray]:
+    """Return shaft orders below a number, and the columns of their lines."""
+    columns = {
+        int(name.removeprefix(_ORDER)): column
+        for column, name in enumerate(received.lines.names)
+        if name.startswith(_ORDER)
+    }
+    order = np.array([one for one in columns if one < orders], dtype=np.intp)
+    return order, np.array([columns[one] for one in order.tolist()], dtype=np.intp)
+
+
+def with_order_levels(lines: xr.Dataset, order_level: xr.DataArray) -> xr.Dataset:
+    """Return lines whose orders have given levels and their own phases.
+
+    Parameters
+    ----------
+    lines : of `line_pressure`
+    order_level : of the orders, with weightings, dB
+    """
+    pressure = lines["pressure_line"]
+    orders = order_level.sizes["order"]
+    wanted = order_level.sel(weighting="Z").transpose("speed", "option", "receiver", "order").values
+    current = sound_pressure_level(pressure.values[..., :orders].sum(axis=2))
+    sounds = current > SILENCE_DB
+    factor = amplitude_of_level(np.where(sounds, wanted - current, 0.0))
+    scaled = pressure.values.copy()
+    scaled[..., :orders] *= factor[:, :, None]
+    return lines.assign(pressure_line=pressure.copy(data=scaled))
+
+
+def line_pressure(
+    axes: LevelAxes, received: Mapping[CaseKey, ReceivedSound], others: Iterable[str] = ()
+) -> xr.Dataset:
     """Pressure by source at all lines; tones of one name are one line, empty where it is none.
 
     Orders come first, from zero, the tones of all cases after them.
@@ -23,9 +57,11 @@ def line_pressure(axes: LevelAxes, received: Mapping[CaseKey, ReceivedSound]) ->
     ----------
     axes : speeds, options, sources and receivers
     received : sound of these cases, and of others
+    others : further lines, at which there is no sound
     """
     cases = {(s, o): received[s, o] for s in axes.speeds for o in axes.options}
-    names = list(dict.fromkeys(name for sound in cases.values() for name in sound.lines.names))
+    every = (name for sound in cases.values() for name in sound.lines.names)
+    names = list(dict.fromkeys([*others, *every]))
     names.sort(key=lambda name: not name.startswith(_ORDER))  # orders first, else as they come
     column = {name: number for number, name in enumerate(names)}
     sizes = map(len, (axes.speeds, axes.options, axes.sources, axes.receivers, names))

@@ -14,6 +14,7 @@ from ..study.study import Study
 from .axes import LevelAxes
 from .baseline import baseline_variables, over_baseline, points_of, with_baseline
 from .by_source import Measured, SourceSound, sound_by_source
+from .changes import change_variables
 from .continuous import noise_levels
 from .labelled import level_variables
 from .lines import line_pressure
@@ -82,6 +83,16 @@ class NominalSound:
             axes, sound, lines["pressure_line"], order_frequency, residual, unmodelled, measured
         )
         return levels.merge(lines).merge(measured).merge(noise)
+
+    def changes(self, levels: xr.Dataset, forces: xr.Dataset) -> xr.Dataset:
+        """Label the changes of forces at 1x, and which quantities change by what could be measured.
+
+        Parameters
+        ----------
+        levels : of `levels`
+        forces : amplitudes by order, with the frequencies of the orders
+        """
+        return change_variables(self.study.scoring.measurable, levels, forces)
 
 
 def by_source(study: Study, axes: LevelAxes, received: Mapping[CaseKey, ReceivedSound]) -> Sound:

@@ -13,7 +13,6 @@ from ..machine.machine import Machine
 from ..machine.source import CaseKey
 from ..study.study import Study
 from .axes import LevelAxes
-from .baseline import points_of, with_baseline
 from .by_source import GAIN_BANDS, SourceSound, gain_band_number
 from .insertion_loss import remaining_factor
 from .measured_points import REMAINDER_BANDS
@@ -78,28 +77,20 @@ def remaining(study: Study, axes: LevelAxes, machine: Machine, rest: float) -> A
 
 def unmodelled_bands(study: Study, machine: Machine) -> Array:
     """Unmodelled noise at the published level, A-weighted, in `GAIN_BANDS`, shape (band,), Pa²."""
-    bands = np.zeros(len(GAIN_BANDS))
     square = REFERENCE_PRESSURE_PA**2 * power_of_level(published_of(study).level_dba)
-    columns = gain_band_number(REMAINDER_MIDDLE_HZ)
-    bands[columns] = square * machine.remainder.spectrum(REMAINDER_MIDDLE_HZ)
+    return in_gain_bands(square * machine.remainder.spectrum(REMAINDER_MIDDLE_HZ))
+
+
+def in_gain_bands(remaining: Array) -> Array:
+    """Return unmodelled noise in `GAIN_BANDS`, shape (..., band), Pa².
+
+    Parameters
+    ----------
+    remaining : in `REMAINDER_BANDS`, shape (..., band), Pa²
+    """
+    bands = np.zeros((*remaining.shape[:-1], len(GAIN_BANDS)))
+    bands[..., gain_band_number(REMAINDER_MIDDLE_HZ)] = remaining
     return bands
-
-
-def remaining_by_sample(
-    study: Study,
-    axes: LevelAxes,
-    sounds: Sequence[Mapping[CaseKey, SourceSound]],
-    machines: Sequence[Machine],
-    rests: Array,
-) -> Array:
-    """`remaining` of every sample with the baseline, (sample, speed, option, receiver), Pa²."""
-    points = points_of(study, axes)
-    return np.array(
-        [
-            with_baseline(study, axes, points, sound, remaining(study, axes, machine, rest))
-            for sound, machine, rest in zip(sounds, machines, rests.tolist(), strict=True)
-        ]
-    )
 
 
 def over_published(

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,7 +10,6 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_POWER_W
 from ..base.decibel import energy_sum, level_of_power, power_of_level
-from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import stamped
 from ..machine.source import CaseKey
 from .by_source import weighting_power
@@ -18,10 +17,8 @@ from .in_room import RoomSound, power_of_hemisphere
 from .labelled import level
 from .measured_points import BASELINE_BANDS, MIDDLE_HZ
 from .nominal import NominalSound
-from .room_rest import beside_model, rest_in_bands
+from .room_rest import rest_in_bands
 from .structure_borne import weight_of
-
-BAND_SHARES: Final = {"low": 0.05, "middle": 0.5, "high": 0.95}
 
 
 @dataclass(frozen=True)
@@ -96,22 +93,22 @@ def room_variables(
     air: AirInRoom,
     sound: Mapping[CaseKey, RoomSound],
     results: xr.Dataset,
-    receiver: str,
+    statistics: xr.Dataset,
     plate_per_power: Callable[[Array], Array],
 ) -> xr.Dataset:
-    """Label the levels at the listeners by air, and where there is a plate by that too.
+    """Label the levels at the listeners by air and, where there is one, by the plate.
 
     Parameters
     ----------
     air : mean squares by air
     sound : of every case
-    results : levels at the microphones, of samples and of the plate
-    receiver : microphone of the published level
+    results : nominal levels at the microphones, those of samples, and of the plate
+    statistics : `room_level` of the samples; empty without samples
     plate_per_power : see `plate_variables`
     """
     levels = air_variables(air)
     levels = levels.merge(line_variables(sound, results.merge(levels)))
-    levels = levels.merge(sampled_band(air, results.merge(levels), receiver))
+    levels = levels.drop_vars("room_level" if statistics else []).merge(statistics)
     return levels.merge(plate_variables(results.merge(levels), plate_per_power))
 
 
@@ -151,41 +148,12 @@ def power_level(power_band: Array) -> Array:
     return np.asarray(level_of_power(power / REFERENCE_POWER_W))
 
 
-def sampled_band(air: AirInRoom, results: xr.Dataset, receiver: str) -> xr.Dataset:
-    """Levels by air that 5, 50 and 95 % of the samples stay below; empty without samples.
-
-    A sample changes what comes of the model, and what does not, at each listener as at the
-    microphone of the published level.
-
-    Parameters
-    ----------
-    air : at the listeners
-    results : of the levels by sample at the microphones, with `room_level`
-    receiver : microphone of the published level
-    """
-    if "level_total_by_sample" not in results:
-        return xr.Dataset()
-    there = results.sel(receiver=receiver)
-    given = _square(there["level_modelled"].sel(weighting="A").transpose("speed", "option"))
-    sampled = _square(there["level_modelled_by_sample"].transpose("sample", "speed", "option"))
-    rest, rests = (beside_model(results, receiver, name) for name in ("", "_by_sample"))
-    silent = rest <= 0.0
-    of_model = sampled / np.where(given > 0.0, given, 1.0)
-    of_rest = np.where(silent, 0.0, rests / np.where(silent, 1.0, rest))
-    square = air.modelled * of_model[..., None] + air.rest * of_rest[..., None]
-    weight = results["sample_weight"].isel(prior=0).values
-    levels = level(np.nan_to_num(square))
-    ends = weighted_quantiles(levels, weight, list(BAND_SHARES.values()))
-    names = [f"room_level_{end}" for end in BAND_SHARES]
-    return stamped(dict(zip(names, ends, strict=True)), _coordinates(results["room_level"]))
-
-
 def plate_variables(results: xr.Dataset, plate_per_power: Callable[[Array], Array]) -> xr.Dataset:
     """Label the levels by the feet and the plate at the listeners; empty without a plate.
 
     Parameters
     ----------
-    results : with the plate's powers and spans, `room_level` and, of samples, `room_level_middle`
+    results : with the plate's powers and spans, and `room_level`
     plate_per_power : mean square per power of the plate, of frequencies, shape
         (listener, frequency), Pa²/W
     """
@@ -203,7 +171,7 @@ def plate_variables(results: xr.Dataset, plate_per_power: Callable[[Array], Arra
         of_end = results[f"structure_borne_level_{end}"].isel(receiver=0) - span
         over = of_end.transpose("speed", "option").values[..., None]
         values[f"room_plate_level_{end}"] = by_plate + over
-    by_air = results["room_level_middle" if "room_level_middle" in results else "room_level"]
+    by_air = results["room_level"]
     values["room_level_both_ways"] = energy_sum(np.stack([by_air.values, by_plate]), axis=0)
     return stamped(values, {**_coordinates(by_air), "line": results["line"].values})
 

@@ -36,26 +36,20 @@ def rest_in_bands(results: xr.Dataset, receiver: str) -> Array:
     return np.asarray(rest * factor[..., None])
 
 
-def beside_model(results: xr.Dataset, receiver: str, by_sample: str = "") -> Array:
-    """A-weighted mean squares of the machine less those of the model, Pa².
-
-    Its shape is ([sample,] speed, option).
+def beside_model(results: xr.Dataset, receiver: str) -> Array:
+    """A-weighted mean squares of the machine less those of the model, (speed, option), Pa².
 
     Parameters
     ----------
     results : of the levels
     receiver : microphone
-    by_sample : `_by_sample` for those of every sample
     """
-    total, modelled = (
-        results[f"{name}{by_sample}"].sel(receiver=receiver)
-        for name in ("level_total", "level_modelled")
-    )
-    if not by_sample:
-        modelled = modelled.sel(weighting="A")
-    dims = ("sample", "speed", "option") if by_sample else ("speed", "option")
-    squares = (_square(each.transpose(*dims)) for each in (total, modelled))
-    return np.maximum(next(squares) - next(squares), 0.0)
+    total, modelled = results["level_total"], results["level_modelled"].sel(weighting="A")
+    squares = [
+        _square(each.sel(receiver=receiver).transpose("speed", "option"))
+        for each in (total, modelled)
+    ]
+    return np.maximum(squares[0] - squares[1], 0.0)
 
 
 def _modelled(results: xr.Dataset, receiver: str) -> Array:

@@ -65,6 +65,8 @@ class Machine(KindOfParameters):
     """
 
     name: str = Field(min_length=1)
+    refrigerant: str | None = Field(None, min_length=1)
+    """By its number, such as R410A; the data sheet states it."""
     housing: Housing
     """What moves on the mounts as one rigid body; moving parts included, a suspended block not."""
     mounts: Mounts

@@ -62,6 +62,34 @@ def run(
         return keep_lines(results, (*study.left_out, *lines))
 
 
+def chain_with(
+    study: Study,
+    product: type,
+    progress: Progress = no_progress,
+    radiation: Radiation = transfer_vectors,
+) -> Chain:
+    """Carry a study through the stages up to the first one that gives a product.
+
+    Parameters
+    ----------
+    study : from `load_study`
+    product : type of what a stage hands on
+    progress : called with the advance of long work
+    radiation : gives the transfer vectors
+
+    Raises
+    ------
+    ParameterError, SolverError, StorageError
+        An input is out of range, a computation failed, a file cannot be read.
+    """
+    with one_thread_of_linear_algebra():
+        chain = Chain(study, radiation, progress)
+        for stage in applying(study):
+            if product not in chain.products:
+                chain = advanced(chain, stage)
+    return chain
+
+
 def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
     study = on_measured_floor(study)
     chain = Chain(study, radiation, progress)

@@ -25,7 +25,8 @@ from .data_sheet.files import data_sheet_csv, data_sheet_html, data_sheet_json
 from .data_sheet.files import headline as data_sheet_headline
 from .data_sheet.model import data_sheet_schema
 from .data_sheet.sheet import data_sheet
-from .designs.page import designs_text, render_designs
+from .designs.best import no_best
+from .designs.page import designs_json, designs_text, render_designs
 from .figures.blocked_forces import blocked_figures
 from .figures.compared_orders import compared_order_figures
 from .figures.curves import curve_figures
@@ -84,6 +85,7 @@ __all__ = [
     "data_sheet_html",
     "data_sheet_json",
     "data_sheet_schema",
+    "designs_json",
     "designs_text",
     "figure_limits_csv",
     "file_name",
@@ -95,6 +97,7 @@ __all__ = [
     "measured_power_csv",
     "measured_power_html",
     "measured_power_text",
+    "no_best",
     "orders_csv",
     "orders_html",
     "orders_text",

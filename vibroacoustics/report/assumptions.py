@@ -6,11 +6,11 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.decibel import level_of_power, power_of_level
-from .bands import band, band_words
+from ..results.estimates import has_samples
+from .bands import INTERVAL, band
 from .remainder import growth_sentence
 from .study import (
     catalogue_receiver,
-    has_samples,
     operating_points,
     overall_noise,
     parameters,
@@ -120,7 +120,7 @@ def remainder_sentence(results: xr.Dataset) -> str:
     who = "The catalogue gives" if not assumed else "The level of the whole machine is assumed:"
     if has_samples(results):
         rest = band(results, "level_unmodelled")
-        left = f"{rest.ends(rounding.fixed)} dB(A) ({band_words(results)} of the samples)"
+        left = f"{rest.ends(rounding.fixed)} dB(A) ({INTERVAL})"
     else:
         left = f"{rounding.fixed(results['level_unmodelled'].item())} dB(A)"
     return (

@@ -1,4 +1,4 @@
-"""Bands of the samples: what the ranges of the assumed values leave open."""
+"""Values with their 80 % intervals, to the digits that the number of samples allows."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, Final, NamedTuple
@@ -7,22 +7,25 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..base.arrays import Array
-from ..base.decibel import level_of_power, power_of_level
-from ..base.quantiles import weighted_quantiles
-from ..base.remembered import remembered
-from ..base.vocabulary import REFERENCE_OPTION
-from ..levels.agreement import effective_samples
-from ..uncertainty.interval_digits import bootstrap_weights, quantile_errors
-from .study import a_weighted, at_catalogue, has_samples, quoted_dba, quoted_speed
+from ..base.decibel import power_of_level
+from ..results.estimates import Estimate, effective_samples, estimate, is_sampled
+from .study import catalogue_receiver
 
 Units = tuple[float, float, float]
-"""Powers of ten to which lowest, middle and highest are written; 0 where nothing was sampled."""
+"""Powers of ten to which lower end, value and upper end are written; 0 of nominal values."""
 NOT_SAMPLED: Final = (0.0, 0.0, 0.0)
+FINEST_DB: Final = 0.1
+FINEST_RATIO: Final = 0.01
+"""Least relative error of an amount, least error of a share."""
+_END_ERROR: Final = 0.667
+_MEDIAN_ERROR: Final = 0.489
+"""Standard errors of a quantile at 10 or 90 % and of the median, over the width of the interval
+between 10 and 90 % and the root of the number of samples, of a normal distribution."""
+INTERVAL: Final = "80 % interval"
 
 
 class Band(NamedTuple):
-    """Lowest, middle and highest of the quantiles over the samples, and their units."""
+    """Value with the ends of its interval, and their units."""
 
     lowest: float
     middle: float
@@ -34,9 +37,13 @@ class Band(NamedTuple):
         return rounding.span((self.lowest, self.highest), write, self.units[::2])
 
     def middle_and_ends(self, write: Callable[[float], str]) -> str:
-        """`48.9 (44.7 to 51.2)`; the middle alone where nothing was sampled."""
-        ends, middle = self.ends(write), self.middle_text(write)
-        return middle if ends == middle else f"{middle} ({ends})"
+        """`48.9 (44.7 to 51.2)`; the value alone where both ends read the same."""
+        low, high = (
+            rounding.to_unit(end, unit, write)
+            for end, unit in ((self.lowest, self.units[0]), (self.highest, self.units[2]))
+        )
+        middle = self.middle_text(write)
+        return middle if low == high else f"{middle} ({self.ends(write)})"
 
     def middle_text(self, write: Callable[[float], str]) -> str:
         """`48.9`."""
@@ -50,145 +57,45 @@ class Band(NamedTuple):
         )
         return self._replace(units=(low, middle, high)).middle_and_ends(_whole_percent)
 
-    def share_of(self, level_db: float) -> "Band":
-        """Energies of levels as shares of the energy of another; quantiles stay quantiles."""
-        lowest, middle, highest = (energy_share(level, level_db) for level in self[:3])
-        return Band(lowest, middle, highest)
 
-
-QUANTILES: Final = (0.1, 0.5, 0.9)
-FINEST_DB: Final = 0.1
-FINEST_RATIO: Final = 0.01
-"""Least relative error of an amount, least error of a share."""
-
-
-@remembered
-def quantiles(results: xr.Dataset, name: str) -> xr.DataArray:
-    """Quantiles of an A-weighted level or its change over the samples, (quantile, ...).
-
-    Where nothing was sampled all are the nominal value.
+def band(results: xr.Dataset, name: str, **at: Any) -> Band:
+    """Return the value of a variable with its interval.
 
     Parameters
     ----------
     results : of a run
-    name : `source_level`, `level_modelled`, `level_total`, `level_unmodelled`, `change_modelled`
-        or `change_total`; `force_1x`, `moment_1x` or `foot_force_1x` where they were sampled
+    name : in the vocabulary
+    at : labels of its dimensions; A-weighted and at the microphone of the published level where
+        none is named
     """
-    return over_samples(results, _by_sample(results, name))
+    selection = {"weighting": "A", "receiver": catalogue_receiver(results), **at}
+    value = estimate(results, name, **selection)
+    if not is_sampled(results, name):
+        return Band(*value)
+    is_level = name.startswith(("level", "change", "source_level", "residual"))
+    return written(value, effective_samples(results), FINEST_DB if is_level else None)
 
 
-@remembered
-def _by_sample(results: xr.Dataset, name: str) -> xr.DataArray:
-    """A variable by sample, its nominal value without samples; names as of `quantiles`."""
-    if not has_samples(results):
-        return a_weighted(results[name])
-    level = results[f"{name.replace('change', 'level')}_by_sample"]
-    if name.startswith("change"):
-        level = level - level.sel(option=REFERENCE_OPTION, drop=True)
-    return level
-
-
-def has_band(results: xr.Dataset, name: str) -> bool:
-    """Whether a variable was sampled; names as of `quantiles`, and `force_1x` and the like."""
-    return has_samples(results) and f"{name.replace('change', 'level')}_by_sample" in results
-
-
-def over_samples(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> xr.DataArray:
-    """Quantiles of a level over the weighted samples, (quantile, ...); itself without samples.
+def written(value: Estimate, effective: float, finest: float | None = None) -> Band:
+    """Return a band with the digits that the number of samples allows.
 
     Parameters
     ----------
-    results : with the weights
-    level : by sample
-    prior : number of the prior of unmodelled noise
-    """
-    if "sample" not in level.dims:
-        return level.expand_dims(quantile=list(QUANTILES))
-    by_sample = level.transpose("sample", ...)
-    weight = results["sample_weight"].values[prior]
-    values = weighted_quantiles(by_sample.values, weight, QUANTILES)
-    like = by_sample.isel(sample=0, drop=True).expand_dims(quantile=list(QUANTILES))
-    return like.copy(data=values)
-
-
-def band_over(
-    results: xr.Dataset, values: xr.DataArray, finest: float | None = FINEST_DB, prior: int = 0
-) -> Band:
-    """Band of a value over the samples, to the digits that their number allows.
-
-    Parameters
-    ----------
-    results : with the weights
-    values : shape (sample,), or the nominal value
-    finest : least standard error that sets the digits; none for that of an amount
-    prior : number of the prior of unmodelled noise
-    """
-    return _band_of_samples(results, values.values, finest, prior)
-
-
-def _band_of_samples(
-    results: xr.Dataset, values: Array, finest: float | None, prior: int = 0
-) -> Band:
-    if values.ndim == 0:
-        nominal = float(values)
-        return Band(nominal, nominal, nominal)
-    weight = results.variables["sample_weight"].values[prior]
-    return band_of(values, weight, resampled(results, prior), finest)
-
-
-def band_of(
-    values: Array, weight: Array, weights: Array | None = None, finest: float | None = None
-) -> Band:
-    """Band of weighted values.
-
-    Parameters
-    ----------
-    values, weight : shape (sample,)
-    weights : of bootstraps, shape (ensemble, sample); none where all samples are independent
+    value : estimate
+    effective : number of samples
     finest : least standard error that sets the digits; none for that of an amount
     """
-    lowest, middle, highest = map(float, weighted_quantiles(values, weight, QUANTILES))
-    if weights is None:
-        weights = bootstrap_weights(weight, np.arange(weight.size))
-    least = FINEST_RATIO * abs(middle) if finest is None else finest
-    errors = quantile_errors(values, weight, weights, QUANTILES).tolist()
-    low, mid, high = (rounding.unit_of_digits(error, least) for error in errors)
-    return Band(lowest, middle, highest, (low, mid, high))
-
-
-@remembered
-def resampled(results: xr.Dataset, prior: int) -> Array:
-    """Weights of bootstraps, (ensemble, sample); what has the same values is chosen together."""
-    values = results["sampled_value"].transpose("sample", ...).values
-    _, sample = np.unique(values, axis=0, return_inverse=True)
-    return bootstrap_weights(results["sample_weight"].values[prior], sample.ravel())
-
-
-@remembered
-def band(results: xr.Dataset, name: str, **at: Any) -> Band:
-    """Band of a variable at a speed, option, source and, where it depends on it, a receiver."""
-    samples, positions = _samples_and_positions(results, name)
-    cell = tuple(position[at[dim]] for dim, position in positions.items())
-    is_level = name.startswith(("level", "change", "source_level"))
-    return _band_of_samples(results, samples[cell], FINEST_DB if is_level else None)
-
-
-@remembered
-def _samples_and_positions(
-    results: xr.Dataset, name: str
-) -> tuple[Array, dict[str, dict[Any, int]]]:
-    """Values by sample, samples last, and the position of each coordinate by dimension."""
-    samples = _by_sample(results, name)
-    samples = samples.transpose(..., "sample", missing_dims="ignore")
-    dims = [str(dim) for dim in samples.dims if dim != "sample"]
-    positions = {
-        dim: {key: n for n, key in enumerate(samples[dim].values.tolist())} for dim in dims
-    }
-    return samples.values, positions
+    least = FINEST_RATIO * abs(value.value) if finest is None else finest
+    width = (value.high - value.low) / np.sqrt(max(effective, 1.0))
+    errors = [factor * width for factor in (_END_ERROR, _MEDIAN_ERROR, _END_ERROR)]
+    if not np.isfinite(width) or width == 0.0:
+        return Band(*value)
+    low, middle, high = (rounding.unit_of_digits(error, least) for error in errors)
+    return Band(*value, (low, middle, high))
 
 
 def bands_by_speed(results: xr.Dataset, name: str, **at: Any) -> tuple[Band, ...]:
-    """Bands of a variable at every speed, at an option and a receiver."""
+    """Return the bands of a variable at every speed, at an option and a receiver."""
     return tuple(band(results, name, speed=speed, **at) for speed in results["speed"].values)
 
 
@@ -222,64 +129,3 @@ def _whole_percent(share: float) -> str:
     if 0.0 < share < 0.5 * FINEST_RATIO:
         return "<1\u00a0%"
     return f"{rounding.fixed(100.0 * share, 0)}\u00a0%"
-
-
-def share_band(results: xr.Dataset, level: xr.DataArray, prior: int = 0) -> Band:
-    """Energy of a level as a share of that of the whole machine where its level is published.
-
-    Without samples of that of the published level; without one of that of all that is modelled.
-
-    Parameters
-    ----------
-    results : of a run
-    level : by sample, dB(A)
-    prior : number of the prior of unmodelled noise
-    """
-    if not has_samples(results):
-        return band_over(results, level).share_of(quoted_dba(results))
-    share = power_of_level(level - total_by_sample(results, prior))
-    return band_over(results, share, FINEST_RATIO, prior)
-
-
-@remembered
-def total_by_sample(results: xr.Dataset, prior: int) -> xr.DataArray:
-    """Level of the whole machine without an option at the published speed, (sample,), dB(A)."""
-    at = at_catalogue(results, speed=quoted_speed(results))
-    modelled = power_of_level(results["level_modelled_by_sample"].sel(at))
-    rest = power_of_level(results["level_unmodelled_by_sample"])
-    return level_of_power(modelled + rest)
-
-
-class Samples(NamedTuple):
-    """How many samples there are.
-
-    Attributes
-    ----------
-    tried : at the point of the published level
-    effective : of them, by how well they agree with it
-    computed : that went on
-    unsolved : of these, without solution
-    """
-
-    tried: int
-    effective: float
-    computed: int
-    unsolved: int
-
-
-def sample_values(results: xr.Dataset) -> Samples:
-    """How many samples the bands rest on."""
-    weight = results["prior_sample_weight"].values[0]
-    effective = effective_samples(weight)
-    if not has_samples(results):
-        return Samples(weight.size, effective, 0, 0)
-    levels = results["level_modelled_by_sample"].transpose("sample", ...).values
-    unsolved = np.isnan(levels).reshape(len(levels), -1).any(axis=1)
-    values = results["sampled_value"].transpose("sample", ...).values
-    computed = (len(np.unique(values[rows], axis=0)) for rows in (slice(None), unsolved))
-    return Samples(weight.size, effective, *computed)
-
-
-def band_words(results: xr.Dataset) -> str:
-    """`10 to 90 % quantiles`."""
-    return f"{100.0 * QUANTILES[0]:.0f} to {100.0 * QUANTILES[-1]:.0f} % quantiles"

@@ -12,6 +12,7 @@ from ..base.decibel import power_of_level
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.weighting import a_weighting
+from ..results.estimates import prior_ensemble
 from .bands import percent
 from .study import few_speeds, options, parameters, speeds
 from .tables import Table
@@ -176,7 +177,7 @@ def _of_others(results: xr.Dataset) -> str:
 
 
 def _of_samples(results: xr.Dataset) -> str:
-    if "prior_sample_weight" not in results:
+    if prior_ensemble(results) is None:
         return ""
     tolerance = (baseline_of(results) or {}).get("tolerance_db", 0.0)
     return (

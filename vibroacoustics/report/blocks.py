@@ -139,6 +139,55 @@ class Lights:
     block: Literal["lights"] = field(default="lights", kw_only=True, repr=False)
 
 
+IntervalWord: TypeAlias = Literal[
+    "louder", "quieter", "uncertain", "no change", "published", "total", "part"
+]
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A value with its interval.
+
+    Attributes
+    ----------
+    name : of what
+    text : value and interval
+    low, value, high : ends and value, in the unit of the chart
+    word : what it is; of changes what the option does
+    """
+
+    name: str
+    text: str
+    low: float
+    value: float
+    high: float
+    word: IntervalWord
+
+
+@dataclass(frozen=True)
+class Intervals:
+    """A chart of values with their intervals, one row each.
+
+    Attributes
+    ----------
+    caption : above it
+    head : what names and texts are
+    rows : values
+    scale : lowest and highest value of the axis
+    zone : values that are no different from zero; none for all
+    note : how to read it
+    block : kind of block
+    """
+
+    caption: str
+    head: tuple[str, str]
+    rows: tuple[Interval, ...]
+    scale: tuple[float, float]
+    zone: tuple[float, float] | None
+    note: str
+    block: Literal["intervals"] = field(default="intervals", kw_only=True, repr=False)
+
+
 @dataclass(frozen=True)
 class Beside:
     """A narrow block and a wide one, side by side where there is room."""
@@ -158,7 +207,17 @@ class Details:
 
 
 Block: TypeAlias = Annotated[
-    Text | Heading | Bullets | Definitions | Table | Pictures | Lights | Beside | Live | Details,
+    Text
+    | Heading
+    | Bullets
+    | Definitions
+    | Table
+    | Pictures
+    | Lights
+    | Intervals
+    | Beside
+    | Live
+    | Details,
     Field(discriminator="block"),
 ]
 

@@ -10,7 +10,8 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
-from .bands import Band, band, band_words, has_band
+from ..results.estimates import has_samples
+from .bands import INTERVAL, Band, band
 from .columns import Column
 from .kept_columns import columns_of
 from .option_verdict import table_words
@@ -20,7 +21,6 @@ from .study import (
     few_speeds,
     few_speeds_words,
     first_order_hz,
-    has_samples,
     options,
     overall_noise,
     speeds,
@@ -66,16 +66,16 @@ def comparison_text(results: xr.Dataset) -> str:
 
 
 def bands_sentence(results: xr.Dataset) -> str:
-    """What the bands in the tables are; empty where there are none."""
+    """Say what the values in the tables are; nothing without samples."""
     if not has_samples(results):
         return ""
-    return f"What is sampled is shown as the median of the samples ({band_words(results)})."
+    return f"Values are medians of the weighted samples, with their {INTERVAL} in brackets."
 
 
 def _ends_sentence(results: xr.Dataset) -> str:
     if not has_samples(results):
         return ""
-    return f"What is sampled is shown as its {band_words(results)}; 1x levels are as assumed."
+    return f"Shown is the {INTERVAL} of the weighted samples."
 
 
 def _no_total(results: xr.Dataset) -> str:
@@ -142,15 +142,14 @@ class _Cells:
                 return rounding.NOTHING
             if level[option] < rounding.LEVEL_FLOOR_DB:
                 return "silent"
-        if column.band and has_band(self.results, column.band):
-            sampled = self._band(column.band, option, speed)
-            write = partial(_write, column, self.results)
-            return sampled.ends(write) if self.ends_only else sampled.middle_and_ends(write)
-        return column.write(value, self.results)
+        if not column.variable:
+            return column.write(value, self.results)
+        known, write = self._band(column, option, speed), partial(_write, column, self.results)
+        return known.ends(write) if self.ends_only else known.middle_and_ends(write)
 
-    def _band(self, name: str, option: int, speed: int) -> Band:
+    def _band(self, column: Column, option: int, speed: int) -> Band:
         at = {"option": options(self.results)[option], "speed": speeds(self.results)[speed]}
-        return band(self.results, name, **at, receiver=self.receiver)
+        return band(self.results, column.variable, **at, **column.at, receiver=self.receiver)
 
 
 def _write(column: Column, results: xr.Dataset, value: float) -> str:

@@ -1,76 +1,80 @@
-"""Shares of the sound energy by the published data that weigh the samples."""
-
-from typing import Final
+"""Level and shares of the energy with less evidence, and with the second prior."""
 
 import xarray as xr
 
-from .bands import Band, percent
-from .study import source_name
+from ..base import rounding
+from ..results.estimates import estimate
+from .bands import FINEST_DB, Band, band, written
+from .source_words import UNMODELLED, source_share, unmodelled_share
+from .study import at_catalogue, nearest_speed, source_name
 from .tables import Table
 
-UNMODELLED: Final = "unmodelled"
-"""Part of the energy that no source makes."""
+_WORDS = {"level alone": "published level alone", "other prior": "second prior"}
 
 
-def has_energy_shares(results: xr.Dataset) -> bool:
-    """Return whether published data weigh the samples."""
-    return "energy_share" in results
-
-
-def energy_band(results: xr.Dataset, part: str, row: int = 0) -> Band:
-    """Band of the share of a source or of unmodelled noise.
-
-    Parameters
-    ----------
-    results : with energy shares
-    part : name of a source, or `UNMODELLED`
-    row : of the published data: all of them first, then the level alone
-    """
-    share = results["energy_share"][row].sel(energy_part=part).transpose("datum_quantile")
-    return Band(*share.values.tolist())
-
-
-def majority(results: xr.Dataset, part: str, row: int = 0) -> float:
-    """Probability that a part makes more than half of the energy; parameters as `energy_band`."""
-    return float(results["energy_majority"][row].sel(energy_part=part))
+def alternatives_table(results: xr.Dataset) -> Table | None:
+    """Return level and shares with all data, and with alternatives; None without alternatives."""
+    if "alternative" not in results:
+        return None
+    speed, alternatives = nearest_speed(results), list(map(str, results["alternative"].values))
+    rows = [
+        (
+            "Level of the machine, dB(A)",
+            band(results, "level_total", **at_catalogue(results, speed=speed)).middle_and_ends(
+                rounding.level
+            ),
+            *(_level(results, name).middle_and_ends(rounding.level) for name in alternatives),
+        )
+    ]
+    for part in map(str, results["energy_part"].values):
+        here = (
+            source_share(results, part, speed)
+            if part in results["sound_source"].values
+            else unmodelled_share(results, speed)
+        )
+        shares = (_share(results, name, part).in_percent() for name in alternatives)
+        name = source_name(results, part) if part in results["sound_source"].values else UNMODELLED
+        rows.append((f"Share of {name}", here.in_percent(), *shares))
+    effective = ", ".join(
+        f"{results['alternative_effective'].sel(alternative=name).item():.0f} with {_WORDS[name]}"
+        for name in alternatives
+    )
+    head = ("", "all data, first prior", *(_WORDS[name] for name in alternatives))
+    caption = (
+        f"Level and shares with less evidence or another prior; effective samples: {effective}"
+    )
+    return Table(caption, head, tuple(rows))
 
 
 def spectrum_sentence(results: xr.Dataset) -> str:
-    """Share of the source that the published spectral share changes most; empty without one."""
-    if results.sizes.get("evidence", 0) < 2:
+    """Return how far the published spectral share changes shares; empty without one."""
+    if "alternative" not in results or "level alone" not in results["alternative"].values:
         return ""
-    middle = results["energy_share"].drop_sel(energy_part=UNMODELLED).sel(datum_quantile=0.5)
-    source = str(abs(middle[0] - middle[1]).idxmax().item())
+    speed, sources = nearest_speed(results), list(map(str, results["sound_source"].values))
+
+    def change(source: str) -> float:
+        alone = _share(results, "level alone", source).middle
+        return abs(source_share(results, source, speed).middle - alone)
+
+    source = max(sources, key=change)
     name = source_name(results, source)
-    with_share, alone = (
-        f"{energy_band(results, source, row).in_percent()} of the energy, more than "
-        f"half of it with a probability of {percent(majority(results, source, row))}"
-        for row in (0, 1)
-    )
     return (
-        f"With the published spectral share {name} make {with_share}; with the level alone "
-        f"{alone}. The difference holds only if the modelled spectrum of {name} is right."
+        f"With the published spectral share {name} make "
+        f"{source_share(results, source, speed).in_percent()} of the energy, with the level alone "
+        f"{_share(results, 'level alone', source).in_percent()}. The difference holds only if the "
+        f"modelled spectrum of {name} is right."
     )
 
 
-def energy_table(results: xr.Dataset) -> Table | None:
-    """Shares of the energy by the published data that weigh; None without published data."""
-    if not has_energy_shares(results):
-        return None
-    evidence = list(map(str, results["evidence"].values))
-    numbers = range(len(evidence))
-    rows = [
-        (
-            source_name(results, part),
-            *(energy_band(results, part, row).in_percent() for row in numbers),
-            *(percent(majority(results, part, row)) for row in numbers),
-        )
-        for part in map(str, results["energy_part"].values)
-    ]
-    head = ("", *evidence, *(f"more than half, {name}" for name in evidence))
-    effective = ", ".join(
-        f"{count:.0f} with {name}"
-        for name, count in zip(evidence, results["evidence_effective"].values, strict=True)
-    )
-    caption = f"Shares of the energy by published data; effective samples: {effective}"
-    return Table(caption, head, tuple(rows))
+def _share(results: xr.Dataset, alternative: str, part: str) -> Band:
+    known = estimate(results, "alternative_share", alternative=alternative, energy_part=part)
+    return written(known, _effective(results, alternative))
+
+
+def _level(results: xr.Dataset, alternative: str) -> Band:
+    known = estimate(results, "alternative_level", alternative=alternative)
+    return written(known, _effective(results, alternative), FINEST_DB)
+
+
+def _effective(results: xr.Dataset, alternative: str) -> float:
+    return float(results["alternative_effective"].sel(alternative=alternative))

@@ -17,6 +17,7 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results.estimates import nominal, prior_ensemble
 from .study import (
     at_catalogue,
     catalogue_receiver,
@@ -94,13 +95,13 @@ def _catalogue_level(results: xr.Dataset) -> Iterator[Rung]:
     noise, receiver = overall_noise(results), catalogue_receiver(results)
     if noise is None:
         return
-    sampled = (
-        results["prior_sample_level"].values if "prior_sample_level" in results else np.zeros(0)
-    )
+    ensemble = prior_ensemble(results)
+    sampled = np.zeros(0) if ensemble is None else ensemble.level_dba
     sampled = sampled[np.isfinite(sampled)]
     speed = noise["speed_rpm"]
     if speed in results["speed"].values and not elsewhere(results):
-        level = results["level_modelled"].sel(at_catalogue(results, speed=speed, weighting="A"))
+        at = at_catalogue(results, speed=speed, weighting="A")
+        level = nominal(results, "level_modelled").sel(at)
         simulated = float(level)
     elif sampled.size:
         simulated = float(np.median(sampled))

@@ -5,11 +5,11 @@ from typing import Final
 import xarray as xr
 
 from ..base.vocabulary import REFERENCE_OPTION
-from .bands import has_band, quantiles
+from ..results.estimates import has_samples
 from .column_values import column
 from .quantities import JUDGED, Quantity
 from .shifts import at_receiver, shift
-from .study import balancers, catalogue_receiver, has_samples, options
+from .study import balancers, catalogue_receiver, options
 from .tables import Table
 
 NONE_MEASURABLE: Final = "none that could be measured"
@@ -26,7 +26,7 @@ def extremes_table(results: xr.Dataset) -> Table | None:
         "Best of those measurably better",
         "Worst of those measurably worse",
     )
-    values = "; what is sampled is the median of the samples" if has_samples(results) else ""
+    values = "; medians of the weighted samples" if has_samples(results) else ""
     return Table(
         f"Best and worst, levels at {catalogue_receiver(results)}{values}",
         head,
@@ -54,12 +54,6 @@ def _extremes(results: xr.Dataset, quantity: Quantity) -> tuple[str, ...]:
 
 
 def _highest(results: xr.Dataset, quantity: Quantity) -> dict[str, float]:
-    """Largest over the speeds by option, of what was sampled the middle over the samples."""
-    sampled = quantity.sampled and has_band(results, quantity.sampled)
-    values = (
-        quantiles(results, quantity.sampled).sel(quantile=0.5)
-        if sampled
-        else column(results, quantity.column)
-    )
-    values = at_receiver(values, catalogue_receiver(results))
+    """Largest value over the speeds by option."""
+    values = at_receiver(column(results, quantity.column), catalogue_receiver(results))
     return {name: float(values.sel(option=name).max()) for name in options(results)}

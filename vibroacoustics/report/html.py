@@ -30,6 +30,7 @@ def html(page: Page, results_sha256: str = "") -> bytes:
     environment.filters |= {
         "data_address": _data_address,
         "full_address": _full_address,
+        "along": _along,
         "breakable": _breakable,
         "linked": _linked,
         "script_data": _script_data,
@@ -76,6 +77,12 @@ def _linked(text: Text) -> Markup:
         link = Markup('<a href="#{}">{}</a>').format(section, part)
         words = words.replace(escape(part), link, 1)
     return words
+
+
+def _along(value: float, scale: tuple[float, float]) -> float:
+    """Place of a value along an axis of 100, within its ends."""
+    low, high = scale
+    return round(100.0 * min(max((value - low) / (high - low), 0.0), 1.0), 1)
 
 
 def _breakable(text: str) -> Markup:

@@ -1,6 +1,5 @@
 """The machine in a room, in words and tables: how loud, by which path, what changes it."""
 
-from collections.abc import Sequence
 from contextlib import suppress
 from typing import Final
 
@@ -8,19 +7,19 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..base.decibel import energy_sum
 from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..sound.ingredients import ingredients
 from ..sound.loudness import NEEDED, available, loudness_of
+from .bands import band
 from .structure_borne import carrier
 from .study import balancers, nearest_speed, options, overall_noise
 from .tables import Table
 
 SONE_HEAD: Final = "Loudness, sone (diffuse field)"
 _HOW: Final = (
-    "Loudness by ISO 532-1 (Zwicker, diffuse field) is that of the sound with the values as given, "
-    "air and feet together, set to the level in the table."
+    "Loudness by ISO 532-1 (Zwicker, diffuse field) is that of airborne and structure-borne sound "
+    "together at the level in the table."
 )
 
 
@@ -29,33 +28,22 @@ def has_sound_in_room(results: xr.Dataset) -> bool:
     return {"room_pressure_line", "noise_band_level"} <= set(results)
 
 
-def sones(results: xr.Dataset, listener: str, levels_dba: Sequence[float]) -> list[str]:
+def sones(results: xr.Dataset, listener: str) -> list[str]:
     """Loudness of every option at a listener; empty where it cannot be computed.
 
     Parameters
     ----------
     results : of a run
     listener : one of its room
-    levels_dba : to which the sounds are set, by option
     """
     if not (has_sound_in_room(results) and available()):
         return []
     speed = nearest_speed(results)
-    at = results.sel(speed=speed, listener=listener)
-    parts = [
-        ingredients(results, option, listener, speed).louder(level - _given(at.sel(option=option)))
-        for option, level in zip(options(results), levels_dba, strict=True)
-    ]
+    parts = [ingredients(results, option, listener, speed) for option in options(results)]
     with suppress(ParameterError):  # louder than the standard goes: without it
         loud = loudness_of(parts, field="diffuse")
         return [rounding.fixed(one.loudness_sone) for one in loud]
     return []
-
-
-def _given(at: xr.Dataset) -> float:
-    """A-weighted level by air and by the feet with the values as given."""
-    ways = [float(at[name]) for name in ("room_level", "room_plate_level") if name in at]
-    return float(energy_sum(np.array(ways), axis=0))
 
 
 def loudness_words(results: xr.Dataset) -> str:
@@ -103,7 +91,7 @@ def room_table(results: xr.Dataset, listener: str) -> Table:
     """Of every option the level by air, by the feet and both, loudness, against the limits."""
     plate = "room_plate_level" in results
     at_option = [_at(results, option).sel(listener=listener) for option in options(results)]
-    loud = sones(results, listener, [_both(at) for at in at_option])
+    loud = sones(results, listener)
     head = ["Option", "By air, dB(A)"]
     if plate:
         head += ["By the feet, dB(A)", "Both, dB(A)"]
@@ -114,9 +102,10 @@ def room_table(results: xr.Dataset, listener: str) -> Table:
     head += [f"Limit {_TIMES.get(time, time)}, {limit:g} dB(A)" for time, limit in limits.items()]
     rows = []
     for number, (option, at) in enumerate(zip(options(results), at_option, strict=True)):
-        cells = [option, _ranged(at, "room_level")]
+        here = {"option": option, "listener": listener, "speed": nearest_speed(results)}
+        cells = [option, band(results, "room_level", **here).middle_and_ends(rounding.level)]
         if plate:
-            cells += [_ranged(at, "room_plate_level"), rounding.level(_both(at))]
+            cells += [_plate(at), rounding.level(_both(at))]
         cells += loud[number : number + 1]
         cells += [_carrier(at)] if plate else []
         cells += [_met(_both(at) - limit) for limit in limits.values()]
@@ -202,12 +191,10 @@ def power_sentence(results: xr.Dataset) -> str:
     power = float(
         results["room_sound_power_level"].sel(speed=nearest_speed(results), option=REFERENCE_OPTION)
     )
-    sampled = "; the samples keep to what is published" if "room_level_middle" in by_air else ""
     return (
         f"On a hard floor in the open the machine has a sound power level of "
-        f"{rounding.level(power)} dB(A) re 1 pW with the values as given; {_published(results)}"
-        f"{sampled}. With the values as given it is "
-        f"{rounding.level(float(by_air['room_level']))} dB(A) by air at {name}."
+        f"{rounding.level(power)} dB(A) re 1 pW, nominal; {_published(results)}. "
+        f"Airborne it is {rounding.level(float(by_air['room_level']))} dB(A) at {name}."
     )
 
 
@@ -235,8 +222,7 @@ def _both(at: xr.Dataset) -> float:
 
 
 def _by_air(at: xr.Dataset) -> float:
-    """The median of the samples where there are some."""
-    return float(at["room_level_middle" if "room_level_middle" in at else "room_level"])
+    return float(at["room_level"])
 
 
 def _carrier(at: xr.Dataset) -> str:
@@ -247,12 +233,12 @@ def _carrier(at: xr.Dataset) -> str:
 
 def _carrier_words(at: xr.Dataset) -> str:
     if "room_plate_level" not in at:
-        return f"it comes by air, {_ranged(at, 'room_level')} dB(A)"
+        return f"it comes by air, {rounding.level(float(at['room_level']))} dB(A)"
     which = _carrier(at)
     verdict = "which carries it is not sure" if which == "not sure" else f"{which} carries it"
     return (
-        f"by air {_ranged(at, 'room_level')} dB(A), by the feet and the plate "
-        f"{_ranged(at, 'room_plate_level')} dB(A); {verdict}"
+        f"by air {rounding.level(float(at['room_level']))} dB(A), by the feet and the plate "
+        f"{_plate(at)} dB(A); {verdict}"
     )
 
 
@@ -289,9 +275,10 @@ def _met(over_db: float) -> str:
     return "met" if over_db <= 0.0 else f"missed by {rounding.fixed(over_db)} dB"
 
 
-def _ranged(at: xr.Dataset, name: str) -> str:
-    level = _by_air(at) if name == "room_level" else float(at[name])
-    if f"{name}_low" not in at or level < rounding.LEVEL_FLOOR_DB:
-        return rounding.level(level)
-    low, high = (rounding.level(float(at[f"{name}_{end}"])) for end in ("low", "high"))
-    return f"{rounding.level(level)} ({low} to {high})"
+def _plate(at: xr.Dataset) -> str:
+    """Structure-borne level with what its method leaves open."""
+    level, low, high = (
+        rounding.level(float(at[f"room_plate_level{end}"])) for end in ("", "_low", "_high")
+    )
+    silent = float(at["room_plate_level"]) < rounding.LEVEL_FLOOR_DB
+    return level if silent else f"{level} ({low} to {high})"

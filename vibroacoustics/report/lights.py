@@ -6,12 +6,12 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 import xarray as xr
 
-from .bands import QUANTILES
+from ..results.estimates import QUANTILES, has_samples
 from .blocks import Light, LightRow, Lights
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
 from .quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
 from .shifts import Shift, extent, measurable, shift
-from .study import balancers, catalogue_receiver, has_samples, other_receivers
+from .study import balancers, catalogue_receiver, other_receivers
 
 FULL_SCALE: Final = {"%": 100.0, "dB": 20.0}
 """Change at which a bar reaches the end of its cell."""
@@ -85,9 +85,7 @@ def _change(shifts: Sequence[Shift]) -> str:
 def _note(results: xr.Dataset) -> str:
     least = measurable(results)
     over = (
-        "10 to 90 % of the samples at all speeds"
-        if has_samples(results)
-        else "all speeds, as given"
+        "10 to 90 % of the samples at all speeds" if has_samples(results) else "all speeds, nominal"
     )
     return (
         f"Numbers and bars: {over}; bars end at ±100 % and ±20 dB. Grey: less than "

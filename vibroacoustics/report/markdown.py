@@ -9,6 +9,7 @@ from .blocks import (
     Definitions,
     Details,
     Heading,
+    Intervals,
     Lights,
     Live,
     Pictures,
@@ -87,6 +88,13 @@ def _lights(block: Lights) -> str:
     )
     words = frozenset(range(len(block.head)))
     return f"{to_markdown(Table(block.caption, block.head, rows, words))}\n\n{block.note}"
+
+
+@_block.register
+def _intervals(block: Intervals) -> str:
+    rows = tuple((row.name, row.text, row.word) for row in block.rows)
+    table = Table(block.caption, (*block.head, ""), rows, frozenset({0, 2}))
+    return f"{to_markdown(table)}\n\n{block.note}"
 
 
 @_block.register

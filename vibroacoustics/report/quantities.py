@@ -1,4 +1,4 @@
-"""Quantities by which an option is told against the reference."""
+"""Quantities by which an option is compared with no option."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -16,12 +16,22 @@ HEARD_DB: Final = 1.0
 
 @dataclass(frozen=True)
 class Quantity:
-    """A column of the comparison, how a sentence calls it, and its variable over the samples."""
+    """A quantity of the comparison.
+
+    Attributes
+    ----------
+    column : of the comparison
+    words : in a sentence
+    unit : symbol
+    judged : its name among the quantities by which options are judged
+    change : variable of its change against no option, dB
+    """
 
     column: str
     words: str
     unit: str
-    sampled: str = ""
+    judged: str
+    change: str
 
     @property
     def is_level(self) -> bool:
@@ -38,11 +48,13 @@ class Quantity:
         return f"{number} {self.unit}".replace(" ", NO_BREAK)
 
 
-FORCE: Final = Quantity("force_1x_n", "1× force", "N", "force_1x")
-MOMENT: Final = Quantity("moment_1x_nm", "1× moment", "N m", "moment_1x")
-FOOT_FORCE: Final = Quantity("foot_force_1x_n", "1× foot force", "N", "foot_force_1x")
-LINE: Final = Quantity("level_1x_db", "1× line", "dB")
-TOTAL: Final = Quantity("level_total_dba", "total level", "dB(A)", "level_total")
+FORCE: Final = Quantity("force_1x_n", "1× force", "N", "force", "force_change_1x")
+MOMENT: Final = Quantity("moment_1x_nm", "1× moment", "N m", "moment", "moment_change_1x")
+FOOT_FORCE: Final = Quantity(
+    "foot_force_1x_n", "1× foot force", "N", "foot_force", "foot_force_change_1x"
+)
+LINE: Final = Quantity("level_1x_db", "1× line", "dB", "level_1x", "change_1x")
+TOTAL: Final = Quantity("level_total_dba", "total level", "dB(A)", "level_total", "change_total")
 
 JUDGED: Final = (FORCE, MOMENT, FOOT_FORCE, TOTAL, LINE)
 """An option is called better or worse by these: they can be measured on a machine."""

@@ -6,13 +6,11 @@ from typing import Final
 import xarray as xr
 
 from ..base import rounding
-from ..base.decibel import level_of_power, power_of_level
+from ..base.decibel import level_of_power
 from ..base.vocabulary import REFERENCE_OPTION
-from .bands import Band, band_over
+from .bands import Band, band
 from .study import (
-    a_weighted,
     at_catalogue,
-    has_samples,
     overall_noise,
     parameters,
     quoted_speed,
@@ -28,14 +26,8 @@ NO_LEVEL: Final = (
 
 
 def remainder_band(results: xr.Dataset, speed: float) -> Band:
-    """Level of the remainder at a speed without an option, over the samples."""
-    at, suffix = at_catalogue(results, speed=speed), "_by_sample" if has_samples(results) else ""
-    total, modelled = (
-        a_weighted(results[f"level_{name}{suffix}"].sel(at)) for name in ("total", "modelled")
-    )
-    left = (power_of_level(total) - power_of_level(modelled)).clip(min=0.0).fillna(0.0)
-    level = xr.apply_ufunc(level_of_power, left)
-    return band_over(results, level)
+    """Level of unmodelled noise at a speed without an option, with its interval."""
+    return band(results, "residual_level", **at_catalogue(results, speed=speed))
 
 
 def measured_rpm(results: xr.Dataset) -> float | None:

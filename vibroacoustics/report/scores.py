@@ -8,12 +8,13 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results.estimates import has_samples
 from ..scoring.ranking import utilities
 from ..scoring.scores import ANY_WEIGHTS, OF_THE_STUDY
 from . import labels
 from .bands import percent
 from .option_verdict import NO_CHANGE, option_verdicts
-from .study import has_samples, has_sources, options, parameters
+from .study import has_sources, options, parameters
 from .tables import Table, to_csv
 
 SUM_TOLERANCE: Final = 1e-6
@@ -80,7 +81,7 @@ def values_table(results: xr.Dataset) -> Table:
         for option in options(results)
     )
     head = ("Option", *(f"{label}, {unit}" if unit else label for _, label, unit in criteria))
-    sampled = ", as assumed" if has_samples(results) else ""
+    sampled = ", medians of the samples" if has_samples(results) else ""
     return Table(f"Values of the criteria{sampled}", head, rows)
 
 
@@ -104,7 +105,7 @@ def scope_words(results: xr.Dataset) -> str:
     """Say that the scores count further sources."""
     if not has_sources(results):
         return ""
-    where = "in each sample" if has_samples(results) else "at the assumed values"
+    where = "in each sample" if has_samples(results) else "with nominal values"
     return f" The change of level in the scores counts all sources, {where}."
 
 

@@ -9,7 +9,14 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.quantiles import weighted_quantiles
-from .bands import QUANTILES, band_of, band_words
+from ..results.estimates import (
+    QUANTILES,
+    effective_number,
+    prior_ensemble,
+    sample_numbers,
+    weighted_estimate,
+)
+from .bands import INTERVAL, written
 from .labels import unit
 from .sampled_words import named
 from .study import catalogue_receiver
@@ -57,18 +64,18 @@ def peaks_sentence(results: xr.Dataset) -> str:
 def samples_sentence(results: xr.Dataset) -> str:
     """How many samples were held against the test, and how many equal ones remain."""
     weight = results["shell_likelihood"].values
-    effective = float(weight.sum() ** 2 / (weight**2).sum())
+    effective = effective_number(weight)
     few = " That is few: bands after the test are rough." if effective < GIVEN_UP else ""
     return (
-        f"{weight.size} samples were held against the test; they are worth {effective:.0f} equal "
-        f"ones after it.{few} The sound of {results.sizes['prior_sample']} of them was computed."
+        f"{weight.size} samples were weighted by the test: effective sample size {effective:.0f}."
+        f"{few} The sound of {sample_numbers(results).tried} of them was computed."
     )
 
 
 def before_and_after(results: xr.Dataset) -> Table:
     """Middle and band by the ranges alone and with the test."""
     return Table(
-        f"Before and after the hammer test: middle with {band_words(results)}",
+        f"Before and after the hammer test: median with {INTERVAL}",
         ("", "by the ranges alone", "with the test"),
         tuple(_rows(results)),
     )
@@ -91,9 +98,11 @@ def _rows(results: xr.Dataset) -> Iterator[tuple[str, str, str]]:
             symbol = unit(name.rpartition(".")[2])
             words = f"{named(name)}, {symbol}" if symbol else named(name)
             yield _row(words, values, likelihood, _number)
-    before, after = results["shell_level_before"].values, results["prior_sample_level"].values
+    ensemble = prior_ensemble(results)
+    before = results["shell_level_before"].values
+    after = before[:0] if ensemble is None else ensemble.level_dba
     known = np.isfinite(before), np.isfinite(after)
-    weight = results["shell_weight"].values[known[1]]
+    weight = after[known[1]] if ensemble is None else ensemble.before[known[1]]
     words = f"modelled level at {catalogue_receiver(results)}, dB(A)"
     yield (
         words,
@@ -111,7 +120,8 @@ def _row(
 def _band(values: Array, weight: Array, write: Callable[[float], str]) -> str:
     if not values.size:
         return rounding.NOTHING
-    return band_of(values, weight).middle_and_ends(write)
+    known = weighted_estimate(values, weight)
+    return written(known, effective_number(weight)).middle_and_ends(write)
 
 
 def _narrowed(values: Array, weight: Array) -> float:

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -10,17 +9,18 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
-from ..base.decibel import amplitude_of_level, level_of_amplitude
+from ..base.decibel import amplitude_of_level
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results.estimates import Estimate, effective_samples, estimate, is_sampled
 from ..study.scoring import Measurable
-from .bands import FINEST_DB, FINEST_RATIO, Band, band_of, has_band, hull, resampled
+from .bands import FINEST_RATIO, Band, band, hull, written
 from .column_values import column
-from .quantities import LINE, TOLERANCE_DB, Quantity
-from .study import catalogue_receiver, parameters
+from .quantities import TOLERANCE_DB, Quantity
+from .study import catalogue_receiver, parameters, speeds
 
 _ALL: Final = 0.995
-"""Share of the samples that reads as all of them."""
+"""Probability that reads as one."""
 
 
 @dataclass(frozen=True)
@@ -30,26 +30,22 @@ class Shift:
     Attributes
     ----------
     quantity : which
-    before, after : nominal values, shape (speed,)
-    sampled_db : change in each sample, shape (sample, speed); that of the nominal values where the
-        quantity is not sampled
-    weight : of the samples, of sum one
+    before, after : values, shape (speed,)
+    gain_db : change at every speed, shape (speed,), dB
+    bands : of the change at every speed: dB of levels, % of forces
+    grown, fallen : probability of a change by what could be measured, at the speed where it is
+        largest
     least : smallest changes that could be measured
-    weights : of bootstraps, shape (ensemble, sample); none where all samples are independent
     """
 
     quantity: Quantity
     before: Array
     after: Array
-    sampled_db: Array
-    weight: Array
+    gain_db: Array
+    bands: tuple[Band, ...]
+    grown: float
+    fallen: float
     least: Measurable
-    weights: Array | None = None
-
-    @property
-    def gain_db(self) -> Array:
-        """Change at every speed in dB; values below the floor count as the floor."""
-        return _gain(self.quantity, self.before, self.after)
 
     @property
     def worsens(self) -> bool:
@@ -60,35 +56,6 @@ class Shift:
     def improves(self) -> bool:
         """Whether it falls by what could be measured in most samples, at a speed at least."""
         return self.fallen > self.least.samples_ratio
-
-    @property
-    def grown(self) -> float:
-        """Share of the samples in which it grows by what could be measured; of all speeds most."""
-        return self._share(np.where(self._relative > self._threshold, 1.0, 0.0))
-
-    @property
-    def fallen(self) -> float:
-        """Share of the samples in which it falls by what could be measured; of all speeds most."""
-        return self._share(np.where(self._relative < -self._threshold, 1.0, 0.0))
-
-    @property
-    def _relative(self) -> Array:
-        """Changes in dB of levels, as ratios of forces, shape (sample, speed)."""
-        if self.quantity == LINE:
-            quietest = self.least.quietest_line_db
-            gain = np.maximum(self.after, quietest) - np.maximum(self.before, quietest)
-            return np.asarray(gain[None])
-        if self.quantity.is_level:
-            return self.sampled_db
-        return np.asarray(amplitude_of_level(self.sampled_db) - 1.0)
-
-    @property
-    def _threshold(self) -> float:
-        least = self.least
-        return least.level_db if self.quantity.is_level else least.force_ratio
-
-    def _share(self, counts: Array) -> float:
-        return float((self.weight @ counts).max())
 
     def short(self) -> str:
         """`1× force +22 to +24 %`, `total level +2.2 to +25.2 dB`, how often it is measurable."""
@@ -112,15 +79,6 @@ class Shift:
     def unit(self) -> str:
         """Unit of a change."""
         return "dB" if self.quantity.is_level else "%"
-
-    @cached_property
-    def bands(self) -> list[Band]:
-        """Band of the change at every speed: dB of levels, % of forces."""
-        changes, finest = self.sampled_db, FINEST_DB
-        if not self.quantity.is_level:
-            changes = np.asarray(100.0 * (amplitude_of_level(changes) - 1.0))
-            finest = 100.0 * FINEST_RATIO
-        return [band_of(changed, self.weight, self.weights, finest) for changed in changes.T]
 
     def sentence(self) -> str:
         """`grows by 81 % (to at most 120 N)` and the like, without the quantity's name."""
@@ -161,16 +119,50 @@ class Shift:
 def shift(
     results: xr.Dataset, quantity: Quantity, option: str, receiver: str | None = None
 ) -> Shift:
-    """The shift of a quantity by an option, at the catalogue's microphone if none is named."""
+    """Return the shift of a quantity by an option, at the published microphone if none is named."""
     at = receiver or catalogue_receiver(results)
     values = at_receiver(column(results, quantity.column), at)
-    before = values.sel(option=REFERENCE_OPTION).values
-    after = values.sel(option=option).values
-    if quantity.sampled and has_band(results, quantity.sampled):
-        sampled_db, weight, weights = _sampled_change(results, quantity, option, at)
-    else:
-        sampled_db, weight, weights = _gain(quantity, before, after)[None], np.ones(1), None
-    return Shift(quantity, before, after, sampled_db, weight, measurable(results), weights)
+    bands, gain_db = _changes(results, quantity, option, at)
+    chance = {
+        name: results[f"{name}_probability"]
+        .sel(judged_quantity=quantity.judged, option=option, receiver=at)
+        .max()
+        .item()
+        for name in ("increase", "decrease")
+    }
+    return Shift(
+        quantity,
+        values.sel(option=REFERENCE_OPTION).values,
+        values.sel(option=option).values,
+        gain_db,
+        bands,
+        chance["increase"],
+        chance["decrease"],
+        measurable(results),
+    )
+
+
+def _changes(
+    results: xr.Dataset, quantity: Quantity, option: str, receiver: str
+) -> tuple[tuple[Band, ...], Array]:
+    """Bands of the change at every speed, and the change in dB."""
+    at = {"option": option, "receiver": receiver}
+    changes = [estimate(results, quantity.change, speed=one, **at) for one in speeds(results)]
+    gain_db = np.array([change.value for change in changes])
+    if quantity.is_level:
+        each = (band(results, quantity.change, speed=one, **at) for one in speeds(results))
+        return tuple(each), gain_db
+    ratios = [
+        Estimate(*(100.0 * (amplitude_of_level(end) - 1.0) for end in one)) for one in changes
+    ]
+    if not is_sampled(results, quantity.change):
+        return tuple(Band(*one) for one in ratios), gain_db
+    effective = effective_samples(results)
+    return tuple(written(one, effective, 100.0 * FINEST_RATIO) for one in ratios), gain_db
+
+
+def _in_percent(change_db: float) -> float:
+    return 100.0 * (amplitude_of_level(change_db) - 1.0)
 
 
 def extent(shifts: Sequence[Shift]) -> Band:
@@ -186,34 +178,6 @@ def measurable(results: xr.Dataset) -> Measurable:
 def at_receiver(values: xr.DataArray, receiver: str) -> xr.DataArray:
     """The values at a microphone; forces have none and are returned as they are."""
     return values.sel(receiver=receiver) if "receiver" in values.dims else values
-
-
-def _gain(quantity: Quantity, before: Array, after: Array) -> Array:
-    before, after = np.maximum(before, quantity.floor), np.maximum(after, quantity.floor)
-    gain = after - before if quantity.is_level else level_of_amplitude(after / before)
-    return np.asarray(gain)
-
-
-def _sampled_change(
-    results: xr.Dataset, quantity: Quantity, option: str, receiver: str
-) -> tuple[Array, Array, Array]:
-    """Change in the samples that count, shape (sample, speed), dB, and their weights."""
-    counting, weight, weights = _counting(results)
-    sampled = at_receiver(results[f"{quantity.sampled}_by_sample"], receiver)
-    before, after = (
-        sampled.sel(option=name).transpose("sample", "speed").values[counting]
-        for name in (REFERENCE_OPTION, option)
-    )
-    return _gain(quantity, before, after), weight, weights
-
-
-@remembered
-def _counting(results: xr.Dataset) -> tuple[Array, Array, Array]:
-    """Which samples count, their weights of sum one, and those of their bootstraps."""
-    weight = results["sample_weight"].values[0]
-    counting = weight > 0.0
-    of_counting = weight[counting]
-    return counting, of_counting / of_counting.sum(), resampled(results, 0)[:, counting]
 
 
 def _percent(value: float) -> str:

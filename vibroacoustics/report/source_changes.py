@@ -9,10 +9,11 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.remembered import remembered
-from .bands import Band, band_words, bands_by_speed, hull
+from ..results.estimates import has_samples
+from .bands import INTERVAL, Band, bands_by_speed, hull
 from .quantities import TOLERANCE_DB, TOTAL
 from .shifts import shift
-from .study import at_catalogue, balancers, has_samples, many_speeds, options, speeds, total_of
+from .study import at_catalogue, balancers, many_speeds, options, speeds, total_of
 
 
 class SourceChange(NamedTuple):
@@ -46,7 +47,7 @@ def changes_sentence(results: xr.Dataset) -> str:
     if rest:
         which = "no other option" if louder or quieter else "no option"
         bands = [band for option in rest for band in source_change(results, option).total]
-        sampled = "In most samples " if has_samples(results) else "As assumed "
+        sampled = "In most samples " if has_samples(results) else "With nominal values "
         parts.append(
             f"{sampled}{which} changes the level of {of} by what could be "
             f"measured: {', '.join(rest)} by "
@@ -60,7 +61,7 @@ def change_sentences(results: xr.Dataset, option: str) -> list[str]:
     change = source_change(results, option)
     return [
         f"With all sources the modelled level changes by {_by_speed(results, change.sources)} "
-        f"({band_words(results)} of the samples), the total by {_by_speed(results, change.total)}.",
+        f"({INTERVAL}), the total by {_by_speed(results, change.total)}.",
         *_impacts(results, option),
     ]
 
@@ -99,7 +100,7 @@ def _impacts(results: xr.Dataset, option: str) -> list[str]:
             often = rounding.span(count, rounding.fixed)
             texts.append(
                 f"{whose} strike {often} times a revolution, with up to "
-                f"{rounding.significant(float(np.nanmax(force)))} N on a key (values as assumed)."
+                f"{rounding.significant(float(np.nanmax(force)))} N on a key."
             )
     return texts
 

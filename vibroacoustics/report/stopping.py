@@ -46,8 +46,9 @@ _PHASES: Final = ("steady", "stopping")
 def _finding(results: xr.Dataset) -> str:
     steady, stopping = results["stopping_foot_force"].sel(stopping_phase=list(_PHASES)).values
     speed = int(np.argmax(stopping))
+    whose = "The representative sample is meant. " if "representative_value" in results else ""
     return (
-        f"Switched off at {speeds(results)[speed]:g} rpm the shaft comes to rest in "
+        f"{whose}Switched off at {speeds(results)[speed]:g} rpm the shaft comes to rest in "
         f"{rounding.significant(results['stopping_duration'].values[speed])} s, after "
         f"{rounding.fixed(results['stopping_revolutions'].values[speed])} revolutions. The largest "
         f"force into a foot is {rounding.significant(stopping[speed])} N, against "

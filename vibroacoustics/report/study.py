@@ -2,7 +2,7 @@
 
 import json
 from functools import lru_cache
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 import numpy as np
 import xarray as xr
@@ -12,6 +12,7 @@ from ..base.remembered import remembered
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
 
+Labelled = TypeVar("Labelled", xr.DataArray, xr.Dataset)
 MOST_SPEEDS: Final = 6
 """Speeds that get a table, a panel or a curve of their own."""
 FEWEST_OVER_SPEED: Final = 3
@@ -120,8 +121,8 @@ def at_catalogue(results: xr.Dataset, **more: Any) -> dict[str, Any]:
     return {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results), **more}
 
 
-def a_weighted(level: xr.DataArray) -> xr.DataArray:
-    """A level by weighting as its A-weighted one; other levels are A-weighted already."""
+def a_weighted(level: Labelled) -> Labelled:
+    """Return the A-weighted of levels by weighting; other levels are A-weighted already."""
     return level.sel(weighting="A", drop=True) if "weighting" in level.dims else level
 
 
@@ -133,11 +134,6 @@ def total_of(results: xr.Dataset) -> str:
 def has_sources(results: xr.Dataset) -> bool:
     """Whether more than the moving parts drives the machine."""
     return bool(results.sizes["sound_source"] > 1)
-
-
-def has_samples(results: xr.Dataset) -> bool:
-    """Whether values were sampled from their ranges."""
-    return "sample_weight" in results
 
 
 def first_order_hz(results: xr.Dataset) -> Array:

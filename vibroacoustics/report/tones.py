@@ -1,33 +1,111 @@
-"""What the report says of tones, loudness and sharpness."""
+"""Tables of prominent tones, loudness and sharpness."""
 
 import math
 from contextlib import suppress
+from typing import Any, Final, NamedTuple
 
+import numpy as np
 import xarray as xr
 
 from ..base import rounding
 from ..base.errors import ParameterError
-from ..sound.critical_bands import noise_criterion_db, prominence_criterion_db
-from ..sound.ingredients import Ingredients, ingredients
+from ..results.estimates import Estimate, estimate, is_sampled
+from ..sound.ingredients import ingredients
 from ..sound.loudness import Loudness, available, loudness_of
-from ..sound.of_results import most_prominent
-from ..sound.tonality import Tone, prominent, tonal_spectrum, tones
+from ..sound.prominence import NO_TONE_DB
 from .study import catalogue_receiver, few_speeds, options, speeds
 from .tables import Table
 
-MOST_NAMES = 3
-TONE_HEAD = ("Tone", "Hz", "dB", "over noise, dB", "over bands, dB")
+LISTED_FROM: Final = 0.5
+"""A tone is listed if its probability of being audible and prominent is larger."""
+MOST_NAMES: Final = 3
+HEAD: Final = ("Option", "Prominent tones", "Tone", "Hz", "dB", "excess, dB")
+NOT_PROMINENT: Final = "not prominent"
+
+
+class ProminentTone(NamedTuple):
+    """A tone at a microphone.
+
+    Attributes
+    ----------
+    name, frequency_hz : of its strongest line
+    microphone : name
+    level_db : with the weaker lines that belong to it, median, re 20 µPa
+    excess_db : over its criterion
+    probability : of being audible and prominent
+    """
+
+    name: str
+    frequency_hz: float
+    microphone: str
+    level_db: float
+    excess_db: Estimate
+    probability: float
 
 
 def has_sound(results: xr.Dataset) -> bool:
-    """Whether results hold what sounds are made of."""
-    return {"pressure_line", "noise_band_level"} <= set(results)
+    """Return whether results hold what sounds are made of, and their tones."""
+    return {"pressure_line", "noise_band_level", "tone_excess"} <= set(results)
+
+
+def listed_tones(
+    results: xr.Dataset, option: str, microphone: str, speed: float
+) -> list[ProminentTone]:
+    """Return the tones that are audible and prominent in more than half of the weighted samples.
+
+    Parameters
+    ----------
+    results : of a run
+    option, microphone, speed : of its coordinates
+
+    Returns
+    -------
+    tones, the largest excess first
+    """
+    case = {"option": option, "receiver": microphone, "speed": speed}
+    chance = results["tone_probability"].sel(case).values
+    names = results["judged_tone"].values[chance > LISTED_FROM].tolist()
+    listed = [_tone(results, name, case) for name in names]
+    return sorted(listed, key=lambda tone: -tone.excess_db.value)
+
+
+def nearest_tone(
+    results: xr.Dataset, option: str, microphone: str, speed: float
+) -> ProminentTone | None:
+    """Return the tone with the largest excess, prominent or not; None without an audible tone."""
+    case = {"option": option, "receiver": microphone, "speed": speed}
+    excess = results["tone_excess"].sel(case).values
+    top = int(np.argmax(excess))
+    if excess[top] <= NO_TONE_DB:
+        return None
+    return _tone(results, str(results["judged_tone"].values[top]), case)
+
+
+def excess_words(excess_db: Estimate) -> str:
+    """Return the ends of the interval of an excess: dB, or that the tone is not prominent."""
+    ends = [
+        rounding.fixed(end) if end >= 0.0 else NOT_PROMINENT
+        for end in (excess_db.low, excess_db.high)
+    ]
+    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
 
 
 def tone_tables(results: xr.Dataset) -> list[Table]:
-    """Tones, loudness and sharpness of every option at the catalogue's microphone, by speed."""
+    """Return tones, loudness and sharpness of every option at the published receiver, by speed."""
     name = catalogue_receiver(results)
     return [_table(results, name, speed) for speed in speeds(few_speeds(results))]
+
+
+def _tone(results: xr.Dataset, name: str, case: dict[str, Any]) -> ProminentTone:
+    where = {**case, "judged_tone": name}
+    return ProminentTone(
+        name,
+        float(results["judged_tone_frequency"].sel(speed=case["speed"], judged_tone=name)),
+        str(case["receiver"]),
+        estimate(results, "tone_level", **where).value,
+        estimate(results, "tone_excess", **where),
+        estimate(results, "tone_probability", **where).value,
+    )
 
 
 def _table(results: xr.Dataset, microphone: str, speed: float) -> Table:
@@ -36,43 +114,51 @@ def _table(results: xr.Dataset, microphone: str, speed: float) -> Table:
     if available():
         with suppress(ParameterError):  # louder than the standard goes: without it
             loud = list(loudness_of(parts))
+    sampled = is_sampled(results, "tone_excess")
     rows = tuple(
-        (option, *_tone_cells(part), *_loudness_cells(one))
-        for option, part, one in zip(options(results), parts, loud, strict=True)
+        (
+            option,
+            _names(listed_tones(results, option, microphone, speed)),
+            *_cells(nearest_tone(results, option, microphone, speed), sampled),
+            *((_percent(_some_tone(results, option, microphone, speed)),) if sampled else ()),
+            *_loudness_cells(loudness),
+        )
+        for option, loudness in zip(options(results), loud, strict=True)
     )
+    of_samples = ("80 % interval, dB", "probability", "some tone") if sampled else ()
     with_loudness = () if None in loud else ("sone", "acum")
-    head = ("Option", "Prominent tones", *TONE_HEAD, *with_loudness)
-    caption = f"Prominent tones, and the one that stands out most, at {microphone}, {speed:g} rpm"
+    head = (*HEAD, *of_samples, *with_loudness)
+    caption = f"Prominent tones, and the tone with the largest excess, {microphone}, {speed:g} rpm"
     return Table(caption, head, rows, frozenset({0, 1, 2}))
 
 
-def _tone_cells(parts: Ingredients) -> tuple[str, ...]:
-    judged = tones(tonal_spectrum(parts))
-    nearest = most_prominent(judged)
-    if nearest is None:
-        return ("none", "none", "", "", "", "")
-    return (_names(prominent(judged)), *tone_row(nearest))
-
-
-def tone_row(tone: Tone) -> tuple[str, ...]:
-    """Cells under `TONE_HEAD`: ratios with the criterion in brackets."""
-    return (
+def _cells(tone: ProminentTone | None, sampled: bool) -> tuple[str, ...]:
+    if tone is None:
+        return ("none", *[""] * (5 if sampled else 3))
+    cells = (
         tone.name,
         rounding.fixed(tone.frequency_hz),
         rounding.level(tone.level_db),
-        _ratio(tone.noise_ratio_db, noise_criterion_db(tone.frequency_hz)),
-        _ratio(tone.prominence_db, prominence_criterion_db(tone.frequency_hz)),
+        rounding.fixed(tone.excess_db.value),
     )
+    if not sampled:
+        return cells
+    return (*cells, excess_words(tone.excess_db), _percent(tone.probability))
 
 
-def _ratio(value_db: float, criterion_db: float) -> str:
-    value = rounding.fixed(value_db) if math.isfinite(value_db) else "∞"
-    return f"{value} ({rounding.fixed(criterion_db)})"
+def _some_tone(results: xr.Dataset, option: str, microphone: str, speed: float) -> float:
+    """Probability that some tone is prominent."""
+    case = {"option": option, "receiver": microphone, "speed": speed}
+    return estimate(results, "any_tone_probability", **case).value
 
 
-def _names(judged: list[Tone]) -> str:
-    names = [tone.name for tone in judged[:MOST_NAMES]]
-    more = len(judged) - len(names)
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.0f} %"
+
+
+def _names(listed: list[ProminentTone]) -> str:
+    names = [tone.name for tone in listed[:MOST_NAMES]]
+    more = len(listed) - len(names)
     return ", ".join(names + ([f"{more} more"] if more else [])) or "none"
 
 

@@ -7,10 +7,17 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
+from ..results.estimates import (
+    effective_number,
+    has_samples,
+    prior_ensemble,
+    sample_numbers,
+    weighted_estimate,
+)
 from ..uncertainty.shares import ASKED
-from .bands import band_of, band_words, percent, sample_values
+from .bands import INTERVAL, percent, written
 from .sampled_words import file_unit, named
-from .study import catalogue_receiver, has_samples
+from .study import catalogue_receiver, overall_noise
 from .tables import Table
 
 NOT_RESOLVED: Final = "not resolved"
@@ -79,8 +86,7 @@ def unknowns_table(results: xr.Dataset) -> Table | None:
         return None
     words = [_knowledge(results, name) for name in knowledge]
     return Table(
-        "Unknowns that the modelled level depends on: median of the values with "
-        f"{band_words(results)}",
+        f"Unknowns that the modelled level depends on: median of the values with {INTERVAL}",
         (
             "Unknown",
             *(f"value {word}" for word in words),
@@ -88,6 +94,21 @@ def unknowns_table(results: xr.Dataset) -> Table | None:
         ),
         rows,
     )
+
+
+def most_valuable(results: xr.Dataset) -> str:
+    """Return the most valuable measurement; empty where the samples do not show one."""
+    if "parameter_information" in results:
+        for choice in results["choice"].values.tolist():
+            here = results.sel(choice=choice)
+            best = _best(here)
+            if float(here["perfect_information"]) >= SMALLEST_DB and best is not None:
+                return named(str(results["uncertain_parameter"].values[best]))
+    if not has_samples(results) or "baseline_band_level" in results:
+        return ""
+    if overall_noise(results) is None:
+        return "the A-weighted level at a microphone, as none is published"
+    return "a third-octave spectrum, which separates the sources"
 
 
 def measure_next_sentence(results: xr.Dataset) -> str:
@@ -108,11 +129,13 @@ def measure_next_sentence(results: xr.Dataset) -> str:
 
 def _most_valuable(results: xr.Dataset) -> str:
     """The unknown worth most for a choice, or that the samples do not show which it is."""
-    gain, choice = results["parameter_information"].values, results["choice"].item()
-    best = int(gain.argmax())
-    certain = int(results["parameter_information_votes"][best]) == ASKED
+    gain, choice, best = (
+        results["parameter_information"].values,
+        results["choice"].item(),
+        _best(results),
+    )
     everything = f"{rounding.fixed(float(results['perfect_information']))} dB"
-    if certain and gain[best] > float(results["parameter_information_floor"]):
+    if best is not None:
         name = named(str(results["uncertain_parameter"].values[best]))
         return (
             f"Before an option is chosen on {choice}, measure {name}: its value is worth "
@@ -120,21 +143,29 @@ def _most_valuable(results: xr.Dataset) -> str:
         )
     return (
         f"All unknown values together are worth {everything} for a choice on {choice}; which one "
-        f"to measure, {sample_values(results).computed} samples do not show"
+        f"to measure, {sample_numbers(results).computed} samples do not show"
     )
+
+
+def _best(results: xr.Dataset) -> int | None:
+    """Number of the unknown that is worth most for a choice; none if chance could give it."""
+    gain = results["parameter_information"].values
+    best = int(gain.argmax())
+    certain = int(results["parameter_information_votes"][best]) == ASKED
+    return best if certain and gain[best] > float(results["parameter_information_floor"]) else None
 
 
 def _values(results: xr.Dataset, name: str, prior: int) -> str:
     """Median and interval of an unknown's values by a prior; by equal weights for -1."""
     if prior >= 0 and not has_samples(results):
         return rounding.NOTHING
-    values = (
-        results["prior_sample_value"].sel(uncertain_parameter=name).values
-        / file_unit(results, name)[1]
-    )
-    before = results["shell_weight"].values if "shell_weight" in results else np.ones(values.size)
-    weight = before if prior < 0 else results["prior_sample_weight"].values[prior]
-    return band_of(values, weight).middle_and_ends(rounding.three_digits)
+    ensemble = prior_ensemble(results)
+    if ensemble is None:
+        return rounding.NOTHING
+    values = ensemble.value.sel(uncertain_parameter=name).values / file_unit(results, name)[1]
+    weight = ensemble.before if prior < 0 else ensemble.weight[prior]
+    known = written(weighted_estimate(values, weight), effective_number(weight))
+    return known.middle_and_ends(rounding.three_digits)
 
 
 def _with_unit(results: xr.Dataset, name: str) -> str:

@@ -1,13 +1,12 @@
-"""The verdict that opens the report: headline and reasons."""
+"""Reasons for the summary, in sentences."""
 
 from collections.abc import Sequence
 from typing import Final
 
-import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..base.vocabulary import REFERENCE_OPTION
+from ..results.estimates import has_samples
 from . import conflict
 from .baseline import not_measured
 from .column_values import column
@@ -15,24 +14,22 @@ from .comparison import comparison
 from .energy_words import spectrum_sentence
 from .evidence import agreement_sentence
 from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
-from .quantities import FOOT_FORCE, FORCE, HEARD_DB, LINE, MOMENT, TOLERANCE_DB, TOTAL
+from .quantities import FOOT_FORCE, FORCE, MOMENT
 from .ranking_words import ranking_sentence
 from .remainder import growth_sentence, measured_rpm, remainder_band
 from .sampled_words import not_sampled_sentence
-from .shifts import measurable, shift
+from .shifts import shift
 from .source_changes import changes_sentence
 from .source_words import (
     carrier_sentence,
-    left_out_sentence,
+    samples_sentence,
     shares_sentence,
-    sure_sentence,
 )
 from .study import (
     at_catalogue,
     balancers,
     catalogue_receiver,
     first_order_hz,
-    has_samples,
     has_sources,
     many_speeds,
     overall_noise,
@@ -43,38 +40,17 @@ from .study import (
 from .tables import Table
 from .unknowns import measure_next_sentence
 
-_NOTHING_DB: Final = 0.0005
-"""A smaller change is none."""
 _HALF: Final = 0.5
 """Of the energy of the total level, from which on it is not called measured."""
 
 
-def headline(results: xr.Dataset) -> str:
-    """What carries the level where that is modelled; else what balancing does to the level."""
-    receiver, names = catalogue_receiver(results), balancers(results)
-    if has_sources(results):
-        return sure_sentence(results) if has_samples(results) else carrier_sentence(results)
-    if not names:
-        return f"This study has no balancing option beside {REFERENCE_OPTION}."
-    line = np.concatenate([shift(results, LINE, name).gain_db for name in names])
-    total = np.concatenate([shift(results, TOTAL, name).gain_db for name in names])
-    change = rounding.span(line, rounding.signed)
-    of_line = f"At {receiver} the balancing options change the 1× line by {change} dB"
-    if overall_noise(results) is None and measured_rpm(results) is None:
-        return (
-            f"{of_line}. What that does to the level of the whole machine is not known: none is "
-            "published."
-        )
-    return f"{of_line}, {_total_words(results, float(abs(total).max()))}"
-
-
 def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]:
-    """Sentences that explain the headline, with the verdicts on the options."""
+    """Return the sentences that explain the summary, with the verdicts on the options."""
     with_sources = has_sources(results)
     texts = [_as_it_is(results)]
     if with_sources:
         texts += [shares_sentence(results), spectrum_sentence(results)]
-        texts += [*_of_evidence(results), left_out_sentence(results)]
+        texts += [*_of_evidence(results), samples_sentence(results)]
         texts[:0] = _of_sources(results)
     else:
         texts += filter(None, [_remainder(results), not_sampled_sentence(results)])
@@ -106,22 +82,6 @@ def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:
     rows = tuple((one.option, one.judgement, one.reason) for one in verdicts)
     head = ("Option", "Verdict", "Because")
     return Table("Each option against no balancer", head, rows, frozenset({0, 1, 2}))
-
-
-def _total_words(results: xr.Dataset, change_db: float) -> str:
-    total = f"the total of {_total_dba(results):g} dB(A)"
-    if change_db < _NOTHING_DB:
-        return f"and {total} not at all."
-    size = (
-        f"by less than {TOLERANCE_DB:g} dB"
-        if change_db < TOLERANCE_DB
-        else f"by at most {rounding.fixed(change_db)} dB"
-    )
-    if change_db < measurable(results).level_db:
-        return f"but {total} hardly at all: {size}, which nobody can hear or measure."
-    if change_db < HEARD_DB:
-        return f"but {total} only {size}, which can be measured but hardly heard."
-    return f"and {total} {size}, which can be heard."
 
 
 def _as_it_is(results: xr.Dataset) -> str:

@@ -8,6 +8,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from ..base.errors import SchemaError
 from ..base.hashing import sha256
+from .estimates import has_samples
 from .run_attributes import JSON_ATTRIBUTES, Parameters, Words
 from .run_variables import check_variables
 
@@ -87,7 +88,7 @@ def _check_parts(results: xr.Dataset, parameters: Parameters) -> None:
     hangs = "block_velocity_order" in results or "block" in results["body"].values
     alone = results.sizes["sound_source"] == 1
     needed = {
-        "ranges": parameters.ranges is not None or "sample_weight" not in results,
+        "ranges": parameters.ranges is not None or not has_samples(results),
         "options": not hangs or set(results["option"].values.tolist()) <= parameters.options.keys(),
         "machine.suspension": not hangs or suspended,
         "machine.stopping": machine.stopping or "stopping_force" not in results,

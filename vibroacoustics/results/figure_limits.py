@@ -12,7 +12,8 @@ from ..base.decibel import level_of_amplitude
 from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..recordings.quantities import quantity
-from .figure_limit import WEIGHTED, FigureLimit
+from .estimates import in_samples, is_sampled
+from .figure_limit import HIGHEST, WEIGHTED, FigureLimit
 from .limit import EVERY_CHANNEL, PRESSURE_UNIT
 from .order_comparison import ORDER_TOLERANCE, channel_units, listed
 
@@ -21,7 +22,15 @@ PRESSURE: Final = "pressure "
 
 
 class CheckedFigure(NamedTuple):
-    """A figure of one of two results beside its limit; values are in the limit's unit."""
+    """A figure of one of two results beside its limit; values are in the limit's unit.
+
+    Attributes
+    ----------
+    result, figure, speed_rpm : which; the speed is not a number where the figure is of all
+    value, limit, unit, side, margin : beside the limit
+    origin : file and line of the limit
+    probability : that the limit holds, of a total of a study with samples; else not a number
+    """
 
     result: str
     figure: str
@@ -32,6 +41,7 @@ class CheckedFigure(NamedTuple):
     side: str
     margin: float
     origin: str
+    probability: float = float("nan")
 
     @property
     def is_within(self) -> bool:
@@ -81,10 +91,10 @@ def _checked(compared: Compared, limit: FigureLimit) -> list[CheckedFigure]:
     rows = [
         CheckedFigure(
             letter, subject, speed, value, limit.limit, limit.unit, limit.side,
-            limit.margin(value), limit.origin,
+            limit.margin(value), limit.origin, probability,
         )
         for letter, result, option, names in compared.sides()
-        for subject, speed, value in _values(
+        for subject, speed, value, probability in _values(
             compared.orders, result, option, names, limit, channels
         )
         if np.isfinite(value) and _holds(limit, speed)
@@ -119,8 +129,10 @@ def _channels(orders: xr.Dataset, limit: FigureLimit) -> list[int]:
     return rows
 
 
-Values = Iterator[tuple[str, float, float]]
-"""Subject, speed (not a number where it is of all), value in the limit's unit."""
+Values = Iterator[tuple[str, float, float, float]]
+"""Subject, speed (not a number where it is of all), value in the limit's unit, and the probability
+that the limit holds (not a number where it is not known)."""
+_UNKNOWN: Final = float("nan")
 
 
 def _values(
@@ -149,26 +161,33 @@ def _orders(there: xr.Dataset, names: str, channel: str, limit: FigureLimit) -> 
     for speed, rms in zip(there["speed"].values, there[name].values[:, at], strict=True):
         for value in rms:
             level = float(level_of_amplitude(value / REFERENCE_PRESSURE_PA))
-            yield f"order {limit.order:g} of {channel}", speed, limit.in_unit(value, level)
+            value_in_unit = limit.in_unit(value, level)
+            yield f"order {limit.order:g} of {channel}", speed, value_in_unit, _UNKNOWN
 
 
 def _of_study(result: xr.Dataset, option: str, channel: str, limit: FigureLimit) -> Values:
-    """Totals with the remainder by A, of the modelled sound by others; modelled bands."""
+    """A-weighted totals and bands of the machine; other totals are of the modelled sound."""
     receiver = channel.removeprefix(PRESSURE)
     subject = limit.subject.replace(limit.channel, channel)
     if limit.figure == "band":
-        if "modelled_band_level" in result and limit.band_hz in result["band"].values:
-            level = result["modelled_band_level"].sel(
-                option=option, receiver=receiver, band=limit.band_hz
+        if "total_band_level" in result and limit.band_hz in result["noise_band"].values:
+            level = result["total_band_level"].sel(
+                option=option, receiver=receiver, noise_band=limit.band_hz
             )
-            yield from _by_speed(subject, level["path_speed"].values, level.values)
+            yield from _by_speed(subject, level["speed"].values, level.values)
         return
     weighting = WEIGHTED[limit.unit]
     level = result["level_total"]
     if weighting != "A":
         level = result["level_modelled"].sel(weighting=weighting)
     of_option = level.sel(option=option, receiver=receiver)
-    yield from _by_speed(subject, of_option["speed"].values, of_option.values)
+    chances: Array | None = None
+    if weighting == "A" and is_sampled(result, "level_total"):
+        total = in_samples(result, "level_total")
+        rows = total.values.sel(option=option, receiver=receiver).values
+        holds = rows <= limit.limit if limit.side == HIGHEST else rows >= limit.limit
+        chances = np.asarray(total.weight @ holds)
+    yield from _by_speed(subject, of_option["speed"].values, of_option.values, chances)
 
 
 def _of_recording(result: xr.Dataset, channel: str, limit: FigureLimit) -> Values:
@@ -181,12 +200,13 @@ def _of_recording(result: xr.Dataset, channel: str, limit: FigureLimit) -> Value
     if limit.figure == "band":
         level = level.isel(band=np.flatnonzero(level["band"].values == limit.band_hz))
     for value in np.atleast_1d(level.values):
-        yield limit.subject.replace(limit.channel, channel), float("nan"), float(value)
+        yield limit.subject.replace(limit.channel, channel), _UNKNOWN, float(value), _UNKNOWN
 
 
-def _by_speed(subject: str, speeds: Array, values: Array) -> Values:
-    for speed, value in zip(speeds, values, strict=True):
-        yield subject, float(speed), float(value)
+def _by_speed(subject: str, speeds: Array, values: Array, chances: Array | None = None) -> Values:
+    known = np.full(len(speeds), _UNKNOWN) if chances is None else chances
+    for speed, value, chance in zip(speeds, values, known, strict=True):
+        yield subject, float(speed), float(value), float(chance)
 
 
 def _criterion(result: xr.Dataset, option: str, limit: FigureLimit) -> Values:
@@ -198,4 +218,4 @@ def _criterion(result: xr.Dataset, option: str, limit: FigureLimit) -> Values:
         raise ParameterError(
             f"{limit.origin}: unit = {limit.unit!r}: criterion {limit.criterion} is in {unit}"
         )
-    yield limit.subject, float("nan"), float(value)
+    yield limit.subject, _UNKNOWN, float(value), _UNKNOWN

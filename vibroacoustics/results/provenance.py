@@ -18,7 +18,7 @@ from ..recordings.reader import READERS
 from ..study.order_analysis import OrderAnalysis
 from ..study.study import Study
 
-SCHEMA_VERSION: Final = "2"
+SCHEMA_VERSION: Final = "3"
 RECORDING_SCHEMA_VERSION: Final = "1"
 """Of orders of a recording and of compared orders."""
 NOT_INSTALLED: Final = "not installed"

@@ -14,6 +14,7 @@ from ..base.vocabulary import (
     COORDINATES,
     REFERENCE_OPTION,
     RIGID_BODY_DOFS,
+    SUFFIXES,
     VARIABLES,
     WEIGHTINGS,
     check,
@@ -25,7 +26,6 @@ _RULES: Final = tomllib.loads(
 """Which variables a run has, and with what; the file explains each table."""
 COORDINATES_OF: Final[dict[str, list[str]]] = _RULES["coordinates_of"]
 EMPTY_WHERE_NONE: Final = frozenset(_RULES["empty_where_none"])
-ONLY_SAMPLES_THAT_COUNT: Final = frozenset(_RULES["only_samples_that_count"])
 ADDED_MASS: Final = "added_mass_kg"
 """Figure that every option has."""
 LABELS: Final[dict[str, tuple[str, ...]]] = {
@@ -67,8 +67,6 @@ def check_variables(results: xr.Dataset) -> None:
     for variable in known.data_vars.values():
         _check_dimensions(known, variable)
         check_numbers(variable)
-    for name in ONLY_SAMPLES_THAT_COUNT & known.keys():
-        _check_finite(known[name].isel(sample=known["sample_weight"].values[0] > 0.0))
     _check_labels(known)
 
 
@@ -114,8 +112,15 @@ def check_numbers(array: xr.DataArray) -> None:
     """
     if array.dtype.kind not in "iufc":
         raise SchemaError(f"{array.name} holds no numbers")
-    if array.name not in EMPTY_WHERE_NONE | ONLY_SAMPLES_THAT_COUNT:
+    if _without_suffix(str(array.name)) not in EMPTY_WHERE_NONE:
         _check_finite(array)
+
+
+def _without_suffix(name: str) -> str:
+    """Name of the variable that has a statistic under this name."""
+    for suffix in SUFFIXES.values():
+        name = name.removesuffix(suffix)
+    return name
 
 
 def _check_finite(array: xr.DataArray) -> None:

@@ -21,6 +21,7 @@ from . import cache, hashed
 from .files import Staging, naming, only_writer, replace_all, staging
 from .lock import locked
 from .netcdf import from_bytes, write_netcdf
+from .version_2 import of_this_version
 
 _CACHE_IS_USED: Final = ContextVar("_CACHE_IS_USED", default=True)
 
@@ -83,16 +84,16 @@ def open_results(path: str | Path) -> xr.Dataset:
 
 
 def open_with_hash(path: str | Path) -> tuple[xr.Dataset, str]:
-    """`open_results`, and the hash of what was read."""
+    """`open_results`, and the hash of what was read; a run of version 2 is raised."""
     path = Path(path)
     content, digest = hashed.read_checked(path)
-    return from_bytes(content, path), digest
+    return of_this_version(from_bytes(content, path), path), digest
 
 
 def results_in(folder: Folder, name: str) -> xr.Dataset:
     """`open_results` of a file of a folder, which is no link to another."""
     path = folder.path / name
-    return from_bytes(hashed.read_checked(path, folder).content, path)
+    return of_this_version(from_bytes(hashed.read_checked(path, folder).content, path), path)
 
 
 @contextmanager

@@ -2,7 +2,9 @@
 
 import xarray as xr
 
+from ..results.estimates import in_samples
 
-def largest_by_sample(results: xr.Dataset, name: str) -> xr.DataArray | None:
-    """Largest of a variable over the speeds, (sample, option); none where it was not sampled."""
-    return results[name].max("speed", skipna=False) if name in results else None
+
+def largest_by_sample(results: xr.Dataset, name: str) -> xr.DataArray:
+    """Largest of a variable over the speeds, (sample, option)."""
+    return in_samples(results, name).values.max("speed", skipna=False)

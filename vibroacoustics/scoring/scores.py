@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.vocabulary import check, stamp
+from ..results.estimates import has_samples, sample_weights
 from ..study.scoring import Scoring
 from .acceptability import any_weights, rank_acceptability
 from .ranking import METHODS, utilities
@@ -97,7 +98,7 @@ def _positions(
     settings: Scoring,
 ) -> Array:
     """Probability of each rank by any weights and those of the study, (2, option, position)."""
-    weight = results["sample_weight"].values[0] if "sample_weight" in results else np.ones(1)
+    weight = sample_weights(results) if has_samples(results) else np.ones(1)
     of_samples = np.repeat(utility[None], weight.size, axis=0)
     for number, criterion in enumerate(criteria):
         if criterion.by_sample is not None:

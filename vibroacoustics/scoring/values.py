@@ -7,7 +7,9 @@ import xarray as xr
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..base.quantiles import weighted_quantiles
 from ..base.units import split_key
+from ..results.estimates import has_samples, sample_weights
 from ..study.criterion import CRITERIA
 from ..study.scoring import CriterionScale, Scoring
 
@@ -18,7 +20,7 @@ class Scored(NamedTuple):
     Attributes
     ----------
     name, label, unit : key in study files, plain words, symbol
-    values : (option,), in that unit
+    values : (option,), in that unit; medians of the weighted samples where there are some
     by_sample : (sample, option), in that unit; none where no sample changes it
     """
 
@@ -63,19 +65,21 @@ def _computed(name: str, results: xr.Dataset) -> Scored:
     for option in _options_without(values):
         raise ParameterError(f"criterion {name}: has no finite value for the option {option}")
     scored = _worded(name, criterion.label, criterion.unit, values)
-    sampled = criterion.by_sample(results) if "sample_weight" in results else None
+    sampled = criterion.by_sample(results) if has_samples(results) else None
     if sampled is None:
         return scored
-    counts = results["sample_weight"].values[0] > 0.0
-    return scored._replace(by_sample=_of_samples(name, sampled, counts))
+    weight = sample_weights(results)
+    by_sample = _of_samples(name, sampled)
+    (median,) = weighted_quantiles(by_sample, weight, [0.5])
+    return scored._replace(values=median, by_sample=by_sample)
 
 
-def _of_samples(name: str, sampled: xr.DataArray, counts: Array) -> Array:
-    """Values in each sample, (sample, option); finite in those whose weight is not 0."""
+def _of_samples(name: str, sampled: xr.DataArray) -> Array:
+    """Values in each sample, (sample, option)."""
     if set(sampled.dims) != {"sample", "option"}:
         raise ParameterError(f"criterion {name}: by sample has dims {sampled.dims}")
     values = np.asarray(sampled.transpose("sample", "option").values)
-    if not np.isfinite(values[counts]).all():
+    if not np.isfinite(values).all():
         raise ParameterError(f"criterion {name}: by sample has values that are not finite")
     return values
 

@@ -1,4 +1,4 @@
-"""Critical bands, criteria and the threshold of hearing of discrete tones (ECMA-418-1, ECMA-74)."""
+"""Critical bands and criteria of discrete tones (ECMA-418-1)."""
 
 from typing import Final, NamedTuple
 
@@ -13,11 +13,6 @@ _LOWER: Final = ((171.4, 20.0, 0.0, 0.0), (1600.0, -149.5, 1.001, -6.9e-5))
 _LOWER_ABOVE: Final = (6.8, 0.806, -8.2e-6)
 _UPPER_TO_1600: Final = (149.5, 1.035, 7.7e-5)
 _UPPER_ABOVE: Final = (3.3, 1.215, 2.16e-5)
-_THRESHOLD: Final = (
-    (305.0, 167.5, 87.3212, (1.415532, -2.451068, 1.498869, -6.983224, 8.621226)),
-    (2230.0, 1157.5, 488.582, (0.397994, -0.891839, -0.815138, -1.221319, -7.600754)),
-    (14000.0, 7250.0, 3033.25, (1.584978, -2.766599, -6.9061912, 10.138553, -3.149339)),
-)
 
 
 class Edges(NamedTuple):
@@ -81,16 +76,3 @@ def noise_criterion_db(frequency_hz: float) -> float:
 def prominence_criterion_db(frequency_hz: float) -> float:
     """Prominence ratio from which a tone is prominent: 9 + 10 lg(1000/f), 9 from 1 kHz, dB."""
     return 9.0 + 10.0 * max(float(np.log10(1000.0 / frequency_hz)), 0.0)
-
-
-def hearing_threshold_db(frequency_hz: float) -> float:
-    """Lower threshold of hearing, dB: a polynomial of fourth degree a range (ECMA-74, D.7.1).
-
-    Parameters
-    ----------
-    frequency_hz : 20 Hz to 14 kHz
-    """
-    _, mean, deviation, constants = next(
-        part for part in _THRESHOLD if frequency_hz < part[0] or part is _THRESHOLD[-1]
-    )
-    return float(np.polyval(constants, (frequency_hz - mean) / deviation))

@@ -8,10 +8,17 @@ import xarray as xr
 
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import amplitude_of_level, power_of_level
+from ..base.decibel import (
+    SILENCE_DB,
+    amplitude_of_level,
+    energy_sum,
+    mean_square_level,
+    power_of_level,
+)
 from ..base.errors import ParameterError, SchemaError
 from ..base.units import shaft_frequency_hz
 from ..levels.bands import OCTAVE_RATIO, Band
+from ..levels.weighting import WEIGHTING
 from ..mechanics.added import third_octave_number
 
 _ORDER: Final = "order "
@@ -21,9 +28,13 @@ HALF_BAND: Final = OCTAVE_RATIO ** (1.0 / 6.0)
 """Upper edge of a third octave over its centre, 10^0.05."""
 _AT_MICROPHONE: Final = (
     "pressure_line", "noise_band_level", "unmodelled_band_level", "baseline_band_level",
-    "baseline_order_level",
+    "baseline_order_level", "level_total", "representative_noise_band_level",
+    "representative_unmodelled_band_level", "total_band_level",
 )  # fmt: skip
-_IN_ROOM: Final = ("room_pressure_line", "room_plate_line_level", "room_noise_band_level")
+_IN_ROOM: Final = (
+    "room_pressure_line", "room_plate_line_level", "room_noise_band_level", "room_level",
+    "room_plate_level",
+)  # fmt: skip
 DUST: Final = 1e-9
 """Of a band's mean square: less is what rounding leaves where lines are taken out."""
 
@@ -78,6 +89,17 @@ class Ingredients:
             0.5 * np.sum(np.abs(self.lines.pressure_pa) ** 2) + np.sum(self.bands.pressure_pa**2)
         )
 
+    @property
+    def a_weighted_db(self) -> float:
+        """A-weighted level of the sound, noise weighted at its midband frequencies, dB."""
+        of_lines, of_noise = (
+            power_of_level(WEIGHTING["A"](hertz))
+            for hertz in (self.lines.frequency_hz, self.bands.centre_hz)
+        )
+        square = 0.5 * np.sum(of_lines * np.abs(self.lines.pressure_pa) ** 2)
+        square += np.sum(of_noise * self.bands.pressure_pa**2)
+        return float(mean_square_level(square, REFERENCE_PRESSURE_PA))
+
     def louder(self, by_db: float) -> "Ingredients":
         """The same sound at a level higher by some dB."""
         factor = amplitude_of_level(by_db)
@@ -93,11 +115,12 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
     The one source of every rendering: of `vibroacoustics listen` as of the report's page. Lines are
     the sum of all sources; orders of a measured baseline have its levels, with the phases of the
     model (0 where it has no such order). Noise is that of the sources and what the model does not
-    explain: the remainder of the catalogue level or, in bands that were measured, the baseline.
-    Their sum is `level_total`, with A-weighting of noise at its midband frequencies.
+    explain: unmodelled noise or, in bands that were measured, the baseline. In a run with samples
+    they are those of the representative sample, set to the median level of the option in each third
+    octave, then to its median `level_total`.
 
-    At a listener in a room the sum is `room_level` and, where the feet push a plate,
-    `room_plate_level` together: what comes that way adds to the energy of the lines and leaves
+    At a listener in a room they are set to `room_level` and, where the feet push a plate,
+    `room_plate_level` together: structure-borne sound adds to the energy of the lines and leaves
     them their phase (assumed).
 
     Parameters
@@ -118,18 +141,60 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
         The results are of a version that kept no noise.
     """
     case = _case(results, option, microphone, speed)
-    if "listener" in case.coords:
-        return Ingredients(_room_lines(case), _bands(case, _square(case["room_noise_band_level"])))
+    sound = _in_room(case) if "listener" in case.coords else _at_microphone(case)
+    return _at_median(case, sound) if "representative_value" in results else sound
+
+
+def _at_microphone(case: xr.Dataset) -> Ingredients:
     lines = _measured_orders(case, _modelled_lines(case))
     number = third_octave_number(case["noise_band"].values)
-    square = _square(case["noise_band_level"]) + _square(case["unmodelled_band_level"])
+    one = "representative_" if "representative_noise_band_level" in case else ""
+    square = _square(case[f"{one}noise_band_level"]) + _square(case[f"{one}unmodelled_band_level"])
     if "baseline_band_level" in case:
         square = _measured_bands(case, lines, number, square)
     return Ingredients(lines, _bands(case, square))
 
 
-def _microphones_and_listeners(results: xr.Dataset) -> list[str]:
-    """Names of the microphones, then of the listeners in a room."""
+def _in_room(case: xr.Dataset) -> Ingredients:
+    return Ingredients(_room_lines(case), _bands(case, _square(case["room_noise_band_level"])))
+
+
+def _at_median(case: xr.Dataset, sound: Ingredients) -> Ingredients:
+    """The sound at the median levels of its option, first by third octave; silence is itself."""
+    if "total_band_level" in case:
+        sound = _in_bands(case, sound)
+    names = [name for name in ("level_total", "room_level", "room_plate_level") if name in case]
+    wanted = energy_sum(np.array([float(case[name]) for name in names]), axis=0)
+    level_db = sound.a_weighted_db
+    sounds = np.isfinite(level_db) and level_db > SILENCE_DB
+    return sound.louder(float(wanted) - level_db) if sounds else sound
+
+
+def _in_bands(case: xr.Dataset, sound: Ingredients) -> Ingredients:
+    """The sound with the median level in each third octave in which it sounds."""
+    number = third_octave_number(case["noise_band"].values)
+    of_lines, of_bands = (
+        third_octave_number(hertz)[:, None] == number
+        for hertz in (sound.lines.frequency_hz, sound.bands.centre_hz)
+    )
+    square = 0.5 * np.abs(sound.lines.pressure_pa) ** 2 @ of_lines
+    square += sound.bands.pressure_pa**2 @ of_bands
+    sounds = square > 0.0
+    factor = np.ones(number.size)
+    factor[sounds] = np.sqrt(_square(case["total_band_level"])[sounds] / square[sounds])
+    return Ingredients(
+        replace(sound.lines, pressure_pa=sound.lines.pressure_pa * _factors(of_lines, factor)),
+        replace(sound.bands, pressure_pa=sound.bands.pressure_pa * _factors(of_bands, factor)),
+    )
+
+
+def _factors(in_band: Array, factor: Array) -> Array:
+    """Factor of the band of each line; one outside of all bands."""
+    return np.where(in_band.any(axis=1), in_band @ factor, 1.0)
+
+
+def positions(results: xr.Dataset) -> list[str]:
+    """Return the names of the microphones, then of the listeners in a room."""
     names = results.variables["receiver"].values.tolist()
     if "room_level" in results:
         names += results["listener"].values.tolist()
@@ -141,7 +206,7 @@ def _case(results: xr.Dataset, option: str, microphone: str, speed: float) -> xr
         raise SchemaError("the results hold no noise of third octaves: run the study again")
     for word, value, there in (
         ("option", option, results.variables["option"].values),
-        ("microphone", microphone, _microphones_and_listeners(results)),
+        ("microphone", microphone, positions(results)),
         ("speed", speed, results.variables["speed"].values),
     ):
         if value not in there:

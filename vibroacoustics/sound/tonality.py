@@ -4,11 +4,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_power, mean_square_level
+from ..levels.hearing import hearing_threshold_db
 from .critical_bands import (
     CUT_BELOW_HZ,
     HIGHEST_TONE_HZ,
@@ -17,12 +17,11 @@ from .critical_bands import (
     band_above,
     band_below,
     critical_band,
-    hearing_threshold_db,
     noise_criterion_db,
     prominence_criterion_db,
-    proximity_hz,
 )
 from .ingredients import HALF_BAND, Ingredients
+from .prominence import belonging, strongest
 
 
 @dataclass(frozen=True)
@@ -147,28 +146,21 @@ def tones(spectrum: TonalSpectrum) -> list[Tone]:
     ----------
     spectrum : of `tonal_spectrum` or `recorded_spectrum`
     """
-    hertz, square = spectrum.frequency_hz, spectrum.mean_square
-    left: NDArray[np.bool_] = (
-        (hertz >= LOWEST_TONE_HZ) & (hertz <= HIGHEST_TONE_HZ) & (square > 0.0)
-    )
-    judged = []
-    while left.any():
-        strongest = int(np.argmax(np.where(left, square, 0.0)))
-        near = left & _belonging(hertz, float(hertz[strongest]))
-        judged.append(_judged(spectrum, strongest, float(square[near].sum())))
-        left &= ~near
-    return judged
+    hertz = spectrum.frequency_hz
+    judged = np.flatnonzero((hertz >= LOWEST_TONE_HZ) & (hertz <= HIGHEST_TONE_HZ))
+    square = spectrum.mean_square[judged]
+    (together,) = strongest(square[None], belonging(hertz[judged]))
+    loudest_first = np.argsort(-square, kind="stable")
+    return [
+        _judged(spectrum, int(judged[number]), float(together[number]))
+        for number in loudest_first
+        if together[number] > 0.0
+    ]
 
 
 def prominent(judged: Sequence[Tone]) -> list[Tone]:
     """Those of the tones that are prominent."""
     return [tone for tone in judged if tone.prominent]
-
-
-def _belonging(hertz: Array, strongest_hz: float) -> NDArray[np.bool_]:
-    band = critical_band(strongest_hz)
-    near = np.abs(hertz - strongest_hz) < proximity_hz(strongest_hz)
-    return np.asarray(near & (hertz >= band.lower) & (hertz < band.upper), dtype=bool)
 
 
 def _judged(spectrum: TonalSpectrum, number: int, square: float) -> Tone:

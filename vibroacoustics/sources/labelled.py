@@ -94,14 +94,14 @@ def _figures(
 ) -> xr.DataArray:
     """The figures of all cases; NaN where one has none of that name."""
     speeds, options = list(study.operation.speed_rpm), list(study.options)
-    figures = {key: _figures_of(study, key, case, loads[key]) for key, case in cases.items()}
+    figures = {key: figures_of(study, key, case, loads[key]) for key, case in cases.items()}
     names = _unique(name for of_case in figures.values() for name in of_case)
     table = [[[figures[s, o].get(name, np.nan) for name in names] for o in options] for s in speeds]
     coords = {"speed": speeds, "option": options, "figure": names}
     return stamp("reported_figure", table, coords)
 
 
-def _figures_of(
+def figures_of(
     study: Study, key: CaseKey, case: Case, loads: Mapping[str, Loads]
 ) -> dict[str, float]:
     """Figures of the machine, as it is and where it is changed, of the option, of the sources."""

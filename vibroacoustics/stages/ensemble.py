@@ -34,8 +34,8 @@ class PosteriorEnsemble(Stage):
     name = "ensemble"
     reads = (Cases, PublishedCases, Transmission, NominalSound, ShellPath, HammerTest)
     gives = (
-        Bank, Evidence, "prior_sample_*", "datum_*", "conflict_tail", "energy_*",
-        "evidence_effective", "level_share*", "projection_error", "shell_likelihood", "shell_gain",
+        Bank, Evidence, "prior_sample_*", "datum_*", "conflict_tail", "alternative_*",
+        "level_share*", "projection_error", "shell_likelihood", "shell_gain",
         "shell_*_ratio", "shell_value", "shell_level_before", "shell_weight", "shell_peak_loss",
     )  # fmt: skip
 
@@ -50,7 +50,7 @@ class PosteriorEnsemble(Stage):
             def done(number: int) -> None:
                 chain.progress(_WEIGHTED, before + number, expected)
 
-            return [one.sound for one in sounds_of(weighing, batch, done)]
+            return sounds_of(weighing, batch, done)
 
         test = chain.get(HammerTest)
         bank, results = posterior(evidence, sounds_at_evidence, test, chain.progress)

@@ -4,6 +4,7 @@ from ..base.registry import register
 from ..levels.axes import LevelAxes
 from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
+from ..sound.tone_spectra import tone_variables
 from ..sources.cases import sources_of
 from ..study.study import Study
 from ..transfer.received import Transmission
@@ -17,11 +18,18 @@ class Levels(Stage):
     """Levels of lines, noise, sources and totals, with the unmodelled noise."""
 
     name = "levels"
-    reads = (Cases, PublishedCases, Transmission, "velocity_order")
+    reads = (
+        Cases, PublishedCases, Transmission, "velocity_order", "force_amplitude",
+        "moment_amplitude", "largest_foot_force",
+    )  # fmt: skip
     gives = (
         NominalSound, "pressure_line", "order_level", "noise_band_level", "unmodelled_band_level",
-        "level_modelled", "level_unmodelled", "level_total", "change_1x", "change_modelled",
-        "change_total", "source_level", "source_band_level", "source_share", "baseline_*",
+        "total_band_level", "sources_band_level", "level_modelled", "level_unmodelled",
+        "level_total", "residual_level",
+        "change_1x", "change_modelled", "change_total", "force_change_1x", "moment_change_1x",
+        "foot_force_change_1x", "increase_probability", "decrease_probability", "source_level",
+        "source_band_level", "source_share", "unmodelled_share", "baseline_*", "tone_*",
+        "largest_tone_excess", "any_tone_probability",
     )  # fmt: skip
 
     def run(self, chain: Chain) -> Given:
@@ -29,7 +37,9 @@ class Levels(Stage):
         axes = LevelAxes.of(study, list(sources_of(study)), results)
         received = chain[Transmission].received(with_published(chain)[Cases])
         nominal = NominalSound.of(study, axes, received)
-        return Given(nominal.levels(received, results["order_frequency"]), (nominal,))
+        levels = nominal.levels(received, results["order_frequency"])
+        changes = nominal.changes(levels, results)
+        return Given(levels.merge(changes).merge(tone_variables(levels)), (nominal,))
 
     def tried(self, chain: Chain, study: Study) -> Trial:
         return timed(chain, self, len(study.operation.speed_rpm))

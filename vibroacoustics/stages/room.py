@@ -18,12 +18,14 @@ from ..radiation.rooms import of_study as rooms
 from ..radiation.rooms.cost import room_cost
 from ..radiation.rooms.wall_absorption import warn_of_absorption
 from ..results import storage
+from ..results.estimates import nominal_values
 from ..sound.room_ways import ways_of
 from ..study.room import StudyRoom
 from ..study.study import Study
 from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
 from ..transfer.received import Transmission
+from ..uncertainty.sampled_room import sampled_room_level
 from .chain import Chain
 from .radiation import modes_of
 from .stage import Given, Stage, Trial
@@ -38,7 +40,7 @@ class SoundInRoom(Stage):
     name = "room"
     reads = (
         Cases, ShellPath, NominalSound, "velocity_order", "level_total*", "level_modelled*",
-        "pressure_line", "noise_band_level", "unmodelled_band_level", "baseline_band_level",
+        "pressure_line*", "noise_band_level*", "unmodelled_band_level*", "baseline_band_level",
         "sample_weight", "structure_borne_*",
     )  # fmt: skip
     gives = ("room_*",)
@@ -72,7 +74,7 @@ def vectors_of(
 
 
 def _sound_in_room(chain: Chain, settings: StudyRoom) -> xr.Dataset:
-    study, results, shell = chain.study, chain.results, chain.get(ShellPath)
+    study, results, shell = chain.study, nominal_values(chain.results), chain.get(ShellPath)
     vectors, _ = vectors_of(study, settings, modes_of(chain), chain.progress)
     pressure, listeners = rooms.pressure_at_places(vectors), list(settings.listeners)
     modes = None if shell is None else rooms.of_modes(pressure)
@@ -83,7 +85,8 @@ def _sound_in_room(chain: Chain, settings: StudyRoom) -> xr.Dataset:
     gains, _ = blended_gains(both.waves, both.ways)
     air = AirInRoom.of(chain[NominalSound], listeners, sound, results, gains)
     per_power = rooms.plate_per_power(settings, vectors)
-    levels = room_variables(air, sound, results, study.catalogue_receiver, per_power)
+    statistics = sampled_room_level(air, results, study.catalogue_receiver)
+    levels = room_variables(air, sound, results, statistics, per_power)
     levels = levels.merge(rooms.surface_variables(settings))
     levels = levels.merge(seam_variables(listeners, both.shown, *both.both, both.gains_db))
     return levels.merge(_map(study, settings, air, chain.progress))

@@ -1,38 +1,25 @@
-"""Sound of every case with every sample."""
+"""Samples of the machine: their sound where it is published, and all that goes on of them."""
 
 import os
-from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from collections.abc import Callable
 
-from ..base.arrays import Array
 from ..levels.nominal import NominalSound, Sound, by_source
+from ..levels.sample_levels import Deviating, sample_levels
 from ..machine.cases import Cases
-from ..machine.source import CaseKey
 from ..study.samples import batches_of_samples
 from ..study.sampling import Sample
 from ..study.study import Study
 from ..transfer.received import Transmission
+from ..uncertainty.bank import Bank
 from ..uncertainty.every_sample import in_every_sample
-from ..uncertainty.first_order import changed_first_order, unknown_first_order
+from ..uncertainty.evidence import Evidence, Pairs
+from ..uncertainty.sample_variables import SampleValues
+from ..uncertainty.sampled_forces import force_variables, sampled_forces
+from ..uncertainty.sampled_tones import sampled_tones
 from .chain import Chain
 
 
-class SampledSound(NamedTuple):
-    """What a sample makes.
-
-    Attributes
-    ----------
-    sound : mean squares by source of every case
-    first_order : forces at 1x of the cases that move otherwise than the nominal ones
-    """
-
-    sound: Sound
-    first_order: Mapping[CaseKey, Array]
-
-
-def sounds_of(
-    chain: Chain, samples: list[Sample], progress: Callable[[int], None]
-) -> list[SampledSound]:
+def sounds_of(chain: Chain, samples: list[Sample], progress: Callable[[int], None]) -> list[Sound]:
     """Compute the sound of every case of a chain with every sample.
 
     Parameters
@@ -41,16 +28,68 @@ def sounds_of(
     samples : values by table and field
     progress : called with the number of samples that are done
     """
-    nominal, cases, path = chain[NominalSound], chain[Cases], chain[Transmission]
+    nominal, path = chain[NominalSound], chain[Transmission]
 
-    def sound_of(sample: Sample) -> SampledSound:
-        sampled = chain.at(sample)[Cases]
-        sound = by_source(chain.study, nominal.axes, path.received(sampled))
-        return SampledSound(sound, changed_first_order(cases, sampled))
+    def sound_of(sample: Sample) -> Sound:
+        return by_source(chain.study, nominal.axes, path.received(chain.at(sample)[Cases]))
 
-    unknown = {key: nominal.sound[key].unknown for key in cases.cases}
-    without = SampledSound(unknown, unknown_first_order(unknown))
-    return in_every_sample(samples, sound_of, without, progress)
+    unknown = {key: nominal.sound[key].unknown for key in chain[Cases].cases}
+    return in_every_sample(samples, sound_of, unknown, progress)
+
+
+def values_of(
+    chain: Chain, ensemble: Bank, numbers: list[tuple[int, int]], progress: Callable[[int], None]
+) -> list[SampleValues | None]:
+    """Compute levels and forces of the samples that go on; none of those without a solution.
+
+    Parameters
+    ----------
+    chain : with the nominal cases, paths, sound and forces
+    ensemble : all samples
+    numbers : of those that go on, and how many times each counts
+    progress : called with the number of samples that are done
+    """
+
+    def of_number(counted: tuple[int, int]) -> SampleValues | None:
+        return _values(chain, ensemble, *counted)
+
+    return in_every_sample(numbers, of_number, None, progress)
+
+
+def _values(chain: Chain, ensemble: Bank, number: int, count: int) -> SampleValues:
+    """Levels and forces of a sample with its pairs of discrepancy and unmodelled level."""
+    study, axes = chain.study, chain[NominalSound].axes
+    sample, pairs, sampled = deviating(chain, ensemble, number)
+    levels = sample_levels(study, axes, chain.results["order_frequency"].values, sample)
+    lines = chain.results["judged_tone"].values.tolist()
+    levels |= sampled_tones(study, axes, lines, sample, levels)
+    changed = sampled_forces(study, chain[Cases], sampled, chain.results)
+    return SampleValues.of(levels, force_variables(changed, chain.results), pairs, count)
+
+
+def deviating(chain: Chain, ensemble: Bank, number: int) -> tuple[Deviating, Pairs, Cases]:
+    """Compute the sound of a sample with the discrepancies of its pairs.
+
+    Parameters
+    ----------
+    chain : with the nominal cases, paths and sound
+    ensemble : all samples
+    number : of the sample
+
+    Returns
+    -------
+    sound, pairs of discrepancy and unmodelled level, and cases of the sample
+    """
+    study, evidence, axes = chain.study, chain[Evidence], chain[NominalSound].axes
+    sampled = chain.at(ensemble.samples[number])[Cases]
+    received = chain[Transmission].received(sampled)
+    sound = by_source(study, axes, received)
+    at_published, machine = ensemble.batch.sounds[number], ensemble.batch.machines[number]
+    pairs = evidence.pairs_of(at_published, machine, number)
+    discrepancy = evidence.discrepancy(number).some(pairs.discrepancy)
+    gains, sounds = discrepancy.gains(sound), discrepancy.sounds(sound)
+    noise = evidence.unmodelled_pa2(pairs)
+    return Deviating(received, gains, sounds, machine, noise), pairs, sampled
 
 
 def timed_sounds(chain: Chain, study: Study, count: int) -> tuple[list[Sound], float]:
@@ -64,8 +103,8 @@ def timed_sounds(chain: Chain, study: Study, count: int) -> tuple[list[Sound], f
     """
     samples = next(batches_of_samples(study))[:count]
     start = _processor_time_s()
-    sampled = sounds_of(chain, samples, lambda _: None)
-    return [each.sound for each in sampled], _processor_time_s() - start
+    sounds = sounds_of(chain, samples, lambda _: None)
+    return sounds, _processor_time_s() - start
 
 
 def _processor_time_s() -> float:

@@ -1,5 +1,6 @@
 """All cases with the samples that go on."""
 
+from dataclasses import dataclass
 from typing import Final
 
 from ..base.registry import register
@@ -13,11 +14,18 @@ from ..uncertainty.evidence import Evidence
 from ..uncertainty.sample_variables import sample_variables
 from .chain import Chain
 from .forces import PublishedCases, with_published
-from .sampled import sounds_of, timed_sounds
+from .sampled import timed_sounds, values_of
 from .stage import Given, Stage, Trial
 
 _TIMED: Final = 2
 """Number of samples that are timed."""
+
+
+@dataclass(frozen=True)
+class ComputedSamples:
+    """Numbers in the ensemble of the samples that were computed in all cases."""
+
+    numbers: tuple[int, ...]
 
 
 @register
@@ -27,33 +35,52 @@ class Samples(Stage):
     name = "samples"
     reads = (
         Cases, PublishedCases, Transmission, NominalSound, Bank, Evidence, "force_amplitude",
-        "moment_amplitude", "foot_force_amplitude",
+        "moment_amplitude", "foot_force_amplitude", "reported_figure",
     )  # fmt: skip
     gives = (
-        "*_by_sample", "sample_weight", "sampled_value", "choice_utility", "perfect_information",
-        "parameter_information*",
+        ComputedSamples, "*_by_sample", "sample_weight", "sampled_value", "choice_utility",
+        "perfect_information", "parameter_information*",
+    )  # fmt: skip
+    estimates = (
+        "force_amplitude", "moment_amplitude", "foot_force_amplitude", "largest_foot_force",
+        "reported_figure", "force_change_1x", "moment_change_1x", "foot_force_change_1x",
+        "order_level", "level_modelled", "level_total", "level_unmodelled", "residual_level",
+        "noise_band_level", "unmodelled_band_level", "total_band_level",
+        "sources_band_level", "change_1x",
+        "change_modelled", "change_total", "increase_probability", "decrease_probability",
+        "source_level", "source_band_level", "source_share", "unmodelled_share", "tone_level",
+        "tone_excess", "largest_tone_excess", "tone_probability", "any_tone_probability",
     )  # fmt: skip
 
     def applies(self, study: Study) -> bool:
         return bool(study.ranges)
 
     def run(self, chain: Chain) -> Given:
-        bank, nominal = chain[Bank], chain[NominalSound]
-        if not bank.suffices:
+        ensemble = chain[Bank]
+        if not ensemble.suffices:
             return Given()
-        chosen = bank.chosen(chain.study.uncertainty.seed)
-        samples = [bank.samples[number] for number in chosen[0].tolist()]
+        index, count = ensemble.chosen(chain.study.uncertainty.seed)
+        numbers = list(zip(index.tolist(), count.tolist(), strict=True))
 
         def done(number: int) -> None:
-            chain.progress("sources", number, len(samples))
+            chain.progress("sources", number, len(numbers))
 
-        sampled = sounds_of(with_published(chain), samples, done)
-        sounds, first_order = zip(*sampled, strict=True)
-        return Given(
-            sample_variables(
-                nominal, chain[Evidence], bank, chosen, sounds, first_order, chain.results
-            )
+        values = values_of(with_published(chain), ensemble, numbers, done)
+        solved = {
+            number: value
+            for (number, _), value in zip(numbers, values, strict=True)
+            if value is not None
+        }
+        if not solved:
+            return Given()
+        statistics, kept = sample_variables(
+            chain.study,
+            [ensemble.samples[number] for number in solved],
+            list(solved.values()),
+            ensemble.prior_names,
+            chain.results,
         )
+        return Given(kept, (ComputedSamples(tuple(solved)),), statistics)
 
     def tried(self, chain: Chain, study: Study) -> Trial:
         sounds, seconds = timed_sounds(with_published(chain), study, _TIMED)

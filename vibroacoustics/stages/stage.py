@@ -11,6 +11,7 @@ from ..base.errors import PluginError
 from ..base.registry import Registry
 from ..base.vocabulary import VARIABLES, check
 from ..radiation.cost import Cost, about
+from ..results.estimates import estimated
 from ..results.run_variables import check_numbers
 from ..study.study import Study
 from .chain import Chain, is_among
@@ -27,6 +28,7 @@ class Given:
     ----------
     results : variables of the vocabulary
     products : typed things that are not stored
+    estimates : statistics of samples that take the place of nominal values
 
     Examples
     --------
@@ -38,6 +40,7 @@ class Given:
 
     results: xr.Dataset = field(default_factory=xr.Dataset)
     products: tuple[object, ...] = ()
+    estimates: xr.Dataset = field(default_factory=xr.Dataset)
 
 
 class Stage:
@@ -57,6 +60,9 @@ class Stage:
     name: ClassVar[str]
     reads: ClassVar[tuple[str | type, ...]] = ()
     gives: ClassVar[tuple[str | type, ...]] = ()
+    estimates: ClassVar[tuple[str, ...]] = ()
+    """Variables of other stages whose nominal values it replaces by statistics of samples; stages
+    that read them come after it, but for those whose things it reads itself."""
 
     def applies(self, study: Study) -> bool:
         """Return whether the study asks for this stage."""
@@ -127,6 +133,8 @@ def ordered(stages: Iterable[Stage]) -> list[Stage]:
     waiting = sorted(stages, key=lambda stage: stage.name)
     givers = _givers(waiting)
     before = {stage.name: _before(stage, waiting, givers) for stage in waiting}
+    for stage in waiting:
+        _after_estimates(stage, waiting, givers, before)
     done: list[Stage] = []
     while waiting:
         names = {stage.name for stage in waiting}
@@ -158,6 +166,23 @@ def _before(stage: Stage, stages: Iterable[Stage], givers: Mapping[str | type, s
     if EVERYTHING in stage.reads:
         read |= {other.name for other in stages if stage.name not in _read(other, givers)}
     return read - {stage.name}
+
+
+def _after_estimates(
+    estimating: Stage,
+    stages: Iterable[Stage],
+    givers: Mapping[str | type, str],
+    before: dict[str, set[str]],
+) -> None:
+    """Put the readers of what a stage estimates after it, unless it needs them itself."""
+    ancestors, further = {estimating.name}, before[estimating.name]
+    while further - ancestors:
+        ancestors |= further
+        further = set().union(*(before[name] for name in further if name in before))
+    estimated = [name for name in VARIABLES if is_among(name, estimating.estimates)]
+    for stage in stages:
+        if stage.name not in ancestors and any(is_among(one, stage.reads) for one in estimated):
+            before[stage.name].add(estimating.name)
 
 
 def _read(stage: Stage, givers: Mapping[str | type, str]) -> set[str]:
@@ -195,7 +220,11 @@ def _advanced(chain: Chain, stage: Stage) -> Chain:
     for thing in names + [type(product) for product in given.products]:
         if not is_among(thing, stage.gives):
             raise PluginError(f"stage {stage.name}: gives {_word(thing)}, which it does not name")
-    return chain.having(*given.products, results=chain.results.merge(given.results))
+    for name in map(str, given.estimates.data_vars):
+        if not any(name == one or name.startswith(f"{one}_") for one in stage.estimates):
+            raise PluginError(f"stage {stage.name}: estimates {name}, which it does not name")
+    results = estimated(chain.results, given.estimates).merge(given.results)
+    return chain.having(*given.products, results=results)
 
 
 def _check_variables(given: xr.Dataset) -> None:

@@ -61,8 +61,11 @@ class Wanted(Parameters):
     """Name of a reported figure, for `figure = "reported"`."""
     speeds: Statistic = "worst"
     receivers: Statistic = "mean"
-    samples: Statistic = 0.9
-    """Over the samples of the tolerances; 0.9 is met by nine pieces of ten."""
+    samples: Statistic | None = None
+    """Over the samples of machine and tolerances; 0.9 is met by nine of ten.
+
+    Without it the median of a study with uncertainty, else nine pieces of ten.
+    """
 
     @field_validator("speeds", "receivers", "samples")
     @classmethod

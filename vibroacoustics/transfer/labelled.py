@@ -50,6 +50,7 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
     feet = {"foot": list(reference.stand.names)}
     arrays["foot_force_order"] = (foot_force, {**coords, **feet, "axis": list(AXES)})
     arrays["foot_force_amplitude"] = (total, {**by_foot, **feet})
+    arrays["largest_foot_force"] = (total.max(axis=2), by_foot)
     arrays |= _of_mounts(reference) | _with_bodies(machines)
     return check(
         xr.Dataset(

@@ -50,7 +50,7 @@ class Transmission:
         """
         known, sound = Shared(), {}
         for key, case in cases.cases.items():
-            path = self._path(known, case.machine, cases.loads[key])
+            path = self.path(known, case.machine, cases.loads[key])
             received = self._of_case(self._lines(key, cases), cases.loads[key], path)
             sound[key] = received.behind(self.study.option_of(key).insertion_loss())
         return sound
@@ -64,13 +64,20 @@ class Transmission:
         """
         known = Shared()
         for key, case in cases.cases.items():
-            path = self._path(known, case.machine, cases.loads[key])
+            path = self.path(known, case.machine, cases.loads[key])
             lines = self._lines(key, cases)
             split = contributions(path, self.microphones, lines, cases.loads[key])
             yield key, split.behind(self.study.option_of(key).insertion_loss())
 
-    def _path(self, known: Shared, machine: Machine, loads: Mapping[str, Loads]) -> LoadPath:
-        """Path of a machine, shared by machines that differ in no table that its ports read."""
+    def path(self, known: Shared, machine: Machine, loads: Mapping[str, Loads]) -> LoadPath:
+        """Return the path of a machine, shared by those that differ in no table its ports read.
+
+        Parameters
+        ----------
+        known : paths of the same sample
+        machine : with the values of the sample
+        loads : by source
+        """
         read = dict.fromkeys(
             table for load in loads.values() for port in load.ports for table in port.tables
         )

@@ -13,6 +13,8 @@ from ..radiation.cost import Cost
 from ..study.study import Study
 from .bank import MOST_ROUNDS, MOST_SAMPLES
 from .evidence import Evidence
+from .slider_variables import SETTINGS
+from .sliders import MOST_CANDIDATES, NODES
 
 _LEAST_BATCHES: Final = 2
 _MOST_BATCHES: Final = 10
@@ -52,6 +54,26 @@ def samples_cost(study: Study, count: int, seconds: float) -> Cost:
     all_s = speeds * seconds / count
     how = f"{all_s:.2g} s for one of up to {wanted} samples, {count} measured at one speed"
     return Cost("samples of all cases", _LEAST_SHARE * wanted * all_s, wanted * all_s, how)
+
+
+def sliders_cost(count: int, alone_s: float, every_s: float) -> Cost:
+    """Estimate the cost of the sliders.
+
+    Parameters
+    ----------
+    count : number of samples that were timed, at one speed
+    alone_s : processor time that they took without an option
+    every_s : processor time that they took with all options
+    """
+    one_s, all_s = alone_s / count, every_s / count
+    low = 2 * MOST_CANDIDATES
+    high = low + (2 * NODES - 3) * MOST_CANDIDATES // 2  # half of them move the level
+    how = (
+        f"{one_s:.2g} s for one of {low} to {high} values without an option and {all_s:.2g} s for "
+        f"one of {SETTINGS + 1} settings with all, {count} measured"
+    )
+    others_s = (SETTINGS + 1) * all_s
+    return Cost("sliders", low * one_s + others_s, high * one_s + others_s, how)
 
 
 def _expected(evidence: Evidence, sounds: Sequence[Sound], was_cached: bool) -> tuple[int, int]:

@@ -76,21 +76,45 @@ class Discrepancy:
         ----------
         sound : of every case, without discrepancy
         """
-        added = {key: _added_part(sound, key) for key in sound}
-        gains = zip(self.gain[:, :, None], self.added.tolist(), strict=True)
+        gains = self.gains(sound)
         return [
-            {
-                key: one.scaled(gain * (1.0 + (factor - 1.0) * added[key]))
-                for key, one in sound.items()
-            }
-            for gain, factor in gains
+            {key: one.scaled(gains[key][number]) for key, one in sound.items()}
+            for number in range(self.added.size)
         ]
 
+    def gains(self, sound: Mapping[CaseKey, SourceSound]) -> dict[CaseKey, Array]:
+        """Return the factors on the power of the sources in every case.
 
-def _added_part(sound: Mapping[CaseKey, SourceSound], key: CaseKey) -> Array:
-    """Part of each source's energy that the option of a case adds, (source, receiver, band)."""
-    energy = sound[key].energy
-    reference = sound.get((key[0], REFERENCE_OPTION))
-    before = energy if reference is None else reference.energy
+        Parameters
+        ----------
+        sound : of every case, without discrepancy
+
+        Returns
+        -------
+        shape (discrepancy, source, receiver, gain band)
+        """
+        return {
+            key: with_added(self.gain, self.added, one.energy, _before(sound, key))
+            for key, one in sound.items()
+        }
+
+
+def with_added(gain: Array, added: Array, energy: Array, before: Array) -> Array:
+    """Compute factors on the power of sources, (..., discrepancy, source, receiver, band).
+
+    Parameters
+    ----------
+    gain : of the discrepancies, shape (discrepancy, source, band)
+    added : factors on what an option adds, shape (discrepancy,)
+    energy : of each source alone, shape (..., 1, source, receiver, band) or without the
+        first ones, Pa²
+    before : of each source without an option, shape (source, receiver, band), Pa²
+    """
     more = np.maximum(energy - before, 0.0)
-    return np.asarray(np.divide(more, energy, out=np.zeros_like(more), where=energy > 0.0))
+    part = np.divide(more, energy, out=np.zeros_like(more), where=energy > 0.0)
+    return np.asarray(gain[:, :, None] * (1.0 + (added - 1.0)[:, None, None, None] * part))
+
+
+def _before(sound: Mapping[CaseKey, SourceSound], key: CaseKey) -> Array:
+    """Energy of each source without an option, that of the case where it is unknown."""
+    return sound.get((key[0], REFERENCE_OPTION), sound[key]).energy

@@ -17,12 +17,13 @@ from ..base.vocabulary import stamped
 from ..study.sampling import Sample
 from ..study.uncertainty import Range
 
+Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
 def in_every_sample(
-    samples: Sequence[Sample],
-    compute: Callable[[Sample], Result],
+    samples: Sequence[Item],
+    compute: Callable[[Item], Result],
     without_solution: Result,
     progress: Callable[[int], None],
 ) -> list[Result]:
@@ -32,14 +33,14 @@ def in_every_sample(
 
     Parameters
     ----------
-    samples : sets of values
+    samples : sets of values, or their numbers
     compute : called with one of them, in several processes or threads at once; gives what pickle
         takes
     without_solution : in place of the result of a sample with which the machine cannot run
     progress : called with the number of samples that are done
     """
 
-    def solved(sample: Sample) -> tuple[Result, str | None]:
+    def solved(sample: Item) -> tuple[Result, str | None]:
         try:
             return compute(sample), None
         except (
@@ -58,16 +59,14 @@ def in_every_sample(
         progress(len(results))
     if failures:
         warnings.warn(
-            f"{len(failures)} of {len(samples)} samples have no solution and are left out, "
+            f"{len(failures)} of {len(samples)} samples have no solution and are omitted, "
             f"such as: {failures[0]}",
             stacklevel=2,
         )
     return results
 
 
-def _in_parallel(
-    compute: Callable[[Sample], Result], samples: Sequence[Sample]
-) -> Iterator[Result]:
+def _in_parallel(compute: Callable[[Item], Result], samples: Sequence[Item]) -> Iterator[Result]:
     """Compute in processes, which share no interpreter's lock, or in threads."""
     with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as threads:
         yield from side_by_side(compute, samples, threads.map)

@@ -9,6 +9,8 @@ import numpy as np
 from scipy.special import logsumexp
 
 from ..base.arrays import Array, IndexArray
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import power_of_level
 from ..levels.agreement import LEVELS_DB, Datum, Prior, log_weight_of_points, log_weights
 from ..levels.nominal import NominalSound, Sound
 from ..levels.published import Published, published_of
@@ -16,7 +18,7 @@ from ..levels.remainder import over_published, unmodelled_bands
 from ..machine.machine import Machine
 from .discrepancy import Discrepancy
 
-PAIRS: Final = 20
+PAIRS: Final = 10
 """Number of pairs of a discrepancy and an unmodelled level that stay with a sample."""
 
 
@@ -102,6 +104,19 @@ class Evidence:
         with np.errstate(invalid="ignore"):
             weights -= logsumexp(weights, axis=2, keepdims=True)
         return np.nan_to_num(weights, nan=-np.inf) + np.array(measured)[..., None]
+
+    def pairs_of(self, sound: Sound, machine: Machine, number: int) -> Pairs:
+        """Return pairs of a sample with all published data; parameters as `log_weights`."""
+        published = self.published
+        of_sample = self.log_weights(sound, machine, number, published.data, published.priors)
+        return self.pairs(of_sample, number)
+
+    def unmodelled_pa2(self, pairs: Pairs) -> Array:
+        """Return the unmodelled noise of pairs, A-weighted, shape (pair,), Pa²; 0 without data."""
+        level = self.published.level_dba + pairs.unmodelled_db
+        return np.asarray(
+            REFERENCE_PRESSURE_PA**2 * power_of_level(level) * bool(self.published.data)
+        )
 
     def pairs(self, log_weights: Array, number: int) -> Pairs:
         """Return pairs in proportion to their weights with the first prior, in random order.

@@ -14,9 +14,9 @@ from ..levels.agreement import LEVELS_DB
 from ..levels.nominal import Sound
 from ..study.samples import batches_of_samples, with_sample
 from ..study.sampling import Sample
+from .alternatives import alternative_variables
 from .bank import Bank, Weighted, bank_of
 from .conflict import conflict_variables
-from .energy_shares import energy_shares
 from .evidence import Evidence
 from .hammer_test import HammerTest
 from .share_variables import level_shares
@@ -92,4 +92,4 @@ def _beside_data(evidence: Evidence, ensemble: Bank, before: Array) -> xr.Datase
     conflict = conflict_variables(published.data, bands[solved], before[solved], generator)
     if not ensemble.suffices:
         return conflict
-    return conflict.merge(energy_shares(evidence, sounds, machines, before))
+    return conflict.merge(alternative_variables(evidence, sounds, machines, before))

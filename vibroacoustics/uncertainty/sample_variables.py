@@ -1,65 +1,199 @@
-"""Levels, changes and forces of all cases with the samples that go on, labelled."""
+"""Statistics of the samples that go on: values, intervals and probabilities of change, labelled."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array, IndexArray
-from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import power_of_level
-from ..levels.labelled import sample_level_variables
-from ..levels.nominal import NominalSound, Sound
-from ..levels.remainder import remaining_by_sample
-from ..machine.source import CaseKey
-from .bank import Bank
+from ..base.arrays import Array
+from ..base.quantiles import weighted_quantiles
+from ..base.vocabulary import (
+    HIGH,
+    LOW,
+    MEAN,
+    REFERENCE_OPTION,
+    SUFFIXES,
+    VARIABLES,
+    WEIGHTINGS,
+    stamp,
+    stamped,
+)
+from ..levels.changes import AMPLITUDES, FORCES, JUDGED, TOTAL, changes_of
+from ..levels.sample_levels import Levels
+from ..results.estimates import QUANTILES
+from ..sound.tone_spectra import tone_probabilities
+from ..study.sampling import Sample
+from ..study.study import Study
 from .choices import choice_information
 from .every_sample import sampled_values
-from .evidence import PAIRS, Evidence
-from .first_order import first_order_by_sample
+from .evidence import PAIRS, Pairs
+
+_KEPT: Final = ("source_level", "level_modelled", "level_total", "level_unmodelled")
+"""Levels that are kept by sample, the A-weighted ones."""
+_LARGE: Final = frozenset({
+    "order_level", "source_band_level", "noise_band_level", "unmodelled_band_level",
+    "total_band_level", "sources_band_level", "tone_level", "tone_excess",
+})  # fmt: skip
+"""Kept in single precision, 1e-5 dB, until their statistics are computed."""
+
+
+class SampleValues(NamedTuple):
+    """What a sample gives.
+
+    Attributes
+    ----------
+    levels : by variable, the first axis is the pair of a discrepancy and an unmodelled level
+    forces : by variable, shape (speed, option, ...)
+    weight : of the pairs, shape (prior, pair)
+    """
+
+    levels: Levels
+    forces: Mapping[str, Array]
+    weight: Array
+
+    @classmethod
+    def of(
+        cls, levels: Levels, forces: Mapping[str, Array], pairs: Pairs, count: int
+    ) -> "SampleValues":
+        """Return levels, large ones in single precision, and forces with the weight of pairs.
+
+        Parameters
+        ----------
+        levels, forces : by variable
+        pairs : of the sample
+        count : how many times it counts
+        """
+        single = {name: np.asarray(levels[name], "f4") for name in _LARGE & levels.keys()}
+        return cls({**levels, **single}, forces, count * pairs.weight)
+
+
+@dataclass(frozen=True)
+class Weighted:
+    """Rows with their weights: pairs of samples, or samples.
+
+    Attributes
+    ----------
+    weight : of sum one, shape (row,)
+    """
+
+    weight: Array
+
+    def statistics(self, name: str, values: Array, coords: Mapping[str, Any]) -> xr.Dataset:
+        """Label the value of a variable and the ends of its interval.
+
+        Parameters
+        ----------
+        name : in the vocabulary, which says whether the value is a median or a mean
+        values : shape (row, ...)
+        coords : of its dimensions
+        """
+        low, middle, high = weighted_quantiles(
+            values, self.weight, (QUANTILES[0], 0.5, QUANTILES[1])
+        )
+        if VARIABLES[name].statistic == MEAN:
+            counting = self.weight > 0.0
+            middle = np.tensordot(self.weight[counting], values[counting], axes=1)
+        parts = {
+            name: middle, f"{name}{SUFFIXES[LOW]}": low, f"{name}{SUFFIXES[HIGH]}": high,
+        }  # fmt: skip
+        labels = {dim: coords[dim] for dim in VARIABLES[name].dims}
+        return xr.Dataset(
+            {part_name: stamp(part_name, part, labels) for part_name, part in parts.items()}
+        )
 
 
 def sample_variables(
-    nominal: NominalSound,
-    evidence: Evidence,
-    ensemble: Bank,
-    chosen: tuple[IndexArray, IndexArray],
-    sounds: Sequence[Sound],
-    first_order: Sequence[Mapping[CaseKey, Array]],
-    results: xr.Dataset,
-) -> xr.Dataset:
-    """Label the sound and the forces of the samples that go on, each with `PAIRS` pairs.
+    study: Study,
+    samples: Sequence[Sample],
+    values: Sequence[SampleValues],
+    prior_names: Sequence[str],
+    nominal: xr.Dataset,
+) -> tuple[xr.Dataset, xr.Dataset]:
+    """Label the statistics of the samples that go on, and what is kept of each.
 
     Parameters
     ----------
-    nominal : sound with the nominal values
-    evidence : what weighs the samples
-    ensemble : all samples
-    chosen : of `Bank.chosen`
-    sounds : of all cases, by sample that goes on
-    first_order : forces at 1x of the cases that move otherwise, by sample that goes on
-    results : amplitudes with the nominal values
+    study : options and smallest changes that could be measured
+    samples : that go on
+    values : of them, each with `PAIRS` pairs
+    prior_names : of the unmodelled noise, that of the values first
+    nominal : nominal values with their coordinates
     """
-    study, axes, published = nominal.study, nominal.axes, evidence.published
-    samples = [ensemble.samples[number] for number in chosen[0].tolist()]
-    of_sample = first_order_by_sample(first_order, results)
-    of_sample = of_sample.merge(sampled_values(study.ranges, samples))
-    pair_sounds, machines, levels_db, weights = [], [], [], []
-    for number, count, sound in zip(*map(list, chosen), sounds, strict=True):
-        machine = ensemble.batch.machines[number]
-        at_evidence = ensemble.batch.sounds[number], machine
-        of_pairs = evidence.log_weights(*at_evidence, number, published.data, published.priors)
-        pairs = evidence.pairs(of_pairs, number)
-        pair_sounds += evidence.discrepancy(number).some(pairs.discrepancy).sounds(sound)
-        machines += [machine] * PAIRS
-        levels_db.append(pairs.unmodelled_db)
-        weights.append(count * pairs.weight)
-    weight = np.concatenate(weights, axis=1)
+    weight = np.concatenate([sample.weight for sample in values], axis=1)
     weight = weight / weight.sum(axis=1, keepdims=True)
-    level_db = published.level_dba + np.concatenate(levels_db)
-    rest = REFERENCE_PRESSURE_PA**2 * power_of_level(level_db) * bool(published.data)
-    residual = remaining_by_sample(study, axes, pair_sounds, machines, rest)
-    levels = sample_level_variables(axes, pair_sounds, residual, rest, weight, ensemble.prior_names)
-    repeated = of_sample.isel(sample=np.repeat(np.arange(len(samples)), PAIRS))
-    levels = levels.merge(repeated.assign_coords(sample=levels["sample"]))
-    return levels.merge(choice_information(study, levels, PAIRS))
+    levels = {
+        name: np.concatenate([sample.levels[name] for sample in values])
+        for name in values[0].levels
+    }
+    forces = {
+        name: np.array([sample.forces[name] for sample in values]) for name in values[0].forces
+    }
+    of_pairs, of_samples = Weighted(weight[0]), Weighted(weight[0].reshape(-1, PAIRS).sum(axis=1))
+    coords = {str(name): array.values for name, array in nominal.coords.items()}
+    parts = [of_pairs.statistics(name, array, coords) for name, array in levels.items()]
+    parts += [of_samples.statistics(name, array, coords) for name, array in forces.items()]
+    parts += _changes(study, levels, forces, of_pairs, coords)
+    kept = _by_sample(levels, forces, weight, {**coords, "prior": list(prior_names)})
+    kept = kept.merge(_repeated(sampled_values(study.ranges, samples), kept))
+    return xr.merge(parts), kept.merge(choice_information(study, kept, PAIRS))
+
+
+def _changes(
+    study: Study,
+    levels: Levels,
+    forces: Mapping[str, Array],
+    of_pairs: Weighted,
+    coords: Mapping[str, Any],
+) -> list[xr.Dataset]:
+    """Changes of forces at 1x; probabilities of measurable changes and of prominent tones."""
+    reference = list(coords["option"]).index(REFERENCE_OPTION)
+    changes = changes_of(
+        np.repeat(_first_order(forces), PAIRS, axis=1),
+        levels[TOTAL],
+        levels["order_level"][..., 1, WEIGHTINGS.index("Z")],
+        coords["order_frequency"][:, 1],
+        reference,
+        study.scoring.measurable,
+    )
+    statistics = [
+        of_pairs.statistics(f"{name}_change_1x", change, coords)
+        for name, change in zip(FORCES, changes.force_db, strict=True)
+    ]
+    labels = {**coords, "judged_quantity": list(JUDGED)}
+    chances = {
+        "increase_probability": np.tensordot(of_pairs.weight, changes.increased, axes=1),
+        "decrease_probability": np.tensordot(of_pairs.weight, changes.decreased, axes=1),
+    }
+    chances |= {
+        name: np.tensordot(of_pairs.weight, values, axes=1)
+        for name, values in tone_probabilities(levels["tone_excess"]).items()
+    }
+    return [*statistics, stamped(chances, labels)]
+
+
+def _first_order(forces: Mapping[str, Array]) -> Array:
+    """Amplitudes of `FORCES` at 1x, shape (force, sample, speed, option)."""
+    return np.stack([forces[name][..., 1] for name in AMPLITUDES])
+
+
+def _by_sample(
+    levels: Levels, forces: Mapping[str, Array], weight: Array, coords: Mapping[str, Any]
+) -> xr.Dataset:
+    """Levels and forces at 1x that are kept by sample."""
+    a = WEIGHTINGS.index("A")
+    kept = {
+        f"{name}_by_sample": levels[name][..., a] if name == "level_modelled" else levels[name]
+        for name in _KEPT
+    }
+    repeated = np.repeat(_first_order(forces), PAIRS, axis=1)
+    kept |= {f"{name}_1x_by_sample": array for name, array in zip(FORCES, repeated, strict=True)}
+    rows = np.arange(1, weight.shape[1] + 1)
+    return stamped({**kept, "sample_weight": weight}, {**coords, "sample": rows})
+
+
+def _repeated(of_samples: xr.Dataset, kept: xr.Dataset) -> xr.Dataset:
+    """Values of samples for each of their pairs."""
+    numbers = np.repeat(np.arange(of_samples.sizes["sample"]), PAIRS)
+    return of_samples.isel(sample=numbers).assign_coords(sample=kept["sample"])

@@ -18,7 +18,9 @@ _SHELL: Final = {"shell", "structure", "variation", "frame", "shaft", "overall_n
 """Tables that say nothing of the motion."""
 
 
-def sampled_cases(nominal: Cases, study: Study, sample: Sample) -> Cases:
+def sampled_cases(
+    nominal: Cases, study: Study, sample: Sample, shared: Shared | None = None
+) -> Cases:
     """Compute the cases with sampled values; they share no result with those of other samples.
 
     Where a sample changes what moves, or the machine on its mounts, revolution and what an option
@@ -30,6 +32,7 @@ def sampled_cases(nominal: Cases, study: Study, sample: Sample) -> Cases:
     nominal : with the nominal values
     study : with its machine and options
     sample : values by table and field
+    shared : what other cases of the sample have computed
 
     Raises
     ------
@@ -37,19 +40,20 @@ def sampled_cases(nominal: Cases, study: Study, sample: Sample) -> Cases:
         A machine cannot run so, an option not be built, a source not act.
     """
     sampled = Cases({}, {}, {})
-    shared = Shared()
+    shared, machines = shared or Shared(), Shared()
     for _, of_speed in groupby(nominal.cases.items(), key=lambda item: item[0][0]):
         turned = Shared()  # let go with the speed: courses over crank angle are large
         for key, given in of_speed:
-            machine = shared(id(given.machine), partial(_sampled, given, study, key, sample))
+            machine = machines(id(given.machine), partial(_sampled, given, study, key, sample))
             case = replace(given, machine=machine, shared=shared)
             if moves_otherwise(machine, given.machine, study):
                 case = _turned(case, study, key, turned)
             loads = loads_of(study, case)
-            sampled.wrenches[key] = nominal.wrenches[key]
             if case.revolution.wrenches:
                 highest = study.highest_order(case.speed_rpm)
                 sampled.wrenches[key] = wrench_lines(case, loads, highest)
+            else:
+                sampled.wrenches[key] = nominal.wrenches[key]
             sampled.cases[key], sampled.loads[key] = without_time_series(case, loads)
     return sampled
 

@@ -12,7 +12,7 @@ from scipy import sparse
 
 from ..base.arrays import Array
 from ..base.quantiles import weighted_quantiles
-from .interval_digits import bootstrap_weights
+from .bootstrap import bootstrap_weights
 
 BINS: Final = 10
 PERMUTATIONS: Final = 200

@@ -12,7 +12,7 @@ SMALL = ROOT / "tests" / "studies" / "small.toml"
 CSV_COLUMNS = (
     "option,speed_rpm,receiver,force_1x_n,force_2x_n,moment_1x_nm,foot_force_1x_n,level_1x_db,"
     "level_2x_db,level_1x_dba,level_modelled_dba,level_total_dba,change_1x_db,"
-    "change_modelled_dba,change_total_dba"
+    "change_modelled_db,change_total_db"
 )
 
 

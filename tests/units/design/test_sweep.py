@@ -126,7 +126,10 @@ machine.balance_quality.used_ratio = { range = [0, 1] }
 machine.balance_quality.lower_angle_deg = { range = [0, 360] }
 """
     text = unbalance + WEIGHT + design_table('"weight"', VARIABLES)
-    problem = Problem(study_with(text + scatter), made_up_radiation)
+    read = study_with(text + scatter)
+    study = read.model_copy(update={"ranges": ()})  # nominal
+    object.__setattr__(study, "_read", read._read)
+    problem = Problem(study, made_up_radiation)
     samples = problem.samples(2)
     pieces = problem.by_sample(problem.space.grid()[1:2], samples)[0]
     bare = run(problem.study.model_copy(update={"ranges": ()}), radiation=made_up_radiation)

@@ -14,10 +14,11 @@ from vibroacoustics.levels.in_room import (
     wave_gains,
 )
 from vibroacoustics.levels.measured_points import BASELINE_BANDS
-from vibroacoustics.levels.room_levels import AirInRoom, sampled_band
+from vibroacoustics.levels.room_levels import AirInRoom
 from vibroacoustics.levels.room_seam import shown_bands
 from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import NoisePower, ReceivedSound
+from vibroacoustics.uncertainty.sampled_room import sampled_room_level
 
 RADIUS_M = 1.2
 RHO_C = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
@@ -145,18 +146,19 @@ def test_samples_change_model_and_rest_as_at_the_microphone():
                 "e", sums([60, 63], [50, 56]), sampled, "sample", *cases
             ),
             "sample_weight": (("prior", "sample"), [[0.5, 0.5]]),
-            "room_level": (("speed", "option", "listener"), [[[0.0]]], {}),
         },
-        coords={"listener": ["table"]},
     )
     none = [np.zeros(0)] * 4
-    air = AirInRoom(np.array([[[1.0]]]), np.array([[[2.0]]]), *none)
-    band = sampled_band(air, results, "front")
+    place = {"speed": [2900.0], "option": ["none"], "listener": ["table"]}
+    air = AirInRoom(np.array([[[1.0]]]), np.array([[[2.0]]]), *none, place)
+    found = sampled_room_level(air, results, "front")
     ends = 10.0 * np.log10(np.array([3.0, 10.0**0.3 + 2.0 * 10.0**0.6]) / 4e-10)
-    assert band["room_level_middle"].item() == pytest.approx(ends.mean(), abs=1e-9)
-    low, high = ends[0] + 0.05 * np.diff(ends), ends[0] + 0.95 * np.diff(ends)
-    assert band["room_level_low"].item() == pytest.approx(low.item(), abs=1e-9)
-    assert band["room_level_high"].item() == pytest.approx(high.item(), abs=1e-9)
+    assert found["room_level"].item() == pytest.approx(ends.mean(), abs=1e-9)
+    low, high = ends[0] + 0.1 * np.diff(ends), ends[0] + 0.9 * np.diff(ends)
+    assert found["room_level_10_percent"].item() == pytest.approx(low.item(), abs=1e-9)
+    assert found["room_level_90_percent"].item() == pytest.approx(high.item(), abs=1e-9)
+    assert found["room_level_nominal"].item() == pytest.approx(ends[0], abs=1e-9)
+    assert not sampled_room_level(air, results.drop_vars("sample_weight"), "front").data_vars
 
 
 def test_the_last_third_of_round_frequencies_has_waves():

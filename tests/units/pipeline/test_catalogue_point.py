@@ -5,7 +5,7 @@ from sources_study import SOURCES_STUDY, run_made_up
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.report.assumptions import remainder_sentence
-from vibroacoustics.report.source_words import left_out_sentence, shares_sentence
+from vibroacoustics.report.source_words import samples_sentence, shares_sentence
 from vibroacoustics.study.loading import load_study
 
 GAS_ALONE = {
@@ -48,14 +48,15 @@ def test_remainder_is_that_of_the_point_of_the_published_level(study, at_ari):
     assert list(results["option"].values) == ["none"]
     said = "rpm at the operating point ari; the machine runs at the values of its file. What"
     assert said in remainder_sentence(results)
-    assert "what is not modelled at the operating point ari " in shares_sentence(results)
-    assert "published at the operating point ari and weighed" in left_out_sentence(results)
+    assert "by the likelihood of the published level at the operating point ari: " in (
+        samples_sentence(results)
+    )
 
 
 def test_a_report_at_the_point_itself_names_it_once(at_ari):
     assert "2900 rpm at the operating point ari. What the model" in remainder_sentence(at_ari)
-    assert "; what is not modelled " in shares_sentence(at_ari)
-    assert "where the level is published and weighed" in left_out_sentence(at_ari)
+    assert "by the likelihood of the published level: " in samples_sentence(at_ari)
+    assert "ari" not in shares_sentence(at_ari)
 
 
 def test_a_study_at_the_point_itself_needs_no_second_machine(study):

@@ -45,7 +45,7 @@ def assert_same_at_speed(one: xr.Dataset, many: xr.Dataset, speed: float) -> Non
             continue
         at = {"speed": speed}
         here, there = alone.sel(at), many[name].sel(at)
-        for axis in {"order", "line"} & set(alone.dims):
+        for axis in {"order", "line", "judged_tone"} & set(alone.dims):
             there = there.sel({axis: alone[axis]})
         here, there = np.asarray(here), np.asarray(there)
         np.testing.assert_array_equal(np.isnan(here), np.isnan(there))

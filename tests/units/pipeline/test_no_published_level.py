@@ -90,8 +90,8 @@ def test_the_report_says_so(rigid, sampled):
 
 def test_the_data_sheet_says_so(rigid):
     sheet = data_sheet(rigid, "none", 2900.0)
-    assert sheet.sound_power.rest == "none"
-    assert headline(sheet).endswith("of what is modelled alone.")
+    assert sheet.sound_power.unmodelled_kind == "none"
+    assert headline(sheet).endswith("of the modelled sources alone.")
 
 
 def test_ranges_that_are_not_sampled_are_told(rigid):
@@ -102,7 +102,7 @@ def test_ranges_that_are_not_sampled_are_told(rigid):
     count = sum(record.lowest is not None for record in load_study(TINY).replace(NO_LEVEL).records)
     assert f"{count} values have a range; they are not sampled" in text_of(rigid)
     words = data_sheet(rigid, "none", 2900.0).sound_power.uncertainty_words
-    assert words.startswith(f"nothing was sampled: K is not known. {count} values have a range")
+    assert words.startswith(f"nothing was sampled: K_WA is not known. {count} values have a range")
 
 
 def test_what_contradicts_it_is_refused():

@@ -7,7 +7,7 @@ from support import ROOT, made_up_radiation, made_up_transfer_vectors
 
 from vibroacoustics import pipeline
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.base.vocabulary import VARIABLES
+from vibroacoustics.base.vocabulary import SUFFIXES, VARIABLES
 from vibroacoustics.orders import semi_major_axis
 from vibroacoustics.results import storage
 from vibroacoustics.study.loading import load_study
@@ -27,9 +27,12 @@ OF_SOURCES = {
     "datum_expected",
     "datum_tail",
     "conflict_tail",
-    "energy_share",
-    "energy_majority",
-    "evidence_effective",
+    "alternative_share",
+    "alternative_level",
+    "alternative_effective",
+    "representative_value",
+    "representative_noise_band_level",
+    "representative_unmodelled_band_level",
     "sampled_value",
     "prior_sample_weight",
     "choice_utility",
@@ -94,9 +97,9 @@ NOT_MADE_HERE = {
 OF_OTHER_JOBS = (
     "predicted_", "blocked_", "validation_", "inversion_", "shell_", "best_design",
     "structure_borne_", "level_both_ways", "gas_frequency", "room_", "hemisphere_",
-    "measured_", "background_", "mean_position_", "environment_",
+    "measured_", "background_", "mean_position_", "environment_", "slider_",
 )  # fmt: skip
-"""Of measurements, a test of the shell, a search of designs, a plate, gas, a room."""
+"""Of measurements, a test of the shell, a search of designs, a plate, gas, a room, sliders."""
 
 
 @pytest.fixture(scope="module")
@@ -110,6 +113,7 @@ def test_run_makes_the_whole_vocabulary(results):
     }
     elsewhere = NOT_MADE_HERE | of_recordings | OF_SOURCES
     elsewhere |= {name for name in VARIABLES if name.startswith(OF_OTHER_JOBS)}
+    elsewhere |= {name for name in VARIABLES if name.endswith(tuple(SUFFIXES.values()))}
     elsewhere |= {
         name for name, variable in VARIABLES.items() if {"design", "wanted"} & set(variable.dims)
     }

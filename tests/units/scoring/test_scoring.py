@@ -270,9 +270,9 @@ def test_samples_of_the_level_change_the_places():
     np.testing.assert_allclose(scores["rank_acceptability"], 0.5)
     np.testing.assert_allclose(scores["first_place_share"], 0.5)
     results["sample_weight"][:] = [[1.0, 0.0]]
-    results["level_modelled_by_sample"][1] = np.nan
     scores = scoring.score(results, _settings(**of_level))
     np.testing.assert_array_equal(scores["first_place_share"], [0.0, 1.0])
+    np.testing.assert_allclose(scores["criterion_value"].squeeze(), [0.0, -20.0])
 
 
 def test_same_seed_same_shares():

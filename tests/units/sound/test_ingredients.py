@@ -1,8 +1,11 @@
 """Lines and noise of an option at a microphone: their sum is the level of the results."""
 
+import itertools
+
 import numpy as np
 import pytest
 from sound_studies import a_level
+from sources_study import sources_run
 
 from vibroacoustics.base.errors import ParameterError, SchemaError
 from vibroacoustics.levels.axes import LevelAxes
@@ -76,3 +79,76 @@ def test_what_the_results_do_not_hold_is_named(results, case, words):
 def test_older_results_are_refused(results):
     with pytest.raises(SchemaError, match="run the study again"):
         ingredients(results.drop_vars("noise_band_level"), "none", "front_1m", 900.0)
+
+
+# --- with samples --------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def sampled():
+    return sources_run()
+
+
+def cases(sampled):
+    names = (sampled[name].values.tolist() for name in ("option", "receiver", "speed"))
+    return itertools.product(*names)
+
+
+def third_octaves(parts, results):
+    """Level of lines and noise by band of the results."""
+    centres = 10.0 ** (np.rint(10.0 * np.log10(results["noise_band"].values)) / 10.0)
+    square = np.zeros(centres.size)
+    for hertz, own in (
+        (parts.lines.frequency_hz, 0.5 * np.abs(parts.lines.pressure_pa) ** 2),
+        (parts.bands.centre_hz, parts.bands.pressure_pa**2),
+    ):
+        for at, energy in zip(hertz, own, strict=True):
+            square[np.argmin(abs(np.log(at / centres)))] += energy
+    return 10.0 * np.log10(np.maximum(square, 1e-30) / 4e-10)
+
+
+def test_sound_of_samples_has_the_median_total(sampled):
+    for option, microphone, speed in cases(sampled):
+        at = {"option": option, "receiver": microphone, "speed": speed}
+        parts = ingredients(sampled, option, microphone, speed)
+        total = sampled["level_total"].sel(at).item()
+        assert a_level(parts) == pytest.approx(total, abs=1e-6)
+        assert parts.a_weighted_db == pytest.approx(total, abs=1e-6)
+
+
+def test_every_third_octave_is_within_its_interval_but_for_the_step_to_the_total(sampled):
+    """Median levels by band, all raised or lowered by one step of less than a decibel or two."""
+    for option, microphone, speed in cases(sampled):
+        at = {"option": option, "receiver": microphone, "speed": speed}
+        parts = ingredients(sampled, option, microphone, speed)
+        found = third_octaves(parts, sampled)
+        median, low, high = (
+            sampled[f"total_band_level{end}"].sel(at).values
+            for end in ("", "_10_percent", "_90_percent")
+        )
+        sounds = found > -100.0
+        assert np.all(sounds | (median < -100.0))
+        step = found[sounds] - median[sounds]
+        assert np.ptp(step) < 1e-6
+        assert abs(step[0]) < 3.0
+        for level in (found[sounds], found[sounds] - step[0]):
+            assert np.all(level >= low[sounds] - 1e-6)
+            assert np.all(level <= high[sounds] + 1e-6)
+
+
+def test_an_option_sounds_louder_by_the_difference_of_the_medians(sampled):
+    parts = [ingredients(sampled, name, "front_1m", 2900.0) for name in ("none", "damping")]
+    at = {"receiver": "front_1m", "speed": 2900.0}
+    total = sampled["level_total"].sel(at)
+    change = total.sel(option="damping") - total.sel(option="none")
+    assert parts[1].a_weighted_db - parts[0].a_weighted_db == pytest.approx(change.item(), abs=1e-6)
+
+
+def test_lines_of_samples_keep_the_phases_of_the_representative_one(sampled):
+    at = {"option": "none", "receiver": "front_1m", "speed": 2900.0}
+    parts = ingredients(sampled, "none", "front_1m", 2900.0)
+    pressure = sampled["pressure_line"].sel(at).sum("sound_source")
+    for name, value in zip(parts.lines.name, parts.lines.pressure_pa, strict=True):
+        ratio = value / pressure.sel(line=name).item()
+        assert abs(ratio.imag) < 1e-9 * abs(ratio)
+        assert ratio.real > 0.0

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.levels.hearing import hearing_threshold_db
 from vibroacoustics.sound import critical_bands
 from vibroacoustics.sound.critical_bands import band_above, band_below, critical_band
 from vibroacoustics.sound.ingredients import Ingredients, SoundBands, SoundLines
@@ -68,7 +69,7 @@ def test_criteria_rise_below_one_kilohertz(hertz, noise, bands):
 
 def test_the_threshold_of_hearing_goes_on_from_range_to_range():
     for edge in (305.0, 2230.0):
-        below, above = (critical_bands.hearing_threshold_db(edge + side) for side in (-1e-3, 0.0))
+        below, above = (hearing_threshold_db(edge + side) for side in (-1e-3, 0.0))
         assert above == pytest.approx(below, abs=0.02)
 
 

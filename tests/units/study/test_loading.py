@@ -59,7 +59,7 @@ OF_SOURCES = {
 """Tables that only sources and stops read, and those of the frame that they drive."""
 OF_NEITHER = {"suspension", "opening", "discharge_dome", "suction_annulus", "discharge_muffler",
               "balance_quality", "synchronous_motor", "air_gap", "stator_yoke", "turning_back",
-              "check_valve", "leakage", "suction_pockets"}  # fmt: skip
+              "check_valve", "leakage", "suction_pockets", "refrigerant"}  # fmt: skip
 SOURCES_STUDY = ROOT / "tests" / "studies" / "sources_small.toml"
 
 

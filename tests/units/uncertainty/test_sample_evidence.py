@@ -1,4 +1,4 @@
-"""Discrepancies, pairs that go on, prior-data conflict and shares of the energy."""
+"""Discrepancies, pairs that go on, and prior-data conflict."""
 
 from types import SimpleNamespace
 
@@ -13,7 +13,6 @@ from vibroacoustics.mechanics.received_sound import NoisePower
 from vibroacoustics.study.uncertainty import Uncertainty
 from vibroacoustics.uncertainty.conflict import conflict_variables
 from vibroacoustics.uncertainty.discrepancy import Discrepancy
-from vibroacoustics.uncertainty.energy_shares import energy_shares
 from vibroacoustics.uncertainty.evidence import PAIRS, Evidence, systematic, with_gain
 
 SETTINGS = Uncertainty()
@@ -186,16 +185,3 @@ def test_data_that_exclude_each_other_conflict_together_only():
         found = conflict_variables(data, bands, np.ones(2000), rng)
         assert found["datum_tail"].min() > 0.1
         assert low <= found["conflict_tail"].item() <= high
-
-
-def test_energy_shares_are_those_of_the_sources_and_of_unmodelled_noise():
-    """Without discrepancy: a sample at the published level keeps all of it, a quiet one little."""
-    evidence, machine = evidence_of(NONE)
-    sound = {(SPEED, REFERENCE_OPTION): sound_at(0.01 * SQUARE, 0.03 * SQUARE)}
-    found = energy_shares(evidence, [sound] * 3, [machine] * 3, np.array([1.0, 1.0, 0.0]))
-    low, high, rest = found["energy_share"].values[0, :, 1]
-    assert high == pytest.approx(3.0 * low)
-    assert rest > 0.9
-    assert found["energy_majority"].values[0] == pytest.approx([0.0, 0.0, 1.0])
-    assert found["evidence_effective"].values == pytest.approx([2.0])
-    assert found["evidence"].values.tolist() == ["all data"]

@@ -13,9 +13,9 @@ from sources_study import (
     SOURCES_STUDY,
     case_of,
     made_up_modes,
+    nominal_run,
     path_of,
     run_made_up,
-    sources_run,
     with_tables,
 )
 from support import MACHINE_FILE, ROOT
@@ -26,7 +26,7 @@ from vibroacoustics.machine.machine import Machine
 from vibroacoustics.machine.source import Shared
 from vibroacoustics.radiation.pressure import wrench_pressure
 from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
-from vibroacoustics.sources.cases import without_time_series
+from vibroacoustics.sources.cases import loads_of, without_time_series
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.samples import samples_of, with_sample
 from vibroacoustics.study.sampling import latin_hypercubes, narrowed
@@ -38,8 +38,8 @@ from vibroacoustics.transfer.observers import Observers
 from vibroacoustics.transfer.path import computed_path
 from vibroacoustics.transfer.study_path import projection_errors
 from vibroacoustics.uncertainty.every_sample import in_every_sample
-from vibroacoustics.uncertainty.first_order import changed_first_order
 from vibroacoustics.uncertainty.sampled_cases import moves_otherwise, sampled_cases
+from vibroacoustics.uncertainty.sampled_forces import amplitudes, force_variables, sampled_forces
 
 TEXT = SOURCES_STUDY.read_text(encoding="utf-8")
 MACHINE_TEXT = MACHINE_FILE.read_text(encoding="utf-8")
@@ -313,7 +313,11 @@ def test_a_sample_without_solution_has_no_weight(study, monkeypatch):
     first = slice(len(heavy))  # of the bank
     assert np.isnan(results["prior_sample_level"].values[first]).tolist() == heavy
     assert (results["prior_sample_weight"].values[0, first] == 0.0).tolist() == heavy
-    assert not np.isnan(results["level_modelled_by_sample"].values).any()
+    assert np.isfinite(results["level_modelled_by_sample"].values).all()
+    rows = {tuple(row) for row in results["sampled_value"].values}
+    assert not np.isnan([*rows]).any()
+    mass = results["sampled_value"].sel(uncertain_parameter="orbiting_scroll.mass_kg")
+    assert mass.max() <= 1.55
 
 
 def test_every_sample_is_told_of_in_order():
@@ -348,7 +352,7 @@ def sampled_pressure(study, rigid, sample, option="none"):
 
 def test_motion_as_given_sounds_as_in_the_results(study, rigid):
     """A change by 1e-12 of a mount goes the way of the samples."""
-    results = sources_run()
+    results = nominal_run()
     stiffness = study.machine.mounts.vertical_stiffness_n_per_m * (1.0 + 1e-12)
     sample = {("mounts", "vertical_stiffness_n_per_m"): stiffness}
     for option in study.options:
@@ -359,7 +363,7 @@ def test_motion_as_given_sounds_as_in_the_results(study, rigid):
         np.testing.assert_allclose(found, expected, atol=1e-9 * size, err_msg=option)
 
 
-def test_forces_at_1x_are_those_of_a_machine_with_the_sampled_values(study):
+def test_forces_are_those_of_a_machine_with_the_sampled_values(study):
     """Of every option, beside a run of a study whose machine has the sampled mounts."""
     stiffness = 4.0 * study.machine.mounts.lateral_stiffness_n_per_m
     sample = {("mounts", "lateral_stiffness_n_per_m"): stiffness}
@@ -370,27 +374,55 @@ def test_forces_at_1x_are_those_of_a_machine_with_the_sampled_values(study):
         case = case_of(study, option)
         bare, _ = without_time_series(replace(case, shared=Shared()), {})
         key = (case.speed_rpm, option)
-        nominal = Cases({key: bare}, {}, {key: {}})
-        sampled = changed_first_order(nominal, sampled_cases(nominal, study, sample))[key]
-        at = {"speed": 2900.0, "option": option, "order": 1}
-        force, moment = (expected[f"{name}_amplitude"].sel(at) for name in ("force", "moment"))
-        foot = expected["foot_force_amplitude"].sel(at).max()
-        np.testing.assert_allclose(
-            sampled, [force, moment, foot], rtol=1e-9, atol=1e-9, err_msg=option
+        sampled = sampled_cases(Cases({key: bare}, {}, {key: {}}), study, sample)
+        found = amplitudes(sampled.cases[key], sampled.wrenches[key])
+        at = {"speed": 2900.0, "option": option}
+        for name, values in found.items():
+            of_machine = expected[name].sel(at).transpose(..., "order").values
+            np.testing.assert_allclose(values, of_machine, rtol=1e-9, atol=1e-9, err_msg=option)
+        foot, nominal = (
+            one["largest_foot_force"].sel(order=1, **at).item() for one in (expected, given)
         )
-        assert abs(foot / given["foot_force_amplitude"].sel(at).max() - 1.0) > 0.1
+        assert found["foot_force_amplitude"][:, 1].max() == pytest.approx(foot, rel=1e-9)
+        assert abs(foot / nominal - 1.0) > 0.1
+
+
+def test_forces_that_a_sample_leaves_are_the_nominal_ones(study):
+    """Samples of the keys' friction leave the motion, and change the figures of the keys."""
+    given = run_made_up(study.model_copy(update={"ranges": ()}))
+    nominal = Cases({}, {}, {})
+    for option in study.options:
+        key, case = (2900.0, option), case_of(study, option)
+        nominal.wrenches[key] = {}
+        bare = without_time_series(replace(case, shared=Shared()), loads_of(study, case))
+        nominal.cases[key], nominal.loads[key] = bare
+    sampled = sampled_cases(nominal, study, {("keys", "friction_ratio"): 0.05})
+    own = sampled_forces(study, nominal, sampled, given)
+    assert all(list(values) == ["reported_figure"] for values in own.values())
+    values = force_variables(own, given)
+    assert set(values) == {
+        "force_amplitude", "moment_amplitude", "foot_force_amplitude", "largest_foot_force",
+        "reported_figure",
+    }  # fmt: skip
+    for name in sorted(set(values) - {"reported_figure"}):
+        nominal_values = given[name].transpose("speed", "option", ...).values
+        np.testing.assert_array_equal(values[name], nominal_values, err_msg=name)
+    peak = given["figure"].values.tolist().index("key_force_peak_n")
+    force = given["reported_figure"].transpose("speed", "option", "figure").values[..., peak]
+    assert np.all(values["reported_figure"][..., peak] != force)
 
 
 @pytest.mark.long
-def test_forces_by_sample_are_in_the_results_and_as_given_where_no_sample_moves(study):
+def test_forces_by_sample_are_in_the_results_and_nominal_where_no_sample_moves(study):
     """Samples of the keys' friction leave the motion."""
     ranges = (Range(table="keys", field="friction_ratio", lowest=0.05, highest=0.15),)
     settings = study.uncertainty.model_copy(update={"random_samples": 4})
     quiet = study.model_copy(update={"ranges": ranges, "uncertainty": settings})
     results = run_made_up(quiet)
-    for name in ("force", "moment", "foot_force"):
-        given = results[f"{name}_amplitude"].sel(order=1)
-        given = given.max("foot") if "foot" in given.dims else given
+    for name, variable in (("force", "force_amplitude"), ("moment", "moment_amplitude"),
+                           ("foot_force", "largest_foot_force")):  # fmt: skip
+        given = results[f"{variable}_nominal"].sel(order=1)
+        np.testing.assert_array_equal(results[variable].sel(order=1), given)
         sampled = results[f"{name}_1x_by_sample"]
         assert sampled.sizes["sample"] == results.sizes["sample"]
         np.testing.assert_array_equal(

@@ -8,15 +8,17 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.units import si_key
 from ...machine.option import Option
-from ...radiation.given import Radiation
+from ...study.study import Study
 from ..keys import acts_on
 from ..space import OPTION, Space
 from .bases import Basis
 from .closed_form import CLOSED_FORMS, of_many
+from .deviating import Gains
+from .machine_sample import MachineSample
 from .option_engine import ARRAYS, OptionEngine, Outcome
-from .probe import Probe, probe
+from .probe import Probe
 from .recognition import Explorer, Route
-from .runs import CachedRuns
+from .runs import CachedRuns, probe_of
 from .samples import Samples
 from .seen import Need
 from .sound_way import Ways
@@ -30,17 +32,31 @@ class Engine:
     space : of the designs
     limits : of the variables with their tolerances, shape (variable, 2), SI
     needs : what is asked
-    radiation : gives the transfer vectors
+    ways : to the microphones
+    machine : nominal, or a sample
+    gains : of the sample by speed; none of the nominal machine
+    template : engine of the same space with another sample, whose variables act alike
     """
 
     def __init__(
-        self, space: Space, limits: Array, needs: Sequence[Need], radiation: Radiation
+        self,
+        space: Space,
+        limits: Array,
+        needs: Sequence[Need],
+        ways: Ways,
+        machine: MachineSample,
+        gains: tuple[Gains | None, ...],
+        template: "Engine | None" = None,
     ) -> None:
         self.space = space
         self.limits = limits
         self.needs = tuple(dict.fromkeys(needs))
-        self.ways = Ways(radiation)
+        self.ways = ways
+        self.machine = machine
+        self.gains = gains
+        self.template = template
         self._of_options: dict[str, OptionEngine] = {}
+        self._studies: dict[bytes, Study] = {} if template is None else template._studies
 
     def outcome(self, values: Array) -> Outcome:
         """What is seen of designs, and why some have failed.
@@ -80,7 +96,7 @@ class Engine:
         limits = self.limits.copy()
         if space.names[:1] == [OPTION]:
             limits[0] = space.options.index(option)
-        explorer = Explorer(samples, limits, speeds, ARRAYS | figures)
+        explorer = Explorer(samples, limits, speeds, ARRAYS | figures, self.template is not None)
         by_runs = any(need.what == "criterion" for need in self.needs)
         variables = dict(enumerate(space.variables))
         idle = [
@@ -90,13 +106,25 @@ class Engine:
         forms = _closed_forms(space, option)
         if by_runs:
             linear, forms = [], ()
-        runs = CachedRuns(space, option, self.needs, self.ways)
+        runs = CachedRuns(space, option, self.needs, self.ways, self.machine, self.gains)
+        template = None if self.template is None else self.template.of_option(option)
         return OptionEngine(
-            explorer, self.ways, self.needs, tuple(linear), tuple(idle), forms, runs
+            explorer,
+            self.ways,
+            self.needs,
+            tuple(linear),
+            tuple(idle),
+            forms,
+            runs,
+            self.gains,
+            template,
         )
 
     def _probe(self, option: str, design: Array) -> Probe:
-        return probe(self.space.quick_study_of(design), option, self.ways)
+        key = design.tobytes()
+        if key not in self._studies:
+            self._studies[key] = self.space.quick_study_of(design)
+        return probe_of(self.space, self._studies[key], option, self.ways, self.machine)
 
 
 def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:

@@ -6,16 +6,18 @@ from typing import Final
 
 import numpy as np
 
-from ...base.arrays import Array
+from ...base.arrays import Array, ComplexArray, IndexArray
+from .deviating import WeightedLines, varied_bands
 from .expansion import Expansion, summed
-from .on_mounts import Arrays, Lines, seen_of
-from .response import a_weight, displacement, pressure
+from .on_mounts import Arrays, Lines, pressure_by_source, seen_of
 from .seen import Need
 
 RANK: Final = 1e-13
 """Of the largest singular value: what is smaller is rounding."""
 SOLVED: Final = ("mass", "stiffness", "foot", "added", "foot_added", "factor")
 """Arrays that must be the same for all designs."""
+UNHEARD: Final = 1e-10
+"""Share of the energy of a receiver that designs change in bands that count as constant."""
 BY_LINE: Final = ("wrench", "added", "foot_added")
 
 
@@ -36,7 +38,7 @@ class FixedSpeed:
     ----------
     lines : those of the orders that are asked for but as sound
     arrays : expansion of what is no sound, at these lines
-    noise : factors of the random loads, shape (product, receiver)
+    noise : factors of all random loads, shape (product, receiver)
     """
 
     lines: Lines
@@ -54,7 +56,7 @@ class FixedSpeed:
         few |= {name: factors[name] for name in figures if name in factors}
         few = {name: part for name, part in few.items() if name in figures or rows.size}
         expansion = Expansion(arrays.terms, arrays.speed_rpm, few)
-        return cls(lines.at(rows), expansion, factors["noise"].real)
+        return cls(lines.at(rows), expansion, factors["noise"].real.sum(axis=(1, 3)))
 
 
 def compressed(order: int | None, lines: Lines, arrays: Expansion, body: Arrays) -> Array:
@@ -71,15 +73,70 @@ def compressed(order: int | None, lines: Lines, arrays: Expansion, body: Arrays)
     arrays : their expansion
     body : mass and stiffness of all designs, shape (1, ...)
     """
-    rows, factors = lines.row(order), arrays.factors
-    part = lines.at(rows)
-    added = factors["added"][:1, rows] if "added" in factors else None
-    motion = displacement(body, added, factors["load"][:, rows], part.frequency_hz)
-    total = pressure(motion, part.per_velocity, part.frequency_hz) + factors["other"][:, rows]
-    weight = a_weight(part.frequency_hz) if order is None else np.full(rows.size, 0.5)
-    total = total * (np.sqrt(weight) * factors["factor"][0, rows])[:, None]
-    both = np.concatenate([total.real, total.imag], axis=1)  # (product, 2 lines, receiver)
-    return _squeezed(np.moveaxis(both, (2, 1, 0), (0, 1, 2)))
+    rows, weighted = lines.weighted(order)
+    total = _factors(lines, rows, arrays, body).sum(axis=1) * np.sqrt(weighted.level_weight)
+    both = np.concatenate([total.real, total.imag], axis=2)  # (product, receiver, 2 lines)
+    return _squeezed(np.moveaxis(both, (1, 2, 0), (0, 1, 2)))
+
+
+def _factors(lines: Lines, rows: IndexArray, arrays: Expansion, body: Arrays) -> ComplexArray:
+    """Pressure per product of the variables, shape (product, source, receiver, line), Pa."""
+    factors = arrays.factors
+    few = {name: factors[name][:, rows] for name in ("load", "other")}
+    few |= {name: factors[name][:1, rows] for name in ("factor", "added") if name in factors}
+    return pressure_by_source(lines.at(rows), few, body)
+
+
+@dataclass(frozen=True)
+class PairedSound:
+    """Sound of one need at one speed with the discrepancies of a sample.
+
+    Attributes
+    ----------
+    lines : in the bands that designs change
+    pressure : per product of the variables, shape (product, source, receiver, line), Pa
+    noise : in these bands, shape (product, source, receiver, band), Pa²
+    constant : mean square in the other bands, shape (pair, receiver), Pa²
+    """
+
+    lines: WeightedLines
+    pressure: ComplexArray
+    noise: Array
+    constant: Array
+
+    @classmethod
+    def of(
+        cls, order: int | None, lines: Lines, arrays: Expansion, body: Arrays, columns: Array
+    ) -> "PairedSound":
+        """Prepare the sound of an order, or of all lines.
+
+        Parameters
+        ----------
+        order, lines, arrays, body : see `compressed`
+        columns : products of designs that fill the space, shape (design, product)
+        """
+        rows, weighted = lines.weighted(order)
+        pressure = _factors(lines, rows, arrays, body)
+        noise = np.asarray(arrays.factors["noise"].real)
+        change = summed(columns, pressure) - pressure[:1]
+        of_designs = np.asarray(np.tensordot(columns, noise, axes=1))
+        bands = varied_bands(change, pressure[:1], weighted, of_designs, UNHEARD)
+        varied = bands[weighted.band]
+        others = weighted.some(~varied, ~bands)
+        constant = others.mean_square(pressure[:1, ..., ~varied], noise[:1, ..., ~bands])[0]
+        some = weighted.some(varied, bands)
+        return cls(some, pressure[..., varied], noise[..., bands], constant)
+
+    def mean_square(self, columns: Array) -> Array:
+        """Compute the mean square of designs, shape (design, pair, receiver), Pa².
+
+        Parameters
+        ----------
+        columns : products of the variables, shape (design, product)
+        """
+        noise: Array = np.asarray(np.tensordot(columns, self.noise, axes=1), dtype=float)
+        square: Array = self.lines.mean_square(summed(columns, self.pressure), noise)
+        return square + self.constant
 
 
 def _squeezed(matrices: Array) -> Array:
@@ -101,12 +158,14 @@ class FixedMounts:
     sums : of the products that all sound is made of, shape (sum, product)
     sound : by need, rows of these sums, whose own sums make the mean square, shape
         (speed, receiver, row, sum)
+    paired : by need and speed, in place of these where the machine is a sample
     """
 
     speeds: tuple[FixedSpeed, ...]
     body: Arrays
     sums: Array
     sound: dict[Need, Array]
+    paired: dict[Need, list[PairedSound]]
 
     @classmethod
     def of(
@@ -115,19 +174,37 @@ class FixedMounts:
         lines: Sequence[Lines],
         by_speed: Sequence[Expansion],
         body: Expansion,
+        designs: Array,
     ) -> "FixedMounts":
-        """Prepared for what is asked."""
+        """Prepared for what is asked.
+
+        Parameters
+        ----------
+        needs : what is asked
+        lines, by_speed : of each speed, with the expansion of its arrays
+        body : expansion of its arrays
+        designs : that fill the space, shape (design, variable)
+        """
         bare = {name: factors[:1] for name, factors in body.factors.items()}
         both = list(zip(lines, by_speed, strict=True))
         speeds = tuple(FixedSpeed.of(needs, *one) for one in both)
+        sounds = [need for need in needs if need.what == "sound"]
+        if lines[0].gains is not None:
+            columns = [one.terms.at(designs, one.speed_rpm) for one in by_speed]
+            paired = {
+                need: [
+                    PairedSound.of(need.order, *b, bare, c)
+                    for b, c in zip(both, columns, strict=True)
+                ]
+                for need in sounds
+            }
+            return cls(speeds, bare, np.zeros((1, 1)), {}, paired)
         rows = {
-            need: _stacked([compressed(need.order, *one, bare) for one in both])
-            for need in needs
-            if need.what == "sound"
+            need: _stacked([compressed(need.order, *one, bare) for one in both]) for need in sounds
         }
         nothing = np.zeros((1, len(by_speed[0].terms.products)))
         sums = _directions(np.concatenate([nothing, *map(_scaled, rows.values())]))
-        return cls(speeds, bare, sums, {need: part @ sums.T for need, part in rows.items()})
+        return cls(speeds, bare, sums, {need: part @ sums.T for need, part in rows.items()}, {})
 
     def seen(self, needs: Sequence[Need], values: Array) -> dict[Need, Array]:
         """What is seen of designs.
@@ -157,7 +234,10 @@ class FixedMounts:
         return [columns, *(one.arrays.terms.at(values, one.lines.speed_rpm) for one in rest)]
 
     def _sound(self, need: Need, by_speed: Sequence[Array]) -> Array:
-        """Mean square, shape (design, speed, receiver)."""
+        """Mean square, shape (design, pair, speed, receiver)."""
+        if self.paired:
+            each = zip(self.paired[need], by_speed, strict=True)
+            return np.stack([one.mean_square(columns) for one, columns in each], axis=2)
         rows, shared = self.sound[need], not self.speeds[0].arrays.terms.by_speed
         count = len(by_speed[0])
         square = np.empty((count, *rows.shape[:2]))
@@ -170,7 +250,7 @@ class FixedMounts:
             np.einsum("nrk->nr", each, out=square[:, speed])
             if need.order is None and self.speeds[speed].noise.any():
                 square[:, speed] += by_speed[speed] @ self.speeds[speed].noise
-        return square
+        return square[:, None]
 
 
 def _stacked(parts: Sequence[Array]) -> Array:

@@ -1,10 +1,11 @@
 """Designs whose loads and matrices are sums of products: chunk by chunk."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from ...base.arrays import Array
+from .deviating import Gains
 from .expansion import Expansion
 from .fixed_mounts import FixedMounts, is_fixed
 from .on_mounts import Lines, lines_of_speed, seen_of
@@ -24,7 +25,7 @@ class LinearDesigns:
     ----------
     needs : what is asked
     lines : by speed
-    expansions : by speed, last that of the body
+    expansions : by speed, last that of the body; without arrays on the same mounts
     fixed : where all stand on the same mounts
     """
 
@@ -41,6 +42,8 @@ class LinearDesigns:
         speeds_rpm: Sequence[float],
         expansions: Sequence[Expansion],
         way: SoundWay,
+        gains: Sequence[Gains | None],
+        designs: Array,
     ) -> "LinearDesigns":
         """Prepared for what is asked.
 
@@ -51,13 +54,18 @@ class LinearDesigns:
         speeds_rpm : of the study
         expansions : by speed, last that of the body
         way : to the microphones
+        gains : of the sample by speed; none of the nominal machine
+        designs : that fill the space, shape (design, variable)
         """
-        each = zip(speeds_rpm, probe.frequency_hz, probe.order, strict=True)
-        lines = tuple(lines_of_speed(*one, way) for one in each)
+        each = zip(speeds_rpm, probe.frequency_hz, probe.order, gains, strict=True)
+        lines = tuple(
+            lines_of_speed(speed, hertz, order, way, one) for speed, hertz, order, one in each
+        )
         *by_speed, body = expansions
         fixed = None
         if is_fixed(by_speed, body):
-            fixed = FixedMounts.of(needs, lines, by_speed, body)
+            expansions = [replace(one, factors={}) for one in expansions]  # large
+            fixed = FixedMounts.of(needs, lines, by_speed, body, designs)
         return cls(needs, lines, tuple(expansions), fixed)
 
     def seen(self, values: Array) -> Iterator[tuple[slice, dict[Need, Array]]]:
@@ -77,7 +85,8 @@ class LinearDesigns:
         if self.fixed is not None:
             numbers = 4 * len(self.expansions[0].terms.products)
         else:
-            numbers = 2 * max(one.order.size for one in self.lines) * 16
+            pairs = [1 if one.gains is None else one.gains.added.size for one in self.lines]
+            numbers = 2 * max(one.order.size for one in self.lines) * 16 * max(pairs)
         return max(int(CHUNK_BYTES / (8.0 * numbers)), 1)
 
     def _of_chunk(self, values: Array) -> dict[Need, Array]:

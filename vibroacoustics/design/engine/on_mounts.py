@@ -1,18 +1,22 @@
 """What is seen of designs whose arrays are known: each moves on its mounts."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray, IndexArray
 from ...base.errors import ParameterError
+from ...levels.by_source import gain_band_number
+from .deviating import Gains, WeightedLines
 from .response import a_weight, displacement, foot_force, natural_modes, pressure, size_of_vector
 from .seen import Need
 from .sound_way import SoundWay
 
 Arrays = Mapping[str, ComplexArray]
 ADDED = ("added", "foot_added")
+SOUND = ("load", "other", "factor", "added")
+"""Arrays by line that the pressure comes of."""
 
 
 @dataclass(frozen=True)
@@ -24,17 +28,22 @@ class Lines:
     speed_rpm : of the shaft
     frequency_hz, order : shape (line,); order 0 for tones that are none
     per_velocity : pressure per velocity, shape (receiver, 6, line), Pa s/m
+    gains : of a sample; none of the nominal machine
     """
 
     speed_rpm: float
     frequency_hz: Array
     order: IndexArray
     per_velocity: ComplexArray
+    gains: Gains | None = None
 
     def at(self, rows: IndexArray) -> "Lines":
         """Some of the lines."""
-        return Lines(
-            self.speed_rpm, self.frequency_hz[rows], self.order[rows], self.per_velocity[..., rows]
+        return replace(
+            self,
+            frequency_hz=self.frequency_hz[rows],
+            order=self.order[rows],
+            per_velocity=self.per_velocity[..., rows],
         )
 
     def row(self, order: int | None) -> IndexArray:
@@ -42,12 +51,28 @@ class Lines:
         everything = np.arange(self.order.size)
         return everything if order is None else everything[self.order == order]
 
+    def weighted(self, order: int | None) -> tuple[IndexArray, WeightedLines]:
+        """Return the numbers of the lines that the level of an order or of all depends on.
+
+        Those of an order are all of its gain band, whose energy the gains depend on.
+        """
+        band = gain_band_number(self.frequency_hz)
+        row = self.row(order)
+        rows = np.flatnonzero(np.isin(band, band[row])) if self.gains is not None else row
+        weight = a_weight(self.frequency_hz[rows])
+        weighted = weight if order is None else np.where(np.isin(rows, row), 0.5, 0.0)
+        return rows, WeightedLines(weight, weighted, band[rows], order is None, self.gains)
+
 
 def lines_of_speed(
-    speed_rpm: float, frequency_hz: Array, order: IndexArray, way: SoundWay
+    speed_rpm: float,
+    frequency_hz: Array,
+    order: IndexArray,
+    way: SoundWay,
+    gains: Gains | None = None,
 ) -> Lines:
     """Lines of one speed on their way to the microphones."""
-    return Lines(speed_rpm, frequency_hz, order, way.per_velocity(frequency_hz))
+    return Lines(speed_rpm, frequency_hz, order, way.per_velocity(frequency_hz), gains)
 
 
 def seen_of(
@@ -69,7 +94,9 @@ def seen_of(
             seen[need] = _natural_hz(body, by_speed, n)
             continue
         parts = [_at_speed(need, *speed, body) for speed in zip(lines, by_speed, strict=True)]
-        seen[need] = np.stack([np.broadcast_to(p, (n, *p.shape[1:])) for p in parts], axis=1)
+        axis = 2 if need.what == "sound" else 1
+        every = [np.broadcast_to(part, (n, *part.shape[1:])) for part in parts]
+        seen[need] = np.stack(every, axis=axis)
     return seen
 
 
@@ -105,14 +132,33 @@ def reported(arrays: Arrays, name: str) -> Array:
     return arrays[name].real if name in arrays else np.full(1, np.nan)
 
 
+def pressure_by_source(lines: Lines, arrays: Arrays, body: Arrays) -> ComplexArray:
+    """Pressure at the receivers, shape (design or 1, source, receiver, line), complex peak, Pa.
+
+    Parameters
+    ----------
+    lines : of one speed
+    arrays : of the speed at these lines: load, other, factor, added, see `Probe`
+    body : arrays of the body
+    """
+    load = arrays["load"]
+    count, size, sources, motions = load.shape
+    every = lines.at(np.repeat(np.arange(size), sources))
+    added = np.repeat(arrays["added"], sources, axis=1) if "added" in arrays else None
+    loads = load.reshape(count, size * sources, motions)
+    motion = displacement(body, added, loads, every.frequency_hz)
+    rigid = pressure(motion, every.per_velocity, every.frequency_hz)
+    rigid = rigid.reshape(len(rigid), size, sources, -1)
+    total = (rigid + arrays["other"]) * arrays["factor"][..., None, None]
+    return np.asarray(np.moveaxis(total, 1, -1))
+
+
 def _mean_square(order: int | None, lines: Lines, arrays: Arrays, body: Arrays) -> Array:
-    """Of the pressure, shape (design or 1, receiver), Pa²: A-weighted of all, plain of an order."""
-    row = lines.row(order)
-    part = lines.at(row)
-    added = arrays["added"][:, row] if "added" in arrays else None
-    motion = displacement(body, added, arrays["load"][:, row], part.frequency_hz)
-    total = pressure(motion, part.per_velocity, part.frequency_hz) + arrays["other"][:, row]
-    weight = a_weight(part.frequency_hz) if order is None else np.full(row.size, 0.5)
-    factor = weight * np.abs(arrays["factor"][:, row]) ** 2
-    square = np.einsum("nlr,nl->nr", np.abs(total) ** 2, np.broadcast_to(factor, total.shape[:2]))
-    return np.asarray(square + arrays["noise"].real if order is None else square)
+    """Of the pressure, shape (design or 1, pair, receiver), Pa²: A-weighted of all, or of an order.
+
+    The level of an order is not weighted.
+    """
+    rows, weighted = lines.weighted(order)
+    few = {name: arrays[name][:, rows] for name in SOUND if name in arrays}
+    total = pressure_by_source(lines.at(rows), few, body)
+    return weighted.mean_square(total, arrays["noise"].real)

@@ -10,8 +10,9 @@ import numpy as np
 from ...base.arrays import Array, IndexArray
 from ...base.errors import ParameterError, SolverError
 from .bases import Basis
+from .deviating import Gains
 from .linear_designs import LinearDesigns
-from .recognition import NO_EFFECT, TESTS, Explorer, Route, fits
+from .recognition import NO_EFFECT, TESTS, Explorer, Route, fits, spread
 from .seen import Need, Seen
 from .sound_way import Ways
 from .terms import Terms, products_of
@@ -21,6 +22,8 @@ ARRAYS: Final = frozenset({
     "mass", "stiffness", "foot", "added", "foot_added",
 })  # fmt: skip
 """That every figure may come of; reported figures matter where they are asked for."""
+FILLING: Final = 64
+"""Designs that show which bands vary over the space."""
 Run = Callable[[Array], Seen]
 """Of the values of a design, shape (variable,), to what is seen of it, shape (1, ...)."""
 
@@ -59,6 +62,8 @@ class OptionEngine:
     idle : of those that say nothing of the option
     forms : closed forms of the option
     run : computes one design
+    gains : of the sample by speed; none of the nominal machine
+    template : products and routes that designs of another sample were found to have
     """
 
     explorer: Explorer
@@ -68,11 +73,15 @@ class OptionEngine:
     idle: tuple[int, ...]
     forms: tuple[Basis, ...]
     run: Run
+    gains: tuple[Gains | None, ...]
+    template: "OptionEngine | None" = None
     _groups: dict[bytes, LinearDesigns | None] = field(default_factory=dict, repr=False)
 
     @cached_property
     def recognised(self) -> tuple[Terms, tuple[Route, ...]]:
         """Products in which loads and matrices are linear, and which way each variable goes."""
+        if self.template is not None:
+            return self.template.recognised
         routes = [Route(False, "takes words, or a criterion is asked for")] * len(
             self.explorer.limits
         )
@@ -148,8 +157,18 @@ class OptionEngine:
             (probe,) = self.explorer.samples.at(base[None])
         except (ParameterError, SolverError):
             return None
+        columns = sorted(number for basis in terms.bases for number in basis.variables)
+        designs = np.repeat(base[None], FILLING, axis=0)
+        designs[:, columns] = spread(self.explorer.limits[columns], FILLING)
+        self.explorer.samples.forget()
         return LinearDesigns.of(
-            self.needs, probe, self.explorer.speeds_rpm, expansions, self.ways.of(probe.way)
+            self.needs,
+            probe,
+            self.explorer.speeds_rpm,
+            expansions,
+            self.ways.of(probe.way),
+            self.gains,
+            designs,
         )
 
     def _run_each(self, values: Array, rows: IndexArray, result: Outcome) -> None:

@@ -1,21 +1,27 @@
 """One design before anything moves: forces of all sources and the body on its mounts."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray, IndexArray
 from ...base.progress import no_progress
-from ...machine.source import Case
+from ...machine.cases import Cases
+from ...machine.source import Case, Shared
+from ...mechanics.added import InsertionLoss
 from ...mechanics.loads import Lines, Loads, PortLoads, lines_of, summed
 from ...mechanics.ports import BodyPort
 from ...sources.cases import cases_of, loaded_cases, wrench_lines
+from ...study.sampling import Sample
 from ...study.study import Study
 from ...transfer.machine import MachineOnMounts, on_mounts
+from ...uncertainty.sampled_cases import sampled_cases
 from .sound_way import SoundWay
 
 Parts = Mapping[str, ComplexArray]
+NO_LOSS: Final = InsertionLoss(np.zeros(0), np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -28,9 +34,9 @@ class Probe:
     order : of the lines, 0 for tones that are none, likewise
     by_speed : arrays by name, one mapping a speed, of the shapes
         wrench (order, motion): load of the moving parts on the bodies
-        load (line, motion): of all sources on the bodies, the one on the feet first
-        other (line, receiver): pressure that does not come of the rigid motion, Pa
-        noise (receiver,): A-weighted mean square of random loads, Pa²
+        load (line, source, motion): on the bodies, the one on the feet first
+        other (line, source, receiver): pressure that does not come of the rigid motion, Pa
+        noise (source, receiver, gain band): A-weighted mean square of random loads, Pa²
         factor (line,): what the option's insertion loss leaves of the pressure
         and one of shape () for each reported figure
         and, where stiffness changes over frequency or loss is viscous, what is added to it:
@@ -38,6 +44,7 @@ class Probe:
     body : arrays by name, of the shapes
         mass, stiffness (motion, motion): complex with the structural loss
         foot (foot, 3, motion): force into each foot per motion
+        (a nominal machine has one source: all together)
     way : hash of what the way from motion to microphones consists of
     """
 
@@ -52,7 +59,13 @@ class Probe:
         return (*self.by_speed, self.body)
 
 
-def probe(study: Study, option: str, way_of: Callable[[Study], SoundWay]) -> Probe:
+def probe(
+    study: Study,
+    option: str,
+    way_of: Callable[[Study], SoundWay],
+    sample: Sample | None = None,
+    shared: Shared | None = None,
+) -> Probe:
     """Forces and body of a study with one of its options.
 
     Parameters
@@ -60,29 +73,50 @@ def probe(study: Study, option: str, way_of: Callable[[Study], SoundWay]) -> Pro
     study : with the values of a design, its options `none` and the one asked for
     option : its name
     way_of : gives the way from motion to microphones
+    sample : values by table and field; none for the nominal machine and all sources together
+    shared : with other designs of the same sample
 
     Raises
     ------
     ParameterError, SolverError
         The design cannot be built, or not run.
     """
-    cases, loads = loaded_cases(study, cases_of(study, no_progress))
+    shared = shared or Shared()
+    cases = _cases(study, option, sample, shared)
     way = way_of(study)
     frequencies, orders, parts = [], [], []
     for speed in study.operation.speed_rpm:
-        case, of_case = cases[speed, option], loads[speed, option]
+        key = speed, option
+        case, loads, wrenches = cases.cases[key], cases.loads[key], cases.wrenches[key]
         orders_held = study.highest_order(speed)
         highest = max(orders_held, case.maximum_order) if study.drives_shell else orders_held
-        wrenches = wrench_lines(case, of_case, orders_held)
-        lines = lines_of(of_case, case.shaft_frequency_hz, highest, wrenches)
+        lines = lines_of(loads, case.shaft_frequency_hz, highest, wrenches)
         frequencies.append(lines.frequency_hz[1:])
         number = np.arange(1, lines.frequency_hz.size)
         orders.append(np.where(number <= highest, number, 0))
-        parts.append(_of_case(study, option, case, of_case, lines, wrenches, way))
-    body = on_mounts(study.options[option].built_into(study.machine))
+        part = _of_case(study, option, case, loads, lines, wrenches, way, shared)
+        parts.append(part if sample is not None else _together(part))
+    body = on_mounts(case.machine)
     added = [_over_frequency(body, frequency) for frequency in frequencies]
     by_speed = tuple({**part, **more} for part, more in zip(parts, added, strict=True))
     return Probe(tuple(frequencies), tuple(orders), by_speed, body_matrices(body), way.key)
+
+
+def _cases(study: Study, option: str, sample: Sample | None, shared: Shared) -> Cases:
+    """Cases of an option with their loads and the lines of their wrenches."""
+    cases = {
+        key: replace(case, shared=shared) for key, case in cases_of(study, no_progress).items()
+    }
+    if sample is None or study.operation.supply_frequency_hz is None:
+        cases, loads = loaded_cases(study, cases)
+    of_option = {key: case for key, case in cases.items() if key[1] == option}
+    if sample is not None:
+        return sampled_cases(Cases(of_option, {}, {}), study, sample, shared)
+    wrenches = {
+        key: wrench_lines(case, loads[key], study.highest_order(case.speed_rpm))
+        for key, case in of_option.items()
+    }
+    return Cases(of_option, loads, wrenches)
 
 
 def _of_case(
@@ -93,31 +127,35 @@ def _of_case(
     lines: Lines,
     wrenches: Mapping[str, PortLoads],
     way: SoundWay,
+    shared: Shared,
 ) -> dict[str, ComplexArray]:
     body = on_mounts(case.machine)
-    other, noise = way.besides_rigid(case.machine, lines, loads)
-    loss = study.options[option].insertion_loss()
-    factor: Array = np.ones(lines.frequency_hz.size)
-    if loss is not None:
-        factor = loss.amplitude_factor(lines.frequency_hz)
-        noise = [(hertz, power * loss.power_factor(hertz)) for hertz, power in noise]
+    loss = study.options[option].insertion_loss() or NO_LOSS
+    other, noise = way.besides_rigid(case.machine, lines, loads, loss, shared)
     figures = {**case.revolution.figures, **case.added.figures}
     for one in loads.values():
         figures |= one.figures
+    on_body = [_loaded(body, load, lines.frequency_hz.size) for load in lines.loads.values()]
+    orders = study.highest_order(case.speed_rpm) + 1
     return {
-        "wrench": _loaded(body, summed(wrenches.values()))[1:],
-        "load": _loaded(body, summed(lines.loads.values()))[1:],
-        "other": other[:, 1:].T,
-        "noise": way.weighted(noise),
-        "factor": factor[1:].astype(complex),
+        "wrench": _loaded(body, summed(wrenches.values()), orders)[1:],
+        "load": np.stack(on_body, axis=1)[1:],
+        "other": np.moveaxis(other, -1, 0)[1:],
+        "noise": noise.astype(complex),
+        "factor": loss.amplitude_factor(lines.frequency_hz)[1:].astype(complex),
         **{name: np.asarray(complex(value)) for name, value in figures.items()},
     }
 
 
-def _loaded(body: MachineOnMounts, loads: PortLoads) -> ComplexArray:
+def _together(part: Parts) -> Parts:
+    """All sources as one."""
+    one = {name: part[name].sum(axis=1, keepdims=True) for name in ("load", "other")}
+    return {**part, **one, "noise": part["noise"].sum(axis=0, keepdims=True)}
+
+
+def _loaded(body: MachineOnMounts, loads: PortLoads, lines: int) -> ComplexArray:
     """Loads on the bodies, about the centre of mass of each, shape (line, motion)."""
     on_bodies = {port: load for port, load in loads.items() if isinstance(port, BodyPort)}
-    lines = next(iter(loads.values())).shape[-1]
     load = np.zeros((lines, len(body.isolation.bodies), 6), dtype=complex)
     for port, amplitudes in on_bodies.items():
         load[:, body.row(port)] += amplitudes.T

@@ -19,6 +19,10 @@ NODES: Final = 11
 """Designs along one variable: at most four are fitted, the others test."""
 TESTS: Final = 16
 """Designs that test a fit, at random."""
+KNOWN_TESTS: Final = 4
+"""Designs that test a fit where the functions are known from another sample of the machine."""
+KNOWN_RELATIVE: Final = 1e-8
+"""Error there, of the largest size over the designs, that is rounding."""
 LARGEST_FIT: Final = 1500
 """Products that are fitted at most."""
 UNCHANGED: Final = 1e-12
@@ -51,12 +55,14 @@ class Explorer:
     limits : of the variables, shape (variable, 2)
     speeds_rpm : of the study
     wanted : names of the arrays that matter
+    has_template : whether the functions are known from another sample, so that fewer designs do
     """
 
     samples: Samples
     limits: Array
     speeds_rpm: tuple[float, ...]
     wanted: frozenset[str]
+    has_template: bool = False
 
     def basis_along(
         self, base: Array, group: tuple[int, ...], forms: Sequence[Basis]
@@ -118,15 +124,16 @@ class Explorer:
         if count > LARGEST_FIT:
             raise SolverError(f"{count} products of functions: more than {LARGEST_FIT}")
         columns = sorted(number for basis in terms.bases for number in basis.variables)
-        values = np.repeat(base[None], fits(terms) + TESTS, axis=0)
+        tests = KNOWN_TESTS if self.has_template else TESTS
+        values = np.repeat(base[None], fits(terms, self.has_template) + tests, axis=0)
         if columns:
             values[:, columns] = spread(self.limits[columns], len(values))
         arrays = self.arrays(values)
-        fit = [{name: part[:-TESTS] for name, part in one.items()} for one in arrays]
-        test = [{name: part[-TESTS:] for name, part in one.items()} for one in arrays]
-        expansions = self._fitted(terms, values[:-TESTS], fit)
-        error = self._error(expansions, values[-TESTS:], test)
-        if error > RELATIVE:
+        fit = [{name: part[:-tests] for name, part in one.items()} for one in arrays]
+        test = [{name: part[-tests:] for name, part in one.items()} for one in arrays]
+        expansions = self._fitted(terms, values[:-tests], fit)
+        error = self._error(expansions, values[-tests:], test)
+        if error > (KNOWN_RELATIVE if self.has_template else RELATIVE):
             raise SolverError(f"linear in products of known functions to {error:.1g} only")
         return expansions
 
@@ -157,10 +164,16 @@ class Explorer:
         return max(errors, default=0.0)
 
 
-def fits(terms: Terms) -> int:
-    """Number of designs that a fit is made of."""
+def fits(terms: Terms, has_template: bool = False) -> int:
+    """Number of designs that a fit is made of.
+
+    Parameters
+    ----------
+    terms : that are fitted
+    has_template : whether they are known from another sample
+    """
     count = len(terms.products)
-    return count + count // 2 + 4 if terms.bases else 1
+    return count + (0 if has_template else count // 2) + 4 if terms.bases else 1
 
 
 def spread(limits: Array, count: int) -> Array:
@@ -171,6 +184,8 @@ def spread(limits: Array, count: int) -> Array:
     limits : lowest and highest value, shape (variable, 2)
     count : of designs
     """
+    if not len(limits):
+        return np.zeros((count, 0))
     if len(limits) == 1:
         share = 0.5 - 0.5 * np.cos(np.pi * (np.arange(count) + 0.5) / count)[:, None]
     else:

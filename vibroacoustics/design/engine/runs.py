@@ -3,7 +3,7 @@
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array
-from ...base.hashing import sha256
+from ...base.hashing import canonical_json, sha256
 from ...base.progress import no_progress
 from ...base.registry import plugins
 from ...pipeline.study import run
@@ -19,6 +19,8 @@ from ...results import storage
 from ...study.criterion import CRITERIA
 from ...study.study import Study
 from ..space import Space
+from .deviating import Gains
+from .machine_sample import MachineSample
 from .on_mounts import lines_of_speed, seen_of
 from .probe import Probe, probe
 from .seen import Need, Seen
@@ -38,12 +40,16 @@ class CachedRuns:
     option : of all of them
     needs : what is asked
     ways : to the microphones
+    machine : nominal, or a sample
+    gains : of the sample by speed; none of the nominal machine
     """
 
     space: Space
     option: str
     needs: tuple[Need, ...]
     ways: Ways
+    machine: MachineSample
+    gains: tuple[Gains | None, ...]
     _known: dict[bytes, Seen] = field(default_factory=dict, repr=False)
     _slow: bool = True
 
@@ -64,32 +70,59 @@ class CachedRuns:
         """From memory or disk; from the first run on only slow ones are worth a file."""
         way = self.ways(study)
         if not self._slow:
-            return seen_of_run(study, self.option, self.needs, self.ways)
-        material = _material(study, self.option, self.needs, way)
+            return self._seen(study)
+        material = _material(study, self.option, self.needs, way) | _of_sample(self.machine)
         result, _ = storage.cached("design", material, lambda: self._timed(study))
         self._slow = result.attrs["seconds"] >= SLOW_S
         return {need: result[str(number)].values for number, need in enumerate(self.needs)}
 
     def _timed(self, study: Study) -> xr.Dataset:
         begin = time.perf_counter()
-        seen = seen_of_run(study, self.option, self.needs, self.ways)
+        seen = self._seen(study)
         result = _dataset([seen[need] for need in self.needs])
         result.attrs["seconds"] = time.perf_counter() - begin
         return result
 
+    def _seen(self, study: Study) -> Seen:
+        """What is seen of one design, shape (1, ...)."""
+        made = probe_of(self.space, study, self.option, self.ways, self.machine)
+        speeds = study.operation.speed_rpm
+        seen = seen_of_probe(self.needs, made, speeds, self.ways(study), self.gains)
+        criteria = [need for need in self.needs if need.what == "criterion"]
+        if not criteria:
+            return seen
+        key = canonical_json(study.parameters()), self.option
+        scored = partial(_scored, study, self.option, criteria, self.ways)
+        return seen | self.ways.criteria(key, scored)
 
-def seen_of_run(study: Study, option: str, needs: Sequence[Need], ways: Ways) -> Seen:
-    """What is seen of one design with an option, shape (1, ...).
+
+def probe_of(space: Space, study: Study, option: str, ways: Ways, machine: MachineSample) -> Probe:
+    """Return the probe of a design of a nominal machine or of a sample.
+
+    Parameters
+    ----------
+    space : of the designs, whose values are not sampled
+    study : with the values of the design
+    option : its name
+    ways : to the microphones
+    machine : nominal, or a sample
 
     Raises
     ------
     ParameterError, SolverError
-        It cannot be built, or not run.
+        The design cannot be built, or not run.
     """
-    made = probe(study, option, ways)
-    seen = seen_of_probe(needs, made, study.operation.speed_rpm, ways(study))
-    criteria = [need for need in needs if need.what == "criterion"]
-    return seen | _scored(study, option, criteria, ways) if criteria else seen
+    sample = None if machine.deviation is None else machine.without(space.machine_values)
+    return probe(study, option, ways, sample, machine.shared)
+
+
+def _of_sample(machine: MachineSample) -> dict[str, Any]:
+    """Everything that a sample adds to what shapes a design, as JSON values."""
+    if machine.deviation is None:
+        return {}
+    values = {".".join(key): value for key, value in machine.values.items()}
+    arrays = machine.deviation.gain, machine.deviation.added
+    return {"sample": values, "deviation": sha256(b"".join(one.tobytes() for one in arrays))}
 
 
 def _scored(study: Study, option: str, criteria: Sequence[Need], ways: Ways) -> dict[Need, Array]:
@@ -132,7 +165,11 @@ def _dataset(seen: Sequence[Array]) -> xr.Dataset:
 
 
 def seen_of_probe(
-    needs: Sequence[Need], made: Probe, speeds_rpm: Sequence[float], way: SoundWay
+    needs: Sequence[Need],
+    made: Probe,
+    speeds_rpm: Sequence[float],
+    way: SoundWay,
+    gains: Sequence[Gains | None],
 ) -> dict[Need, Array]:
     """What is seen of one design by its probe, shape (1, ...).
 
@@ -142,9 +179,10 @@ def seen_of_probe(
     made : probe of the design
     speeds_rpm : of the study
     way : of the design to the microphones
+    gains : of the sample by speed; none of the nominal machine
     """
-    each = zip(speeds_rpm, made.frequency_hz, made.order, strict=True)
-    lines = [lines_of_speed(*one, way) for one in each]
+    each = zip(speeds_rpm, made.frequency_hz, made.order, gains, strict=True)
+    lines = [lines_of_speed(speed, hertz, order, way, one) for speed, hertz, order, one in each]
     groups = [{name: np.asarray(a)[None] for name, a in one.items()} for one in made.groups()]
     simple = [need for need in needs if need.what != "criterion"]
     return seen_of(simple, lines, groups[:-1], groups[-1], 1)

@@ -29,4 +29,7 @@ class Need(NamedTuple):
 
 
 Seen = Mapping[Need, Array]
-"""By need, (design, speed, ...): receivers of sound, feet; of `natural` (design, mode), Hz."""
+"""By need, (design, speed, ...): receivers of sound, feet; of `natural` (design, mode), Hz.
+
+An engine gives sound as (design, pair, speed, receiver); a figure sees each pair as a design.
+"""

@@ -1,31 +1,27 @@
 """The way from motion and loads to the microphones, made by the pipeline's stages."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray
-from ...base.decibel import power_of_level
 from ...base.hashing import canonical_json, sha256
 from ...base.progress import no_progress
-from ...levels.weighting import WEIGHTING
+from ...levels.by_source import GAIN_BANDS, a_weight_by_band
 from ...machine.machine import Machine
+from ...machine.source import Shared
+from ...mechanics.added import InsertionLoss
 from ...mechanics.loads import Lines, Loads, in_shell
 from ...radiation.given import Radiation
 from ...radiation.pressure import pressure_per_shell_velocity
 from ...radiation.transfer_vectors import pressure_per_velocity
 from ...stages.shell import shell_path
 from ...study.study import Study
-from ...transfer.bending import bending_shell
-from ...transfer.load_path import LoadPath
-from ...transfer.machine import on_mounts
 from ...transfer.observers import Observers
-from ...transfer.path import ShellPath
+from ...transfer.received import Transmission
 
-Noise = list[tuple[Array, Array]]
-"""Frequencies, Hz, shape (frequency,), and mean squares, shape (receiver, frequency), Pa²."""
 _VECTORS: Final = ("transfer_vector", "pattern_transfer_vector")
 
 
@@ -38,46 +34,54 @@ class SoundWay:
     key : hash of what it is made of
     content : hash of the transfer vectors
     receivers : number of them
-    microphones : pressure per velocity of the rigid motions and, where a source drives it, of the
-        shell's modes
+    transmission : microphones, and the elastic shell where a source drives it
     highest_hz : of the transfer vectors; higher lines are silent
-    shell : elastic modes of the shell; none where no source drives it
     """
 
     key: str
     content: str
     receivers: int
-    microphones: Observers
+    transmission: Transmission
     highest_hz: float
-    shell: ShellPath | None
 
     def per_velocity(self, frequency_hz: Array) -> ComplexArray:
         """Pressure per velocity of the rigid motions, shape (receiver, 6, line), Pa s/m."""
-        return self.microphones.rigid(np.minimum(frequency_hz, self.highest_hz))
+        return self.transmission.microphones.rigid(np.minimum(frequency_hz, self.highest_hz))
 
     def besides_rigid(
-        self, machine: Machine, lines: Lines, loads: Mapping[str, Loads]
-    ) -> tuple[ComplexArray, Noise]:
-        """Pressure of what bends the shell, (receiver, line), and random loads."""
-        shape = (self.receivers, lines.frequency_hz.size)
-        other: ComplexArray = np.zeros(shape, dtype=complex)
-        shell = None if self.shell is None else bending_shell(machine, self.shell)
-        path = LoadPath(on_mounts(machine), shell)
-        for load in lines.loads.values():
-            other = other + path.observed(self.microphones, in_shell(load), lines.frequency_hz)
-        noise = [
-            (part.frequency_hz, path.noise_power(self.microphones, part))
-            for one in loads.values()
-            for part in one.noise
-        ]
-        return other, noise
+        self,
+        machine: Machine,
+        lines: Lines,
+        loads: Mapping[str, Loads],
+        loss: InsertionLoss,
+        shared: Shared,
+    ) -> tuple[ComplexArray, Array]:
+        """Compute the sound of each source that does not come of the rigid motions.
 
-    def weighted(self, noise: Sequence[tuple[Array, Array]]) -> ComplexArray:
-        """A-weighted mean square of random loads, shape (receiver,), Pa²."""
-        total = np.zeros(self.receivers, dtype=complex)
-        for frequency, power in noise:
-            total += power @ power_of_level(WEIGHTING["A"](frequency))
-        return total
+        Parameters
+        ----------
+        machine : of the case
+        lines : of all sources
+        loads : by source
+        loss : of the option, on random loads
+        shared : with other designs of the same sample
+
+        Returns
+        -------
+        pressure of what bends the shell, shape (source, receiver, line), Pa, and A-weighted mean
+        squares of random loads, shape (source, receiver, gain band), Pa²
+        """
+        path = self.transmission.path(shared, machine, loads)
+        microphones, hertz = self.transmission.microphones, lines.frequency_hz
+        other = np.zeros((len(loads), self.receivers, hertz.size), dtype=complex)
+        noise = np.zeros((len(loads), self.receivers, len(GAIN_BANDS)))
+        for number, (source, load) in enumerate(loads.items()):
+            other[number] += path.observed(microphones, in_shell(lines.loads[source]), hertz)
+            for part in load.noise:
+                power = path.noise_power(microphones, part)
+                power = power * loss.power_factor(part.frequency_hz)
+                noise[number] += power @ a_weight_by_band(part.frequency_hz)
+        return other, noise
 
 
 @dataclass
@@ -87,9 +91,11 @@ class Ways:
     Attributes
     ----------
     radiation : gives the transfer vectors
+    criteria : values of criteria by design, which all samples of the machine share
     """
 
     radiation: Radiation
+    criteria: Shared = field(default_factory=Shared, repr=False)
     _known: dict[str, SoundWay] = field(default_factory=dict, repr=False)
 
     def __call__(self, study: Study) -> SoundWay:
@@ -108,16 +114,13 @@ class Ways:
         motions = () if path is None else path.modes
         radiated, _ = self.radiation(study, no_progress, motions)
         vectors = radiated["transfer_vector"]
+        modes = None if path is None else pressure_per_shell_velocity(radiated)
         return SoundWay(
             key,
             sha256(b"".join(v.values.tobytes() for n, v in radiated.items() if n in _VECTORS)),
             vectors.sizes["receiver"],
-            Observers(
-                pressure_per_velocity(vectors),
-                None if path is None else pressure_per_shell_velocity(radiated),
-            ),
+            Transmission(study, Observers(pressure_per_velocity(vectors), modes), path),
             float(vectors["frequency"].max()),
-            path,
         )
 
 

@@ -40,15 +40,12 @@ class LevelChange(Level):
     name = "level_change_db"
     label = "Change of the modelled level"
     position = 2.0
-
-    def reference(self, setting: Setting) -> Array:
-        """Power without an option."""
-        return self.values(setting.reference(), setting)
+    is_change = True
 
 
 @register
 class TotalLevel(Level):
-    """A-weighted level of the machine: modelled sound and what the model leaves of its level."""
+    """A-weighted level of the machine: modelled sound and unmodelled noise."""
 
     name = "level_total_dba"
     label = "Level of the machine"
@@ -56,7 +53,7 @@ class TotalLevel(Level):
 
     def values(self, seen: Seen, setting: Setting) -> Array:
         """Power over that of 0 dB(A)."""
-        return _power(seen[Need("sound")] + setting.remainder())
+        return _power(seen[Need("sound")] + setting.unmodelled())
 
 
 @register
@@ -66,10 +63,7 @@ class TotalChange(TotalLevel):
     name = "total_change_db"
     label = "Change of the machine's level"
     position = 4.0
-
-    def reference(self, setting: Setting) -> Array:
-        """Power without an option."""
-        return self.values(setting.reference(), setting)
+    is_change = True
 
 
 @register
@@ -98,7 +92,4 @@ class OrderChange(OrderLevel):
     name = "order_change_db"
     label = "Change of the order"
     position = 6.0
-
-    def reference(self, setting: Setting) -> Array:
-        """Power without an option."""
-        return self.values(setting.reference(), setting)
+    is_change = True

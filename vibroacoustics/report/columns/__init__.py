@@ -1,12 +1,12 @@
 """Columns of the comparison: one value per option, speed and microphone.
 
-A column is one object, in one list of `built_in` or registered by a stranger; it appears in
+A column is one object, in one list of `built_in` or registered by a third party; it appears in
 `comparison.csv`, and in the tables of the report and the terminal where it has a head for them.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Final
 
 import xarray as xr
 
@@ -40,9 +40,9 @@ class Column:
     change_of : column of the level that this one is a change of: `–` where that is silent
         without a balancer, `silent` where it is with the option
     applies : whether results have such a column
-    position : from left to right; a stranger's are the last
-    band : variable whose band over the samples the tables show in place of the value, where there
-        are samples
+    position : from left to right; those of third parties are the last
+    variable : of which it is the value, with the labels `at`; the tables show its interval
+    at : labels of the variable beside option, speed and receiver
 
     Examples
     --------
@@ -61,7 +61,8 @@ class Column:
     change_of: str = ""
     applies: Callable[[xr.Dataset], bool] = _always
     position: float = LAST
-    band: str = ""
+    variable: str = ""
+    at: Mapping[str, Any] = field(default_factory=dict)
 
 
 COLUMNS: Final[Registry[Column]] = Registry(

@@ -8,11 +8,14 @@ import xarray as xr
 
 from ...base import rounding
 from ...results.figure_limits import CheckedFigure
+from ..bands import percent
 from ..blocks import Block, Bullets, Text
 from ..limit_tables import broken_orders, order_limits_table
 from ..tables import Table, to_csv
 
-_FIELDS: Final = ("result", "figure", "speed_rpm", "value", "limit", "unit", "side", "margin")
+_FIELDS: Final = (
+    "result", "figure", "speed_rpm", "value", "limit", "unit", "side", "margin", "probability",
+)  # fmt: skip
 
 
 def broken_lines(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> list[str]:
@@ -50,17 +53,18 @@ def figure_limits_table(figures: Sequence[CheckedFigure]) -> Table:
             f"{row.side} {limit}",
             row.unit,
             rounding.fixed(row.margin) if _is_level(row) else rounding.significant(row.margin),
+            _chance(row),
             "" if row.is_within else "broken",
         )
         for row in figures
         for value, limit in [_numbers(row)]
     ]
-    head = ("Figure", "rpm", "Value", "Limit", "Unit", "Margin", "")
+    head = ("Figure", "rpm", "Value", "Limit", "Unit", "Margin", "Probability that it holds", "")
     return Table(
         "Limits of totals, bands, criteria and lowest values",
         head,
         tuple(rows),
-        frozenset({0, 4, 6}),
+        frozenset({0, 4, 7}),
     )
 
 
@@ -75,6 +79,10 @@ def figure_limits_csv(figures: Sequence[CheckedFigure]) -> bytes:
 
 def _cell(value: str | float) -> str | float:
     return "" if isinstance(value, float) and np.isnan(value) else value
+
+
+def _chance(row: CheckedFigure) -> str:
+    return rounding.NOTHING if np.isnan(row.probability) else percent(row.probability)
 
 
 def _speed(row: CheckedFigure) -> str:

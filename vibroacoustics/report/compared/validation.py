@@ -8,10 +8,10 @@ import xarray as xr
 
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_amplitude
+from ...results.estimates import has_samples, in_samples
 from ...results.figure_limits import PRESSURE, Compared
 from ..evidence import Rung, grid_error_db
 from ..order_tables import shown_speeds
-from ..study import has_samples
 from .levels import levels_at
 from .orders import known_channels, loud_orders
 
@@ -99,11 +99,9 @@ def _inputs(study: xr.Dataset, option: str, channel: str, speed: float) -> float
     if not has_samples(study):
         return 0.0
     receiver = channel.removeprefix(PRESSURE)
-    level = study["level_total_by_sample"].sel(option=option, receiver=receiver, speed=speed)
-    weight = study["sample_weight"].values[0]
-    counts = weight > 0.0
-    values, weight = level.values[counts], weight[counts] / weight[counts].sum()
-    return float(np.sqrt(weight @ (values - weight @ values) ** 2))
+    total = in_samples(study, "level_total")
+    level = total.values.sel(option=option, receiver=receiver, speed=speed).values
+    return float(np.sqrt(total.weight @ (level - total.weight @ level) ** 2))
 
 
 def _level(rms: xr.DataArray, unit: str) -> float:

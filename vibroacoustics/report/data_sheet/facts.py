@@ -1,6 +1,6 @@
-"""Operating point and mounting, as a test report of EN 12102-1 states them."""
+"""Operating point and mounting as in a test report of EN 12102-1, and what is not available."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Final
 
 import numpy as np
@@ -15,10 +15,20 @@ _PRESSURES: Final = {
     "discharge_pressure_pa": "discharge pressure",
 }
 _BAR: Final = 1e-5
+_NOT_AVAILABLE: Final = (
+    "a measurement of the machine: all values are predicted",
+    "L_pA and its uncertainty at a work station: a compressor has none",
+    "peak level L_pC,peak",
+    "name of the test laboratory, date of the test, and a noise test code that was followed",
+    "background noise and corrections K1 and K2: the prediction has none",
+)
+"""Parts of a declaration by ISO 4871."""
+FEWEST_MICROPHONES: Final = 10
+"""On the hemisphere of ISO 3744."""
 
 
 def operating(case: xr.Dataset) -> tuple[Fact, ...]:
-    """Speed, supply and pressures of an option at a speed."""
+    """Return speed, supply, refrigerant and pressures of an option at a speed."""
     study = parameters(case)
     facts = [
         Fact(name="shaft speed", value=float(case["speed"]), unit="rpm"),
@@ -27,9 +37,11 @@ def operating(case: xr.Dataset) -> tuple[Fact, ...]:
     if "supply_frequency" in case:
         facts.append(_number("supply frequency", float(case["supply_frequency"]), "Hz"))
     point, _ = operating_points(case)
-    if point:
-        facts.append(Fact(name="operating point", value=point))
+    facts.append(Fact(name="operating point", value=point or "values of the machine's file"))
+    refrigerant = study["machine"].get("refrigerant") or "not stated in the machine's file"
+    facts.append(Fact(name="refrigerant", value=refrigerant))
     facts += _pressures(study["machine"])
+    facts += _sources_of_pressures(study["records"])
     mass = case["reported_figure"].sel(figure="added_mass_kg").item()
     if np.isfinite(mass):
         facts.append(_number("mass added by the option", mass, "kg"))
@@ -37,12 +49,12 @@ def operating(case: xr.Dataset) -> tuple[Fact, ...]:
 
 
 def mounting(case: xr.Dataset) -> tuple[Fact, ...]:
-    """What the machine stands on and in."""
+    """Return feet, mounts, floor and size of the machine, and the air."""
     study = parameters(case)
     machine, around = study["machine"], study["radiation"]["surroundings"]
-    gives_way = machine.get("floor") or machine.get("floor_mobility")
+    yielding = machine.get("floor") or machine.get("floor_mobility")
     measured = (study.get("measured") or {}).get("floor")
-    floor = "gives way under the feet" if gives_way or measured else "rigid under the feet"
+    floor = "compliant under the feet" if yielding or measured else "rigid under the feet"
     shell = machine["shell"]
     return (
         _number("mass on the mounts", machine["housing"]["mass_kg"], "kg"),
@@ -52,10 +64,23 @@ def mounting(case: xr.Dataset) -> tuple[Fact, ...]:
         _number("height of the shell above the floor", 1e3 * shell["floor_clearance_m"], "mm"),
         _number("height of the shell", 1e3 * shell["height_m"], "mm"),
         _number("diameter of the shell", 1e3 * shell["outer_diameter_m"], "mm"),
-        Fact(name="pipes", value="none: what they hold and radiate is not modelled"),
+        Fact(name="pipes", value="none: their stiffness and their sound are not modelled"),
         _number("density of the air", AIR_DENSITY_KG_PER_M3, "kg/m³"),
         _number("speed of sound", SPEED_OF_SOUND_M_PER_S, "m/s"),
     )
+
+
+def not_available(microphones: int) -> tuple[str, ...]:
+    """Return what a declaration by ISO 4871 states and the prediction does not have.
+
+    Parameters
+    ----------
+    microphones : number of those from which the sound power comes
+    """
+    if microphones >= FEWEST_MICROPHONES:
+        return _NOT_AVAILABLE
+    surface = f"the {FEWEST_MICROPHONES} microphones of ISO 3744: the study has {microphones}"
+    return (*_NOT_AVAILABLE, surface)
 
 
 def _mounts(machine: Mapping[str, Any]) -> Iterator[Fact]:
@@ -78,12 +103,20 @@ def _differs(foot: Mapping[str, Any]) -> bool:
 
 
 def _pressures(machine: Mapping[str, Any]) -> Iterator[Fact]:
-    """Suction and discharge pressure where a table of the machine has them, the first of each."""
-    tables = [machine, *(one for one in machine.values() if isinstance(one, dict))]
+    """Suction and discharge pressure of the first table of the machine that has them."""
+    tables = [machine, *(table for table in machine.values() if isinstance(table, dict))]
     for key, words in _PRESSURES.items():
         values = [table[key] for table in tables if table.get(key)]
         if values:
             yield _number(words, _BAR * values[0], "bar")
+
+
+def _sources_of_pressures(records: Iterable[Mapping[str, Any]]) -> Iterator[Fact]:
+    """Source of the suction pressure in the machine's file, which names the operating point."""
+    for record in records:
+        if str(record["field"]).rpartition(".")[2].startswith("suction_pressure_"):
+            yield Fact(name="source of the suction pressure", value=str(record["source"]))
+            return
 
 
 def _number(name: str, value: float, unit: str) -> Fact:

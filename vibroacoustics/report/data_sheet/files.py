@@ -3,28 +3,31 @@
 from collections.abc import Iterator
 
 from ...base import rounding
+from ...results.estimates import Estimate
+from ...sound.prominence import NO_TONE_DB
 from ..blocks import Bullets, Pictures, Text
 from ..html import html
 from ..page import Page, Part
 from ..tables import Table, to_csv
+from ..tones import excess_words
 from .figure import sheet_picture
-from .model import DataSheet, SoundPower, Vibration
+from .model import BandPower, DataSheet, SoundPower, Tone, Vibration
 
 Row = tuple[str, str, str, str | float, str]
 
 
 def data_sheet_json(sheet: DataSheet) -> bytes:
-    """As `data/schemas/data_sheet.json` has it."""
+    """Return the sheet as JSON by `data/schemas/data_sheet.json`."""
     return sheet.model_dump_json(indent=1).encode() + b"\n"
 
 
 def data_sheet_csv(sheet: DataSheet) -> bytes:
-    """A value a row; the value of a band that has none is empty."""
+    """Return the sheet as CSV, a value a row; the value of an empty band is empty."""
     return to_csv(("part", "item", "quantity", "value", "unit"), _rows(sheet))
 
 
 def data_sheet_html(sheet: DataSheet) -> bytes:
-    """The page: one or two sheets of A4."""
+    """Return the page: one or two sheets of A4."""
     power = sheet.sound_power
     parts = (
         Part("level", "Sound power", (Text(headline(sheet), "headline"), *_words(power))),
@@ -36,7 +39,8 @@ def data_sheet_html(sheet: DataSheet) -> bytes:
             (_vibration(sheet), Text(_sentence(sheet.vibration_words), "note")),
         ),
         Part("conditions", "Operating point and mounting", (_facts(sheet),)),
-        Part("limits", "What it leaves out", (Bullets(sheet.leaves_out),)),
+        Part("limits", "Neglected effects", (Bullets(sheet.leaves_out),)),
+        Part("not_available", "Not available (ISO 4871)", (Bullets(sheet.not_available),)),
     )
     about = (
         f"Option {sheet.option} at {sheet.speed_rpm:g} rpm: {sheet.statement}. {sheet.title}. "
@@ -47,14 +51,15 @@ def data_sheet_html(sheet: DataSheet) -> bytes:
 
 
 def headline(sheet: DataSheet) -> str:
-    """L_WA and K in a sentence."""
+    """Return L_WA and K_WA in a sentence."""
     power = sheet.sound_power
-    alone = ", of what is modelled alone" if power.rest == "none" else ""
+    alone = ", of the modelled sources alone" if power.unmodelled_kind == "none" else ""
+    whose = "single machine" if power.batch_deviation_db is None else "batch"
     if power.declared is not None:
         level, uncertainty = power.declared
         return (
-            f"L_WA = {level} dB, K_WA = {uncertainty} dB re 1 pW (dual number, as in ISO 4871): "
-            f"{sheet.statement}{alone}."
+            f"L_WA = {level} dB, K_WA = {uncertainty} dB re 1 pW (dual number, as in ISO 4871; "
+            f"{whose}): {sheet.statement}{alone}."
         )
     level_dba = float("nan") if power.level_dba is None else power.level_dba
     level_words = f"L_WA = {rounding.fixed(level_dba)} dB re 1 pW, K_WA not known"
@@ -63,13 +68,14 @@ def headline(sheet: DataSheet) -> str:
 
 def _words(power: SoundPower) -> tuple[Text, ...]:
     modelled = "–" if power.modelled_dba is None else rounding.fixed(power.modelled_dba)
-    lowest, highest = (rounding.significant(one) for one in power.model_range_hz)
+    lowest, highest = map(rounding.significant, power.model_range_hz)
     return (
-        Text(f"Of the model alone L_WA = {modelled} dB; beside it: {power.rest_words}."),
-        Text(_sentence(power.uncertainty_words), "note"),
+        Text(f"Modelled sources alone: L_WA = {modelled} dB. Besides: {power.unmodelled_words}."),
+        Text(f"{_sentence(power.uncertainty_words)} Prior: {power.prior}.", "note"),
         Text(
-            f"L_W is the {power.determined}. Bands of the model reach from {lowest} to {highest} "
-            "Hz; outside, and where nothing sounds, they are empty.",
+            f"L_W is the {power.determined}. The model covers {lowest} to {highest} Hz. Bands are "
+            "medians of the weighted samples where there are samples; parts then do not add up to "
+            "the machine.",
             "note",
         ),
     )
@@ -77,54 +83,80 @@ def _words(power: SoundPower) -> tuple[Text, ...]:
 
 def _bands(power: SoundPower) -> Table:
     rows = tuple(
-        (f"{band.band_hz:g}", *map(_shown, (band.modelled_db, band.rest_db, band.total_db)))
+        (f"{band.band_hz:g}", _modelled(band), _shown(band.unmodelled_db), _shown(band.total_db))
         for band in power.bands
     )
-    head = ("Band, Hz", "modelled", power.rest, "total")
+    head = ("Band, Hz", "modelled", power.unmodelled_kind, "machine")
     return Table("Sound power level in third octaves, dB re 1 pW, no weighting", head, rows)
 
 
+def _modelled(band: BandPower) -> str:
+    if band.modelled_below_db is not None:
+        return f"model: below {rounding.fixed(band.modelled_below_db, 0)}"
+    return "not modelled" if band.modelled_db is None else rounding.fixed(band.modelled_db)
+
+
 def _tones(sheet: DataSheet) -> tuple[Text | Table, ...]:
-    judged = "ECMA-418-1, by tone-to-noise or prominence ratio, at the microphones of the sheet"
+    judged = (
+        "ECMA-418-1, by tone-to-noise or prominence ratio, at the microphones of the sheet, "
+        "in more than half of the weighted samples"
+    )
     count = sheet.tones_not_judged
     others = (
         f"{count} audible tone{'' if count == 1 else 's'} without noise in the critical band "
         f"{'is' if count == 1 else 'are'} not judged."
     )
-    not_judged = (Text(others),) if count else ()
+    without_noise = (Text(others),) if count else ()
     if not sheet.tones:
         which = "No tone is prominent" if not count else "No other tone is prominent"
-        return *not_judged, Text(f"{which} ({judged}).")
+        return *without_noise, Text(f"{which} ({judged}). {_any_tone(sheet)}".rstrip())
     rows = tuple(
         (
-            one.name,
-            rounding.significant(one.frequency_hz, 4),
-            one.microphone,
-            rounding.fixed(one.level_db),
-            rounding.fixed(one.tone_to_noise_db),
-            _shown(one.prominence_db),
+            tone.name,
+            rounding.significant(tone.frequency_hz, 4),
+            tone.microphone,
+            rounding.fixed(tone.level_db),
+            rounding.fixed(tone.excess_db),
+            _interval(tone),
+            f"{100.0 * tone.probability:.0f} %",
         )
-        for one in sheet.tones
+        for tone in sheet.tones
     )
-    head = ("Tone", "Hz", "Microphone", "Lp, dB", "tone to noise, dB", "prominence, dB")
-    return *not_judged, Table(f"Prominent tones ({judged})", head, rows, frozenset({0, 2}))
+    head = ("Tone", "Hz", "Microphone", "Lp, dB", "excess, dB", "80 % interval, dB", "probability")
+    caption = f"Prominent tones ({judged})"
+    table = Table(caption, head, rows, frozenset({0, 2}))
+    some = _any_tone(sheet)
+    return *without_noise, table, *((Text(some),) if some else ())
+
+
+def _any_tone(sheet: DataSheet) -> str:
+    """Return how often some tone is prominent, where samples differ in it."""
+    share = sheet.any_tone_probability
+    if share in (0.0, 1.0):
+        return ""
+    return f"Some tone, not always the same, is prominent in {100.0 * share:.0f} % of the samples."
+
+
+def _interval(tone: Tone) -> str:
+    low = NO_TONE_DB if tone.excess_low_db is None else tone.excess_low_db
+    return excess_words(Estimate(low, tone.excess_db, tone.excess_high_db))
 
 
 def _vibration(sheet: DataSheet) -> Table:
-    """A row a point, a column a quantity and direction."""
+    """Table with a row for each point and a column for each quantity and direction."""
     of_point: dict[str, list[Vibration]] = {}
-    for one in sheet.vibration:
-        of_point.setdefault(one.point, []).append(one)
+    for motion in sheet.vibration:
+        of_point.setdefault(motion.point, []).append(motion)
     rows = tuple(
         (
             point,
-            *(rounding.significant(1e6 * one.displacement_peak_to_peak_m) for one in motions),
-            *(rounding.significant(1e3 * one.velocity_rms_m_per_s) for one in motions),
-            *(rounding.significant(one.acceleration_rms_m_per_s2) for one in motions),
+            *(rounding.significant(1e6 * motion.displacement_peak_to_peak_m) for motion in motions),
+            *(rounding.significant(1e3 * motion.velocity_rms_m_per_s) for motion in motions),
+            *(rounding.significant(motion.acceleration_rms_m_per_s2) for motion in motions),
         )
         for point, motions in of_point.items()
     )
-    directions = [one.direction for one in next(iter(of_point.values()))]
+    directions = [motion.direction for motion in next(iter(of_point.values()))]
     names = ("s p-p, µm", "v rms, mm/s", "a rms, m/s²")
     head = ("Point", *(f"{name}, {axis}" for name in names for axis in directions))
     return Table("Displacement s, velocity v and acceleration a along x, y, z", head, rows)
@@ -132,12 +164,12 @@ def _vibration(sheet: DataSheet) -> Table:
 
 def _facts(sheet: DataSheet) -> Table:
     rows = tuple(
-        (one.name, f"{_value(one.value)} {one.unit}".strip(), kind)
+        (fact.name, f"{_value(fact.value)} {fact.unit}".strip(), kind)
         for kind, facts in (("operation", sheet.operating), ("mounting", sheet.mounting))
-        for one in facts
+        for fact in facts
     )
     head = ("", "Value", "")
-    return Table("As EN 12102-1 asks", head, rows, frozenset({0, 1, 2}))
+    return Table("Conditions (EN 12102-1)", head, rows, frozenset({0, 1, 2}))
 
 
 def _value(value: float | str) -> str:
@@ -156,17 +188,21 @@ def _rows(sheet: DataSheet) -> Iterator[Row]:
     power = sheet.sound_power
     yield "statement", sheet.statement, "", "", ""
     for part, facts in (("operating", sheet.operating), ("mounting", sheet.mounting)):
-        for one in facts:
-            yield part, one.name, "", one.value, one.unit
-    for name in ("level_dba", "modelled_dba", "nominal_dba", "uncertainty_k_db"):
+        for fact in facts:
+            yield part, fact.name, "", fact.value, fact.unit
+    for name in (
+        "level_dba", "modelled_dba", "nominal_dba", "uncertainty_k_db", "model_spread_db",
+        "measurement_deviation_db", "batch_deviation_db",
+    ):  # fmt: skip
         yield "sound power", "A-weighted", name, _cell(getattr(power, name)), "dB"
+    yield "sound power", "prior of the unmodelled noise", "", power.prior, ""
     for band in power.bands:
-        for name in ("modelled_db", "rest_db", "total_db"):
+        for name in ("modelled_db", "modelled_below_db", "unmodelled_db", "total_db"):
             yield "sound power", f"{band.band_hz:g} Hz", name, _cell(getattr(band, name)), "dB"
     for tone in sheet.tones:
         for name, unit in (
-            ("frequency_hz", "Hz"), ("level_db", "dB"), ("tone_to_noise_db", "dB"),
-            ("prominence_db", "dB"),
+            ("frequency_hz", "Hz"), ("level_db", "dB"), ("excess_db", "dB"),
+            ("excess_low_db", "dB"), ("excess_high_db", "dB"), ("probability", "1"),
         ):  # fmt: skip
             item = f"{tone.name} at {tone.microphone}"
             yield "prominent tone", item, name, _cell(getattr(tone, name)), unit

@@ -5,7 +5,6 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 STATEMENT: Final = "predicted, not measured"
-SCHEMA_VERSION: Final = "1"
 Level = Annotated[float | None, Field(description="dB; null where there is none, never zero")]
 
 
@@ -26,11 +25,13 @@ class BandPower(_Part):
 
     band_hz: float
     modelled_db: Level
-    """Of all modelled sources; null outside the model and where none sounds."""
-    rest_db: Level
-    """Of the baseline or the remainder beside the model."""
+    """All modelled sources; null outside the model and where no source sounds."""
+    modelled_below_db: Level
+    """Upper limit in a band of the model in which no source sounds; else null."""
+    unmodelled_db: Level
+    """Unmodelled noise, or what the model does not explain of the baseline."""
     total_db: Level
-    """Of both."""
+    """The machine."""
 
 
 class SoundPower(_Part):
@@ -42,20 +43,28 @@ class SoundPower(_Part):
     determined: str
     """How, in words."""
     level_dba: Level
-    """L_WA of model and rest: median of the weighted samples; nominal without samples."""
+    """L_WA of the machine: median of the weighted samples; nominal without samples."""
     modelled_dba: Level
-    """L_WA of the model alone, the median likewise."""
+    """L_WA of the modelled sources, the median likewise."""
     nominal_dba: Level
-    """L_WA of the nominal values, from which the bands are."""
+    """L_WA with the nominal values."""
     uncertainty_k_db: Level
-    """K of ISO 4871; null without samples, or where these do not differ."""
+    """K_WA of ISO 4871; null without samples, or where these do not differ."""
+    model_spread_db: Level
+    """Part of the model: 95 % quantile of the weighted samples less L_WA; null as K_WA."""
+    measurement_deviation_db: float
+    """Standard deviation of a measurement by ISO 3744, grade 2, that K_WA holds."""
+    batch_deviation_db: float | None
+    """Assumed standard deviation of the machines of a batch; null for a single machine."""
     uncertainty_words: str
-    """Where K comes from."""
+    """What K_WA holds."""
+    prior: str
+    """Prior of the unmodelled noise."""
     model_range_hz: tuple[float, float]
-    """Lowest and highest frequency of the bands that the model fills."""
-    rest: Literal["baseline", "remainder", "none"]
-    rest_words: str
-    """What stands beside the model."""
+    """Lowest and highest frequency of the model; it covers the last band in part."""
+    unmodelled_kind: Literal["baseline", "unmodelled noise", "none"]
+    unmodelled_words: str
+    """What the machine's level holds besides the model."""
     bands: tuple[BandPower, ...]
 
     @property
@@ -72,16 +81,21 @@ class SoundPower(_Part):
 
 
 class Tone(_Part):
-    """A prominent tone (ECMA-418-1), at the microphone at which it stands out most."""
+    """A prominent tone (ECMA-418-1), at the microphone with the largest excess."""
 
     name: str
     frequency_hz: float
     microphone: str
     level_db: float
     """Sound pressure level there, re 20 µPa."""
-    tone_to_noise_db: float
-    prominence_db: Level
-    """Prominence ratio; null without sound in the neighbouring bands."""
+    excess_db: float
+    """Over the criterion of tone-to-noise or prominence ratio; median of the weighted samples."""
+    excess_low_db: Level
+    """Lower end of its 80 % interval; null where the tone is not audible there."""
+    excess_high_db: float
+    """Upper end of its 80 % interval."""
+    probability: float
+    """Share of the weighted samples in which the tone is audible and prominent; over 0.5."""
 
 
 class Vibration(_Part):
@@ -95,7 +109,7 @@ class Vibration(_Part):
 
 
 class DataSheet(_Part):
-    """What is predicted of an option at an operating point, as a maker's data sheet states it.
+    """Prediction for an option at an operating point, in the form of a maker's data sheet.
 
     Examples
     --------
@@ -107,7 +121,7 @@ class DataSheet(_Part):
     [100.0, 125.0, 160.0]
     """
 
-    schema_version: Literal["1"] = "1"
+    schema_version: Literal["2"] = "2"
     statement: Literal["predicted, not measured"] = STATEMENT
     title: str
     machine: str
@@ -118,22 +132,26 @@ class DataSheet(_Part):
     sound_power: SoundPower
     tones: tuple[Tone, ...]
     """Prominent ones at any microphone, rising in frequency."""
+    any_tone_probability: float
+    """Share of the weighted samples with some prominent tone, at the microphone with the most."""
     tones_not_judged: int
     """Audible tones in whose critical band there is no noise at any microphone."""
     vibration: tuple[Vibration, ...]
     vibration_words: str
     """What the motion holds."""
     leaves_out: tuple[str, ...]
-    """What the model leaves out, in its own words."""
+    """Effects that the model neglects."""
+    not_available: tuple[str, ...]
+    """What a declaration by ISO 4871 states and a prediction does not have."""
     created_utc: str
     """When the results were made."""
     software_version: str
     parameters_sha256: str
-    """Of all values of the study."""
+    """Hash of all values of the study."""
 
 
 def data_sheet_schema() -> dict[str, Any]:
-    """Of the JSON file of a data sheet, draft 2020-12."""
+    """Return the schema of the JSON file of a data sheet, draft 2020-12."""
     made = DataSheet.model_json_schema(mode="serialization")
     title = {"title": "Data sheet of vibroacoustics (predicted)"}
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made, **title}

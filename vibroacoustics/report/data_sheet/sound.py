@@ -1,48 +1,60 @@
 """Sound power of an option from the levels at the study's microphones."""
 
-from typing import Final, Literal
+from typing import Final, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from ...base import rounding
 from ...base.arrays import Array
-from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import SILENCE_DB, level_of_power, power_of_level
 from ...base.errors import ParameterError
 from ...base.quantiles import weighted_quantiles
 from ...base.rounding import LEVEL_FLOOR_DB
-from ...levels.by_source import membership
+from ...levels.by_source import LOWEST_BAND_HZ
+from ...levels.declared_level import (
+    MEASUREMENT_DEVIATION_DB,
+    SHARE,
+    combined_deviation_db,
+    upper_limit_db,
+)
 from ...levels.measured_power import BANDS
+from ...results.estimates import has_samples, in_samples, nominal, weighted_estimate
 from ..sampled_words import not_sampled_sentence
-from ..study import has_samples, overall_noise, parameters
+from ..source_words import prior_words
+from ..study import overall_noise, parameters
 from .model import BandPower, SoundPower
 
-SHARE_OF_SAMPLES: Final = 0.95
-"""Of machines below L_WA + K (ISO 4871)."""
-_LEAST_K_DB: Final = 0.05
-"""Of samples whose levels differ; less is no uncertainty that could be declared."""
-Rest = Literal["baseline", "remainder", "none"]
-_DUST: Final = 1e-9
-"""Of a band's energy: less is rounding, where the rest is what a total has beside the model."""
+_LEAST_SPREAD_DB: Final = 0.05
+"""Smallest spread of samples whose levels differ; less is no uncertainty of the model."""
+Rest = Literal["baseline", "unmodelled noise", "none"]
+_ROUNDING: Final = 1e-9
+"""Part of a band's energy that is a rounding error, in a difference of total and model."""
 _SILENT_DB: Final = SILENCE_DB + 100.0
 _BAND_HZ: Final = [band.nominal_hz for band in BANDS]
 _REST: Final = {
     "baseline": (
-        "measured baseline less what the model has of it, at {}; "
-        "in other bands and at other microphones the remainder"
+        "the measured baseline less the modelled sources, at {}; "
+        "in other bands and at other microphones unmodelled noise"
     ),
-    "remainder": (
-        "the published level less the model, with an assumed spectrum, alike at all microphones"
-    ),
-    "none": "nothing: no level of the machine is published; L_WA is that of the model alone",
+    "unmodelled noise": "unmodelled noise with an assumed spectrum, alike at all microphones",
+    "none": "nothing: no level of the machine is published; L_WA is that of the modelled sources",
 }
 
 
-def surfaces_m2(results: xr.Dataset, names: list[str]) -> Array:
-    """Area of the hemisphere through each microphone about the machine's axis on the floor.
+class _Levels(NamedTuple):
+    """L_WA of the machine and of the modelled sources, its limit and the part of the model, dB."""
 
-    Without a floor of the sphere about the centre of mass. (microphone,), m².
+    level: float
+    modelled: float
+    k: float | None = None
+    spread: float | None = None
+
+
+def surfaces_m2(results: xr.Dataset, names: list[str]) -> Array:
+    """Return the area of the hemisphere through each microphone about the axis on the floor.
+
+    Without a floor that of the sphere about the centre of mass. (microphone,), m².
 
     Raises
     ------
@@ -60,12 +72,15 @@ def surfaces_m2(results: xr.Dataset, names: list[str]) -> Array:
     shell = study["machine"]["shell"]
     centre = shell["centre_of_mass_height_m"] + shell["floor_clearance_m"]
     middle = 0.0 if around["floor"] else centre
-    radius = [np.hypot(np.hypot(at["x_m"], at["y_m"]), at["height_m"] - middle) for at in positions]
+    radius = [
+        np.hypot(np.hypot(point["x_m"], point["y_m"]), point["height_m"] - middle)
+        for point in positions
+    ]
     return (2.0 if around["floor"] else 4.0) * np.pi * np.square(radius)
 
 
 def power_db(level_db: Array, surface_m2: Array) -> Array:
-    """LW = 10 lg mean(p²/p0² S/S0): of each microphone p² S, then the mean over them, dB.
+    """Return LW = 10 lg mean(p²/p0² S/S0), the mean over the microphones, dB.
 
     Parameters
     ----------
@@ -75,125 +90,153 @@ def power_db(level_db: Array, surface_m2: Array) -> Array:
     return np.asarray(level_of_power(np.mean(power_of_level(level_db) * surface_m2, axis=-1)))
 
 
-def sound_power(case: xr.Dataset, surface_m2: Array, floor: bool) -> SoundPower:
-    """Of an option at a speed.
+def sound_power(
+    case: xr.Dataset, surface_m2: Array, floor: bool, batch_deviation_db: float | None = None
+) -> SoundPower:
+    """Return the sound power of an option at a speed.
 
     Parameters
     ----------
     case : results at the option, the speed and the microphones
-    surface_m2 : of `surfaces_m2`
-    floor : whether the machine stands on a hard floor
+    surface_m2 : see `surfaces_m2`
+    floor : whether the machine is on a hard floor
+    batch_deviation_db : assumed standard deviation of the machines of a batch; none for one machine
     """
-    modelled = _modelled(case)
-    total = _total(case, modelled)
-    left = total - modelled
-    rest = np.where(left > _DUST * total, left, 0.0)
-    shown = [_level(each @ surface_m2 / surface_m2.size) for each in (modelled, rest, total)]
     names = tuple(str(name) for name in np.atleast_1d(case["receiver"].values))
     kind, measured = _kind_of_rest(case)
-    nominal = float(power_db(case["level_total"].values, surface_m2))
-    level, alone, k_db = _levels(case, surface_m2, nominal)
-    edges = [band for band in BANDS if band.nominal_hz in case["band"].values]
+    of_nominal = float(power_db(nominal(case, "level_total").values, surface_m2))
+    highest_hz = float(parameters(case)["radiation"]["maximum_frequency_hz"])
+    levels = _levels(case, surface_m2, combined_deviation_db(batch_deviation_db))
     return SoundPower(
         microphones=names,
         surface_m2=float(surface_m2.mean()),
         determined=_determined(len(names), floor),
-        level_dba=level,
-        modelled_dba=alone if alone > LEVEL_FLOOR_DB else None,
-        nominal_dba=nominal,
-        uncertainty_k_db=k_db,
-        uncertainty_words=_uncertainty_words(case, nominal, k_db),
-        model_range_hz=(edges[0].lower_hz, edges[-1].upper_hz) if edges else (0.0, 0.0),
-        rest=kind,
-        rest_words=_REST[kind].format(measured),
-        bands=tuple(
-            BandPower(band_hz=band, modelled_db=a, rest_db=b, total_db=c)
-            for band, a, b, c in zip(_BAND_HZ, *shown, strict=True)
-        ),
+        level_dba=levels.level,
+        modelled_dba=levels.modelled if levels.modelled > LEVEL_FLOOR_DB else None,
+        nominal_dba=of_nominal,
+        uncertainty_k_db=levels.k,
+        model_spread_db=levels.spread,
+        measurement_deviation_db=MEASUREMENT_DEVIATION_DB,
+        batch_deviation_db=batch_deviation_db,
+        uncertainty_words=_uncertainty_words(case, of_nominal, levels, batch_deviation_db),
+        prior=_prior(case),
+        model_range_hz=(LOWEST_BAND_HZ, highest_hz),
+        unmodelled_kind=kind,
+        unmodelled_words=_REST[kind].format(measured),
+        bands=_bands(case, surface_m2, highest_hz),
     )
 
 
-def _modelled(case: xr.Dataset) -> Array:
-    """Energies of lines, sources added as phasors, and noise, (band, microphone), re 20 µPa."""
-    pressure = case["pressure_line"].sum("sound_source").transpose("line", "receiver").values
-    hertz = np.nan_to_num(case["tone_frequency"].values)
-    square = 0.5 * np.abs(pressure) ** 2 / REFERENCE_PRESSURE_PA**2
-    lines = membership(hertz, BANDS).T @ square
-    filled = np.isin(_BAND_HZ, case["band"].values)
-    return np.where(filled[:, None], lines + _energies(case["noise_band_level"]), 0.0)
+def _bands(case: xr.Dataset, surface_m2: Array, highest_hz: float) -> tuple[BandPower, ...]:
+    is_covered = [band.lower_hz < highest_hz for band in BANDS]
+    modelled = _energies(case["sources_band_level"])
+    unmodelled = _energies(case["unmodelled_band_level"].expand_dims(receiver=case["receiver"]))
+    total = _energies(case["total_band_level"]) if _is_whole(case) else modelled + unmodelled
+    if "baseline_band_level" in case:
+        total = _with_baseline(case, total)
+        beside = total - modelled
+        unmodelled = np.where(beside > _ROUNDING * total, beside, 0.0)
+    parts = [_level(part @ surface_m2 / surface_m2.size) for part in (modelled, unmodelled, total)]
+    return tuple(
+        BandPower(
+            band_hz=band,
+            modelled_db=of_model,
+            modelled_below_db=LEVEL_FLOOR_DB if covered and of_model is None else None,
+            unmodelled_db=of_noise,
+            total_db=of_machine,
+        )
+        for band, covered, of_model, of_noise, of_machine in zip(
+            _BAND_HZ, is_covered, *parts, strict=True
+        )
+    )
 
 
-def _total(case: xr.Dataset, modelled: Array) -> Array:
-    """Energies of model and rest, (band, microphone), re 20 µPa: where one stands, the baseline."""
-    remainder = _energies(case["unmodelled_band_level"].expand_dims(receiver=case["receiver"]))
-    both = modelled + remainder
-    if "baseline_band_level" not in case:
-        return both
+def _is_whole(case: xr.Dataset) -> bool:
+    """Return whether the results have levels of the machine by third octave."""
+    return "total_band_level" in case and "baseline_band_level" not in case
+
+
+def _with_baseline(case: xr.Dataset, total: Array) -> Array:
+    """Energies of the machine, (band, microphone), re 20 µPa: where measured, the baseline."""
     measured = case["baseline_band_level"].reindex(baseline_band=_BAND_HZ)
     ordered = measured.transpose("baseline_band", "receiver").values
-    return np.where(np.isnan(ordered), both, power_of_level(ordered))
+    return np.where(np.isnan(ordered), total, power_of_level(ordered))
 
 
 def _energies(level: xr.DataArray) -> Array:
+    """Energies of levels in the bands of the sheet, (band, microphone), re 20 µPa."""
     ordered = level.sel(noise_band=_BAND_HZ).transpose("noise_band", "receiver").values
     return np.where(ordered > _SILENT_DB, power_of_level(ordered), 0.0)
 
 
 def _level(energy: Array) -> list[float | None]:
-    """Levels of the bands; none where what there is lies next to rounding errors."""
+    """Levels of the bands; none of those below the floor of levels."""
     levels = level_of_power(energy).tolist()
-    return [one if one > LEVEL_FLOOR_DB else None for one in levels]
+    return [level_db if level_db > LEVEL_FLOOR_DB else None for level_db in levels]
 
 
 def _kind_of_rest(case: xr.Dataset) -> tuple[Rest, str]:
-    beside: Rest = "none" if overall_noise(case) is None else "remainder"
+    beside: Rest = "none" if overall_noise(case) is None else "unmodelled noise"
     if "baseline_band_level" not in case:
         return beside, ""
-    known = case["baseline_band_level"].notnull().any("baseline_band")
-    names = [str(name) for name in case["receiver"].values[known.values]]
+    is_measured = case["baseline_band_level"].notnull().any("baseline_band")
+    names = [str(name) for name in case["receiver"].values[is_measured.values]]
     return ("baseline", ", ".join(names)) if names else (beside, "")
 
 
-def _levels(
-    case: xr.Dataset, surface_m2: Array, nominal: float
-) -> tuple[float, float, float | None]:
-    """L_WA, that of the model alone, and K: median and 95 % quantile of the weighted samples, dB.
-
-    Without samples the nominal levels and no K; no K either where the samples do not differ.
-    """
+def _levels(case: xr.Dataset, surface_m2: Array, deviation_db: float) -> _Levels:
+    """Return L_WA and K_WA from the sound power in each sample; without samples nominal levels."""
     if not has_samples(case):
-        modelled = case["level_modelled"].sel(weighting="A").values
-        return nominal, float(power_db(modelled, surface_m2)), None
-    weight = case["sample_weight"].values[0]
-    by_sample = np.stack(
-        [
-            power_db(case[name].transpose("sample", "receiver").values, surface_m2)
-            for name in ("level_total_by_sample", "level_modelled_by_sample")
-        ],
-        axis=-1,
-    )
-    (level, alone), (limit, _) = weighted_quantiles(by_sample, weight, (0.5, SHARE_OF_SAMPLES))
-    k_db = float(limit - level)
-    return float(level), float(alone), k_db if k_db > _LEAST_K_DB else None
+        alone = case["level_modelled"].sel(weighting="A")
+        total = float(power_db(case["level_total"].values, surface_m2))
+        return _Levels(total, float(power_db(alone.values, surface_m2)))
+    machine, modelled = (in_samples(case, name) for name in ("level_total", "level_modelled"))
+    level_db = power_db(machine.values.values, surface_m2)
+    of_model = weighted_estimate(
+        power_db(modelled.values.values, surface_m2), modelled.weight
+    ).value
+    level, high = weighted_quantiles(level_db, machine.weight, (0.5, SHARE)).tolist()
+    if high - level <= _LEAST_SPREAD_DB:
+        return _Levels(level, of_model)
+    limit = upper_limit_db(level_db, machine.weight, deviation_db)
+    return _Levels(level, of_model, limit - level, high - level)
 
 
-def _uncertainty_words(case: xr.Dataset, nominal: float, k_db: float | None) -> str:
+def _uncertainty_words(
+    case: xr.Dataset, of_nominal: float, levels: _Levels, batch_deviation_db: float | None
+) -> str:
     if not has_samples(case):
         why = not_sampled_sentence(case)
-        return "nothing was sampled: K is not known" + (f". {why[:-1]}" if why else "")
-    weight = case["sample_weight"].values[0]
+        return "nothing was sampled: K_WA is not known" + (f". {why[:-1]}" if why else "")
+    count = np.count_nonzero(in_samples(case, "level_total").weight)
     none = overall_noise(case) is None and "baseline_band_level" not in case
-    how = "equally weighted" if none else "weighted by the published level or the baseline"
-    k_words = (
-        f"K is the {SHARE_OF_SAMPLES:.0%} quantile less L_WA"
-        if k_db is not None
-        else "K is not known: the samples do not differ"
-    )
+    how = "equally" if none else "by the likelihood of the published level or the baseline"
+    median = f"L_WA is the median of {count} samples, weighted {how}"
+    with_nominal = f"with the nominal values it is {rounding.fixed(of_nominal)} dB"
+    if levels.spread is None:
+        return f"{median}; {with_nominal}; K_WA is not known: the samples do not differ"
+    return f"{median}; {with_nominal}. {_k_words(levels.spread, batch_deviation_db)}"
+
+
+def _k_words(spread_db: float, batch_deviation_db: float | None) -> str:
+    """Return what K_WA holds, with the deviations."""
+    is_single = batch_deviation_db is None
+    batch = "" if is_single else f"; production, an assumed deviation of {batch_deviation_db:g} dB"
+    whose = "the machine" if is_single else "a machine of the batch"
     return (
-        f"L_WA is the median of {np.count_nonzero(weight)} samples of the uncertain parameters, "
-        f"{how}; {k_words}, without the scatter of measuring (ISO 3744: 1.5 dB). Bands and tones "
-        f"are those of the nominal values, which give {rounding.fixed(nominal)} dB"
+        f"{SHARE:.0%} of measurements of {whose} are below L_WA + K_WA. K_WA holds the model, "
+        f"{rounding.fixed(spread_db)} dB alone; measurement by ISO 3744, grade 2, a deviation of "
+        f"{MEASUREMENT_DEVIATION_DB:g} dB{batch}"
     )
+
+
+def _prior(case: xr.Dataset) -> str:
+    """Return the prior of the unmodelled noise in words."""
+    if overall_noise(case) is None and "baseline_band_level" not in case:
+        return "no unmodelled noise: no level of the machine is published"
+    if not has_samples(case):
+        return "none: nothing was sampled"
+    return f"unmodelled noise {prior_words(case)[0]}"
 
 
 def _determined(count: int, floor: bool) -> str:

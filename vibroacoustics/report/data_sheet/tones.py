@@ -1,24 +1,20 @@
-"""Statement of tones: those that are prominent at any microphone (ECMA-418-1)."""
+"""Prominent tones of a data sheet, each at one microphone (ECMA-418-1)."""
 
 from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 
-from ...sound.ingredients import ingredients
-from ...sound.of_results import excess_db
-from ...sound.tonality import Tone as JudgedTone
-from ...sound.tonality import tonal_spectrum, tones
+from ...levels.hearing import hearing_threshold_db
+from ...sound.prominence import NO_TONE_DB
+from ..tones import ProminentTone, listed_tones
 from .model import Tone
 
 
 def prominent_tones(
     results: xr.Dataset, option: str, speed_rpm: float, microphones: Sequence[str]
-) -> tuple[tuple[Tone, ...], int]:
-    """Each prominent tone once, at the microphone at which it is furthest above its criterion.
-
-    A tone is judged where its critical band holds noise: unmodelled noise or that of a source.
-    Otherwise any tone would be prominent.
+) -> tuple[Tone, ...]:
+    """Return each prominent tone once, at the microphone with its largest excess.
 
     Parameters
     ----------
@@ -28,30 +24,47 @@ def prominent_tones(
 
     Returns
     -------
-    prominent tones, rising in frequency; number of audible tones that no microphone judges
+    tones, rising in frequency
     """
-    most: dict[str, tuple[float, Tone]] = {}
-    without_noise, judged = set[str](), set[str]()
-    for name in microphones:
-        spectrum = tonal_spectrum(ingredients(results, option, name, speed_rpm))
-        for tone in tones(spectrum):
-            if not np.isfinite(tone.noise_ratio_db):
-                without_noise |= {tone.name} if tone.audible else set()
-                continue
-            judged.add(tone.name)
-            excess = excess_db(tone)
-            if tone.prominent and (tone.name not in most or excess > most[tone.name][0]):
-                most[tone.name] = excess, _stated(tone, name)
-    stated = sorted((tone for _, tone in most.values()), key=lambda tone: tone.frequency_hz)
-    return tuple(stated), len(without_noise - judged)
+    largest: dict[str, ProminentTone] = {}
+    for microphone in microphones:
+        for tone in listed_tones(results, option, microphone, speed_rpm):
+            before = largest.get(tone.name)
+            if before is None or tone.excess_db.value > before.excess_db.value:
+                largest[tone.name] = tone
+    rising = sorted(largest.values(), key=lambda tone: tone.frequency_hz)
+    return tuple(map(_stated, rising))
 
 
-def _stated(tone: JudgedTone, microphone: str) -> Tone:
+def not_judged(
+    results: xr.Dataset, option: str, speed_rpm: float, microphones: Sequence[str]
+) -> int:
+    """Return the number of audible tones that are judged at no microphone.
+
+    A tone is not judged where there is no noise in its critical band; parameters as
+    `prominent_tones`.
+    """
+    case = results.sel(option=option, speed=speed_rpm, receiver=list(microphones))
+    hertz = case["judged_tone_frequency"].values
+    has_frequency = np.isfinite(hertz)
+    threshold = np.array([hearing_threshold_db(value) for value in hertz[has_frequency].tolist()])
+    level, excess = (
+        case[name].transpose("receiver", "judged_tone").values[:, has_frequency]
+        for name in ("tone_level", "tone_excess")
+    )
+    without = (level >= threshold) & (excess <= NO_TONE_DB)
+    return int((without.any(axis=0) & (excess <= NO_TONE_DB).all(axis=0)).sum())
+
+
+def _stated(tone: ProminentTone) -> Tone:
+    low = tone.excess_db.low
     return Tone(
         name=tone.name,
         frequency_hz=tone.frequency_hz,
-        microphone=microphone,
+        microphone=tone.microphone,
         level_db=tone.level_db,
-        tone_to_noise_db=tone.noise_ratio_db,
-        prominence_db=tone.prominence_db if np.isfinite(tone.prominence_db) else None,
+        excess_db=tone.excess_db.value,
+        excess_low_db=low if low > NO_TONE_DB else None,
+        excess_high_db=tone.excess_db.high,
+        probability=tone.probability,
     )

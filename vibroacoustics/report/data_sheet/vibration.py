@@ -14,8 +14,8 @@ from .model import Vibration
 _ANGLES_PER_ORDER: Final = 32
 """Of the highest order: a peak is then seen within half a percent."""
 WORDS: Final = (
-    "rigid-body motion of the housing on its mounts at shaft orders, all sources of them together; "
-    "bending of the wall, lines of the motor and noise are not in it"
+    "rigid-body motion of the housing on its mounts at shaft orders, all sources together, with "
+    "the nominal values; it neglects bending of the wall, lines of the motor and noise"
 )
 
 

@@ -46,6 +46,20 @@ def _reached(search: xr.Dataset, number: int) -> Iterator[tuple[str, ...]]:
     for words, variable in (("as meant", "wanted_as_meant"), ("promised", "wanted_promised")):
         values = search[variable].values[:, number]
         yield (name, words, before, *(shown(float(value), unit) for value in values))
+    if search.attrs["is_sampled"]:
+        ends = (search[f"wanted_promised_{end}"].values[:, number] for end in ("low", "high"))
+        each = (
+            f"{shown(low, unit)} to {shown(high, unit)}" for low, high in zip(*ends, strict=True)
+        )
+        yield (name, "80 % interval", "", *each)
+
+
+def no_best(search: xr.Dataset) -> str:
+    """Return the sentence in place of the best designs; empty where they are listed.
+
+    Every objective is a total level, and no design changes it by what could be measured.
+    """
+    return str(search.attrs["no_change"]) if search.attrs["only_totals"] else ""
 
 
 def heading(name: str, unit: str) -> str:

@@ -14,12 +14,13 @@ from ..page import Page, Part
 from ..study import parameters
 from ..tables import Table, to_text
 from ..unknowns import NOT_RESOLVED, share_words
-from .best import best_tables, limiting, shown
+from .best import best_tables, limiting, no_best, shown
 from .csv import designs_csv
 from .evaluated import Column, Evaluated
 from .figures import front_figure, main_effects_figure, parallel_figure
 from .reading import evaluated, objectives_of, variable_label, variables_of
 
+_ENDS: Final = ("_low", "", "_high")
 _PANELS: Final = 4
 ABOUT: Final = "Designs, what each objective costs the others, and what built pieces will keep."
 
@@ -61,25 +62,73 @@ def render_designs(search: xr.Dataset) -> dict[str, bytes]:
 
 def designs_text(search: xr.Dataset) -> str:
     """The best few for a terminal."""
+    if no_best(search):
+        return f"{no_best(search)}\n{search.attrs['method']}"
     designs = evaluated(search)
     tables = [to_text(table, 60) for table in best_tables(search, designs)]
-    return "\n".join([*tables, *limiting(search, designs)])
+    said = [search.attrs["no_change"]] if search.attrs["no_change"] else []
+    return "\n".join([*tables, *limiting(search, designs), *said, search.attrs["method"]])
+
+
+def designs_json(search: xr.Dataset) -> str:
+    """The best few, or why there are none, as JSON."""
+    said, designs = no_best(search), evaluated(search)
+    best = [
+        {
+            "variables": {one.label: one.cell(row) for one in designs.variables},
+            "wanted": {
+                str(name): dict(zip(("low", "value", "high"), ends, strict=True))
+                for name, *ends in zip(
+                    search["wanted"].values,
+                    *(search[f"wanted_promised{end}"].values[rank].tolist() for end in _ENDS),
+                    strict=True,
+                )
+            },
+        }
+        for rank, row in enumerate(designs.best)
+    ]
+    return json.dumps({
+        "no_change": search.attrs["no_change"],
+        "best": [] if said else best,
+        "method": search.attrs["method"],
+    }, indent=1)  # fmt: skip
 
 
 def _best(search: xr.Dataset, designs: Evaluated) -> list[Block]:
     allowed = int(designs.met.sum())
+    if no_best(search):
+        count = f"{designs.count} designs were evaluated, {allowed} meet every constraint."
+        return [Text(_sentence(no_best(search)), "headline"), Text(count, "note")]
+    said = [Text(_sentence(search.attrs["no_change"]), "note")] if search.attrs["no_change"] else []
     return [
         Text(_headline(search, designs), "headline"),
         *best_tables(search, designs),
+        *said,
         Bullets(tuple(limiting(search, designs))),
         Text(
             f"{designs.count} designs were evaluated, {allowed} meet every constraint"
-            f"{_failed(search)}. As meant: a piece without tolerances. Promised: "
-            f"{search.attrs['promise_samples']} fresh pieces, not seen by the search; 95 % limits "
-            f"of the number of pieces alone: {_precision(search) or 'none, nothing scatters'}.",
+            f"{_failed(search)}. As meant: a piece without tolerances. {_promised(search)}",
             "note",
         ),
     ]
+
+
+def _promised(search: xr.Dataset) -> str:
+    """What the promised values are of."""
+    count = search.attrs["promise_samples"]
+    if search.attrs["is_sampled"]:
+        return (
+            f"Promised: {count} samples of the machine with fresh pieces, not seen by the search; "
+            "the interval holds 80 % of them."
+        )
+    return (
+        f"Promised: {count} fresh pieces, not seen by the search; 95 % limits of the number of "
+        f"pieces alone: {_precision(search) or 'none, nothing scatters'}."
+    )
+
+
+def _sentence(words: str) -> str:
+    return f"{words[:1].upper()}{words[1:]}."
 
 
 def _headline(search: xr.Dataset, designs: Evaluated) -> str:

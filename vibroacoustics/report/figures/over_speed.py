@@ -3,8 +3,9 @@
 import xarray as xr
 
 from ...base.vocabulary import REFERENCE_OPTION
-from ..bands import band_words
-from ..study import catalogue_receiver, has_samples, has_sources
+from ...results.estimates import has_samples
+from ..bands import INTERVAL
+from ..study import catalogue_receiver, has_sources
 from .campbell import LOUD_DB, campbell
 from .levels_over_speed import levels_over_speed, source_levels_over_speed
 from .orders_over_speed import over_speed_picture
@@ -27,7 +28,7 @@ def _bands(results: xr.Dataset) -> str:
     if not has_samples(results):
         return ""
     return (
-        f" Lines: values as given. Bands: {band_words(results)} of the samples, which count by how "
+        f" Lines: medians. Bands: {INTERVAL} of the samples, which count by how "
         "well they agree with what was published or measured."
     )
 

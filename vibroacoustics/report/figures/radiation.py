@@ -8,9 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base import rounding
+from ...results.estimates import has_samples
 from ..comparison import comparison
 from ..kwave_words import computed_by_kwave, kwave_to_hz
-from ..study import catalogue_receiver, few_speeds, has_sources, options, speeds
+from ..study import catalogue_receiver, few_speeds, options, speeds
 from ..titles import chosen
 from .first_order import first_order_marks, mark_first_order
 from .needs import needs
@@ -91,14 +92,14 @@ def level_figures(results: xr.Dataset) -> list[Picture]:
             "orders lie far below it."
             if float(compared["level_modelled_dba"].max()) < float(total.min()) - 10.0
             else f"A-weighted levels at {receiver}: 1× line, all modelled {what} and the total"
-            f"{', at the assumed values' if has_sources(results) else ''}.",
+            f"{', medians' if has_samples(results) else ''}.",
             png(levels(results)),
         )
     ]
 
 
 def _modelled(results: xr.Dataset) -> str:
-    return "sources" if has_sources(results) else "orders"
+    return "sources" if has_samples(results) else "orders"
 
 
 @needs("transfer_vector")

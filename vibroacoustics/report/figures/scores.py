@@ -7,8 +7,9 @@ import xarray as xr
 from matplotlib import colormaps
 from matplotlib.figure import Figure
 
+from ...results.estimates import has_samples
 from ...scoring.scores import ANY_WEIGHTS
-from ..study import has_samples, options
+from ..study import options
 from .needs import needs
 from .panels import one_panel, stacked_bars
 from .style import COLOURS, Picture, png, wrap

@@ -9,9 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.arrays import Array
-from ...base.decibel import level_of_power, power_of_level
 from ...base.remembered import remembered
 from ...base.vocabulary import REFERENCE_OPTION
+from ...levels.weighting import a_weighting
+from ...results.estimates import has_samples
 from ..quantities import HEARD_DB
 from ..study import (
     balancers,
@@ -31,16 +32,14 @@ QUIETEST_DB: Final = -10.0
 """Levels below are not drawn."""
 WITHIN_DB: Final = 20.0
 """Bands that lie further below the loudest one do not decide whether options differ."""
-MOVING_PARTS: Final = "moving_parts"
-"""The source that is not an inner one."""
 
 
 def source_figures(results: xr.Dataset) -> list[Picture]:
-    """Spectra of the sources without a balancer; of the options that change the inner ones."""
+    """Spectra of the sources without a balancer, and of the machine with options that change it."""
     if not has_sources(results):
         return []
-    changing = _changing_options(results)
     pictures = [_sources(results)]
+    changing = _changing_options(results) if "total_band_level" in results else []
     return [*pictures, _options(results, changing)] if changing else pictures
 
 
@@ -119,22 +118,22 @@ def _sources(results: xr.Dataset) -> Picture:
         "sources_third_octaves",
         f"Third-octave levels of each source at {receiver} and {speed:g} rpm without a balancer, "
         f"20 Hz to {spectra['band'].values[-1]:g} Hz.",
-        f"Each source alone at {receiver}, {speed:g} rpm, without a balancer; values as assumed, "
-        f"no weighting.{below.replace('-', '−')}",
+        f"Each source alone at {receiver}, {speed:g} rpm, without a balancer"
+        f"{_medians(results)}, unweighted.{below.replace('-', '−')}",
         png(source_third_octaves(results)),
     )
 
 
-@needs("source_band_level")
+@needs("total_band_level")
 def option_third_octaves(results: xr.Dataset) -> Figure:
-    """Third-octave levels of all sources but the moving parts, dB.
+    """A-weighted third-octave levels of the machine, dB.
 
     A panel a speed (six at most), a line an option. Of the options
     those are drawn that change a loud band by more than can be heard, and `none`.
 
     Parameters
     ----------
-    results : of `run`; needs `source_band_level` (speed, option, sound_source, receiver, band), dB
+    results : of `run`; needs `total_band_level` (speed, option, receiver, noise_band), dB
 
     Raises
     ------
@@ -148,14 +147,14 @@ def option_third_octaves(results: xr.Dataset) -> Figure:
     """
     names = [REFERENCE_OPTION, *_changing_options(results)]
     shown = few_speeds(results)
-    level = _inner_level(shown)
+    level = _weighted(shown)
 
     def paint(axes: Axes, speed: float) -> None:
         curves = (level.sel(option=name, speed=speed).values for name in names)
-        _curves(axes, level["band"].values, [wrap(name, 24) for name in names], curves)
+        _curves(axes, level["noise_band"].values, [wrap(name, 24) for name in names], curves)
 
     return each_panel(
-        speeds(shown), 2.4, paint, "Third-octave band, Hz", "Level, dB re 20 µPa", in_rpm,
+        speeds(shown), 2.4, paint, "Third-octave band, Hz", "Level, dB(A)", in_rpm,
         columns=2, rows=(len(names) + 1) // 2, sharex=True,
     )  # fmt: skip
 
@@ -164,10 +163,9 @@ def _options(results: xr.Dataset, changing: list[str]) -> Picture:
     receiver, names = catalogue_receiver(results), [REFERENCE_OPTION, *changing]
     return Picture(
         "sources_options",
-        f"Third-octave levels of all sources together at {receiver} for {', '.join(names)}.",
-        f"Gas, keys and motor together (energies added) at {receiver}, values as assumed, no "
-        f"weighting: options that change a band within {WITHIN_DB:g} dB of the loudest by more "
-        f"than {HEARD_DB:g} dB. The 1× line is not in it.",
+        f"A-weighted third-octave levels at {receiver} for {', '.join(names)}.",
+        f"A-weighted third octaves at {receiver}{_medians(results)}: options that change a band "
+        f"within {WITHIN_DB:g} dB of the loudest by more than {HEARD_DB:g} dB.",
         png(option_third_octaves(results)),
     )
 
@@ -181,9 +179,9 @@ def _curves(axes: Axes, band_hz: Array, names: Sequence[str], curves: Iterable[A
 
 def _changing_options(results: xr.Dataset) -> list[str]:
     """Options that change a loud band of the sources by what can be heard."""
-    level = _inner_level(results)
+    level = _weighted(results)
     reference = level.sel(option=REFERENCE_OPTION)
-    loudest = reference.max("band")
+    loudest = reference.max("noise_band")
     changing = []
     for option in balancers(results):
         of_option = level.sel(option=option)
@@ -194,8 +192,11 @@ def _changing_options(results: xr.Dataset) -> list[str]:
 
 
 @remembered
-def _inner_level(results: xr.Dataset) -> xr.DataArray:
-    """Energy sum of all sources but the moving parts, at the catalogue's microphone, dB."""
-    levels = results["source_band_level"].sel(receiver=catalogue_receiver(results))
-    inner = [name for name in levels["sound_source"].values if str(name) != MOVING_PARTS]
-    return level_of_power(power_of_level(levels.sel(sound_source=inner)).sum("sound_source"))
+def _weighted(results: xr.Dataset) -> xr.DataArray:
+    """A-weighted third octaves of the machine at the published microphone, dB."""
+    levels = results["total_band_level"].sel(receiver=catalogue_receiver(results))
+    return levels + xr.DataArray(a_weighting(levels["noise_band"].values), dims="noise_band")
+
+
+def _medians(results: xr.Dataset) -> str:
+    return ", medians" if has_samples(results) else ""

@@ -7,7 +7,7 @@ from typing import Final
 CHARTS: Final = "uPlot.iife.min.js"
 """uPlot 1.6.32 by Leon Sorokin, under the MIT licence that stands beside it."""
 SCRIPTS: Final = (
-    "levels.js", "sound.js", "abx.js", "charts.js", "panel.js", "listening.js",
+    "levels.js", "sound.js", "abx.js", "charts.js", "panel.js", "sliders.js", "listening.js",
 )  # fmt: skip
 
 

@@ -13,6 +13,7 @@ from .lines import Lines, lines_at
 from .mounts import put_matrices
 from .moving import moving_of
 from .numbers import Numbers
+from .sliders import has_sliders, sliders_of
 
 MOST_MICROPHONES: Final = 10
 HEADROOM: Final = 2.0
@@ -36,7 +37,7 @@ def live_data(results: xr.Dataset) -> str:
     shown = _shown(results)
     middle_hz = {band.nominal_hz: band.middle_hz for band in BASELINE_BANDS}
     bands = np.array([middle_hz[nominal] for nominal in shown["noise_band"].values.tolist()])
-    moving = moving_of(shown)
+    moving = None if has_sliders(shown) else moving_of(shown)
     numbers = Numbers()
     page: dict[str, Any] = {
         "speeds": shown["speed"].values.tolist(),
@@ -44,6 +45,8 @@ def live_data(results: xr.Dataset) -> str:
         "options": options(shown),
         "bands": bands.tolist(),
     }
+    if has_sliders(shown):
+        page["sliders"] = sliders_of(numbers, shown)
     if moving is not None and moving.weight is not None:
         page["weight"] = moving.weight._asdict()
     if moving is not None:

@@ -256,7 +256,7 @@ def rule_words(results: xr.Dataset) -> str:
         f"{STANDS_OUT_DB:g} dB above the higher of the two valleys beside them, with all speeds "
         f"around them within {WITHIN_DB:g} dB of the maximum. Strongest line: the loudest order or "
         "tone there; natural frequency: the nearest, where it lies within "
-        f"{100.0 * NEAR_RATIO:g} % of that line. All with the values as given. Speeds lie up to "
+        f"{100.0 * NEAR_RATIO:g} % of that line. Natural frequencies are nominal. Speeds lie up to "
         f"{step:g} rpm apart: a narrower maximum between them is not seen, nor one at an end."
     )
 

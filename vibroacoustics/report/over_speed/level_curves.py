@@ -8,8 +8,8 @@ import xarray as xr
 
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
-from ..bands import quantiles
-from ..study import a_weighted, catalogue_receiver, has_samples, options, source_name
+from ...results.estimates import interval, is_sampled
+from ..study import a_weighted, catalogue_receiver, options, source_name
 from ..titles import chosen
 
 MOST_CURVES: Final = 8
@@ -25,7 +25,7 @@ class LevelCurve(NamedTuple):
     label : of what
     speed_rpm : rising, shape (point,)
     level_db : shape (point,)
-    band_db : lowest and highest of the samples, shape (2, point); none without samples
+    band_db : ends of the interval, shape (2, point); none without samples
     """
 
     label: str
@@ -37,7 +37,7 @@ class LevelCurve(NamedTuple):
 def option_curves(
     results: xr.Dataset, name: str, receiver: str | None = None, of: Sequence[str] = ()
 ) -> list[LevelCurve]:
-    """Of the options, A-weighted, as given; with its band that of the first.
+    """Curves of the options, A-weighted; the first with its interval.
 
     Parameters
     ----------
@@ -48,15 +48,15 @@ def option_curves(
     """
     at = {"receiver": chosen(results, "receiver", receiver or catalogue_receiver(results))}
     names = [chosen(results, "option", one) for one in of] or options(results)[:MOST_CURVES]
-    given = a_weighted(results[name].sel(at))
-    bands = quantiles(results, name).sel(at) if has_samples(results) else None
-    return [_curve(given, bands if one == names[0] else None, one, option=one) for one in names]
+    levels = a_weighted(interval(results, name).sel(at))
+    sampled = is_sampled(results, name)
+    return [_curve(levels, sampled and one == names[0], one, option=one) for one in names]
 
 
 def source_curves(
     results: xr.Dataset, receiver: str | None = None, option: str = REFERENCE_OPTION
 ) -> list[LevelCurve]:
-    """Of each source alone, A-weighted, with its band.
+    """Curves of each source alone, A-weighted, with its interval.
 
     Parameters
     ----------
@@ -68,11 +68,11 @@ def source_curves(
         "receiver": chosen(results, "receiver", receiver or catalogue_receiver(results)),
         "option": chosen(results, "option", option),
     }
-    given = results["source_level"].sel(at)
-    bands = quantiles(results, "source_level").sel(at) if has_samples(results) else None
+    levels = interval(results, "source_level").sel(at)
+    sampled = is_sampled(results, "source_level")
     return [
-        _curve(given, bands, source_name(results, source), sound_source=source)
-        for source in map(str, given["sound_source"].values)
+        _curve(levels, sampled, source_name(results, source), sound_source=source)
+        for source in map(str, levels["sound_source"].values)
     ]
 
 
@@ -102,10 +102,7 @@ def is_run_up(speed_rpm: xr.DataArray) -> bool:
     return bool(np.ptp(speed_rpm.values) > STEADY_RATIO * float(speed_rpm.mean()))
 
 
-def _curve(given: xr.DataArray, bands: xr.DataArray | None, label: str, **at: str) -> LevelCurve:
-    level = given.sel(at).sortby("speed")
-    band = None
-    if bands is not None:
-        rows = bands.sel(at).sortby("speed").transpose("quantile", "speed").values
-        band = rows[[0, -1]]
-    return LevelCurve(label, level["speed"].values, level.values, band)
+def _curve(levels: xr.Dataset, sampled: bool, label: str, **at: str) -> LevelCurve:
+    level = levels.sel(at).sortby("speed")
+    band = np.array([level["low"].values, level["high"].values]) if sampled else None
+    return LevelCurve(label, level["speed"].values, level["value"].values, band)

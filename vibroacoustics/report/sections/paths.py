@@ -32,7 +32,8 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             "A path is a source, where it acts and in which direction: motions of the housing as a "
             "rigid body, loads on parts in an elastic shell, flows into its gas. Lines of one "
             "frequency add as phasors: a path that works against the sum has a negative share, and "
-            "shares add up to 100 %. Values as given; the remainder is in no path.",
+            "shares add up to 100 %. In a run with samples the paths are those of the "
+            "representative sample. Unmodelled noise is in no path.",
             "note",
         ),
         *_of_receiver(results, receiver),

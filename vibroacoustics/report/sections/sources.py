@@ -1,6 +1,4 @@
-"""What carries the level: the sources of sound, and what the options do to them."""
-
-from typing import Final
+"""Dominant sources of sound, and what the options do to them."""
 
 import xarray as xr
 
@@ -10,25 +8,21 @@ from ..blocks import Block, Bullets, Heading, Pictures, Text
 from ..figures import source_figures
 from ..remainder import total_sentence
 from ..speeds import chosen_speeds
-from ..study import few_speeds, has_sources, overall_noise
+from ..study import few_speeds, has_sources
 from . import Section
-
-_REMAINDER: Final = " The remainder is what each sample leaves of the published level."
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    has_total = overall_noise(results) is not None
     return [
         Text(source_words.carrier_sentence(results), "strong"),
         Text(source_words.shares_sentence(results)),
-        *filter(None, [energy_words.energy_table(results)]),
-        Heading("How sure that is"),
+        *_alternatives(results),
+        Heading("Uncertainty"),
         Bullets(tuple(source_words.certainty_sentences(results))),
         Heading("Sources without a balancer"),
         Text(
-            "Each level is that of the source alone. Shares of the modelled energy add up to "
-            "100 %: lines of two sources at one frequency add as phasors, so a share can be "
-            f"negative. The band of a sum is not the sum of bands.{_REMAINDER * has_total}",
+            "A level is that of the source alone. A share holds half of the interference with "
+            "other sources at one frequency, so it can be negative. All shares add up to 100 %.",
             "note",
         ),
         *chosen_speeds(results, "sources.csv"),
@@ -39,6 +33,17 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     ]
 
 
+def _alternatives(results: xr.Dataset) -> list[Block]:
+    """Level and shares with less evidence or the second prior, and what the priors are."""
+    table = energy_words.alternatives_table(results)
+    if table is None:
+        return []
+    words = source_words.prior_words(results)
+    priors = zip(("First", "Second"), words, strict=False)
+    named = "; ".join(f"{which.lower()} prior {what}" for which, what in priors)
+    return [table, Text(f"Level of unmodelled noise before the data: {named}.", "note")]
+
+
 def _changes(results: xr.Dataset) -> list[Block]:
     tables = source_tables.change_tables(results)
     if not tables:
@@ -46,14 +51,13 @@ def _changes(results: xr.Dataset) -> list[Block]:
     return [
         Heading("What the options do to all sources"),
         Text(
-            "The change of all modelled sources holds the high-frequency side effects of an "
-            "option: keys without preload that strike, and what pushes the ring. "
-            f"{total_sentence(results)} A band that reaches from below to above zero says that "
-            "not even the sign is known.",
+            "The change of all modelled sources includes the side effects of an option: impacts "
+            f"of keys without preload, and what pushes the ring. {total_sentence(results)} Where "
+            "an interval includes zero, the sign of the change is not known.",
             "note",
         ),
         *tables,
     ]
 
 
-register(Section("sources", "What carries the level", _blocks, has_sources, 30.0))
+register(Section("sources", "Dominant sources", _blocks, has_sources, 30.0))

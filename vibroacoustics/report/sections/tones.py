@@ -3,6 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
+from ...results.estimates import is_sampled
 from ...sound.loudness import NEEDED, available
 from ..blocks import Block, Text
 from ..speeds import chosen_speeds
@@ -10,10 +11,17 @@ from ..tones import has_sound, tone_tables
 from . import Section
 
 _HOW = (
-    "A tone is prominent (ECMA-418-1) where it stands over the noise of its critical band, or its "
-    "band over the two beside it, by more than the figure in brackets. Noise is that of the "
-    "sources and what the model does not explain, whose spectrum is assumed where no baseline was "
-    "measured."
+    "A tone is listed if it is above the threshold of hearing and prominent (ECMA-418-1) in more "
+    "than half of the weighted samples. The excess is the larger one over the criteria of "
+    "tone-to-noise and prominence ratio. Noise is that of the sources and the unmodelled noise of "
+    "the same sample; its spectrum is assumed where no baseline was measured. The last probability "
+    "is that of some prominent tone, not always the same."
+)
+_NOMINAL = (
+    "A tone is listed if it is above the threshold of hearing and prominent (ECMA-418-1). The "
+    "excess is the larger one over the criteria of tone-to-noise and prominence ratio. Noise is "
+    "that of the sources and the unmodelled noise, whose spectrum is assumed where no baseline was "
+    "measured. A tone without noise in its critical band is not judged."
 )
 _LOUDNESS = "Loudness in sone by ISO 532-1 (Zwicker, free field), sharpness in acum by DIN 45692."
 
@@ -23,7 +31,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         *chosen_speeds(results, "results.nc"),
         *tone_tables(results),
-        Text(f"{_HOW} {loudness}", "note"),
+        Text(f"{_HOW if is_sampled(results, 'tone_excess') else _NOMINAL} {loudness}", "note"),
     ]
 
 

@@ -1,11 +1,12 @@
-"""The first screen: what balancing does, in one sentence, one drawing and one chart."""
+"""The first screen: five sentences and two charts; forces, lines and the machine folded."""
 
 import xarray as xr
 
 from ...base.registry import register
 from ...results.left_out import lines_of
-from .. import verdict
-from ..blocks import Beside, Block, Bullets, Pictures, Text
+from ...results.version_2 import RAISED
+from .. import first_screen
+from ..blocks import Beside, Block, Bullets, Details, Pictures, Text
 from ..drawing import machine_picture
 from ..lights import lights
 from ..option_verdict import option_verdicts
@@ -15,11 +16,14 @@ from . import Section
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
+    first, *others = first_screen.sentences(results)
     return [
-        Text(verdict.headline(results), "headline"),
+        Text(first, "headline"),
+        *map(Text, others),
         *left_out_words(results),
         *coarse_words(results),
-        *_drawing_and_chart(results),
+        *_charts(results),
+        *_details(results),
     ]
 
 
@@ -33,17 +37,24 @@ def coarse_words(results: xr.Dataset) -> list[Block]:
     """What was made coarser for a first look; nothing of a run as its study says."""
     coarsened = parameters(results).get("coarsened", ())
     first = "This is a first look, coarser than the study says:"
-    return [Text(first), Bullets(tuple(coarsened))] if coarsened else []
+    blocks: list[Block] = [Text(first), Bullets(tuple(coarsened))] if coarsened else []
+    if RAISED in results.attrs:
+        blocks.append(Text("Made by an earlier version: values without an interval are nominal."))
+    return blocks
 
 
-def _drawing_and_chart(results: xr.Dataset) -> list[Block]:
+def _charts(results: xr.Dataset) -> list[Block]:
+    contributions, changes = first_screen.contributions(results), first_screen.changes(results)
+    return [contributions] if changes is None else [Beside(contributions, changes)]
+
+
+def _details(results: xr.Dataset) -> list[Block]:
+    """The machine, and each option's forces and lines."""
     picture, chart = machine_picture(results), lights(results)
-    if chart is None:
-        return [Pictures((picture,))] if picture else []
-    ranking = Text(ranking_sentence(results, option_verdicts(results)))
-    if picture is None:
-        return [chart, ranking]
-    return [Beside(Pictures((picture,)), chart), ranking]
+    blocks: list[Block] = [Pictures((picture,))] if picture else []
+    if chart is not None:
+        blocks += [chart, Text(ranking_sentence(results, option_verdicts(results)))]
+    return [Details("Machine, 1× forces and lines, ranking", tuple(blocks))] if blocks else []
 
 
-register(Section("verdict", "Verdict", _blocks, position=10.0, folded=False))
+register(Section("verdict", "Summary", _blocks, position=10.0, folded=False))

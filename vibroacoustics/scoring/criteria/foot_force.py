@@ -20,6 +20,6 @@ class FootForce(Criterion):
         """Largest 1x force into a foot, N."""
         return results["foot_force_amplitude"].sel(order=1).max(("speed", "foot"))
 
-    def by_sample(self, results: xr.Dataset) -> xr.DataArray | None:
+    def by_sample(self, results: xr.Dataset) -> xr.DataArray:
         """Largest 1x force into a foot in each sample, N."""
-        return largest_by_sample(results, "foot_force_1x_by_sample")
+        return largest_by_sample(results, "foot_force_1x")

@@ -5,6 +5,7 @@ import xarray as xr
 from ...base.decibel import level_of_power, power_of_level
 from ...base.registry import register
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.estimates import in_samples
 from ...study.criterion import Criterion
 
 
@@ -27,7 +28,7 @@ class LevelChange(Criterion):
 
     def by_sample(self, results: xr.Dataset) -> xr.DataArray:
         """Change against `none` in each sample, dB."""
-        return _worst_change(results["level_modelled_by_sample"])
+        return _worst_change(in_samples(results, "level_modelled").values)
 
 
 def _worst_change(level: xr.DataArray) -> xr.DataArray:

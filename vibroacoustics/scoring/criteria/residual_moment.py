@@ -20,6 +20,6 @@ class ResidualMoment(Criterion):
         """1x moment about the centre of mass, N m."""
         return results["moment_amplitude"].sel(order=1).max("speed")
 
-    def by_sample(self, results: xr.Dataset) -> xr.DataArray | None:
+    def by_sample(self, results: xr.Dataset) -> xr.DataArray:
         """1x moment about the centre of mass in each sample, N m."""
-        return largest_by_sample(results, "moment_1x_by_sample")
+        return largest_by_sample(results, "moment_1x")

@@ -7,6 +7,7 @@ import xarray as xr
 from ...base.decibel import level_of_amplitude
 from ...base.registry import register
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.estimates import in_samples
 from ...study.criterion import Criterion
 
 SMALLEST_RATIO: Final = 1e-6
@@ -26,10 +27,9 @@ class SpeedSensitivity(Criterion):
         """Largest minus smallest change, dB."""
         return _spread(results["foot_force_amplitude"].sel(order=1).max("foot"))
 
-    def by_sample(self, results: xr.Dataset) -> xr.DataArray | None:
+    def by_sample(self, results: xr.Dataset) -> xr.DataArray:
         """Largest minus smallest change in each sample, dB; none if the force was not sampled."""
-        name = "foot_force_1x_by_sample"
-        return _spread(results[name]) if name in results else None
+        return _spread(in_samples(results, "foot_force_1x").values)
 
 
 def _spread(foot: xr.DataArray) -> xr.DataArray:

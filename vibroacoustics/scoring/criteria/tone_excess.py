@@ -3,13 +3,12 @@
 import xarray as xr
 
 from ...base.registry import register
-from ...sound import of_results
 from ...study.criterion import Criterion
 
 
 @register
 class ToneExcess(Criterion):
-    """Most prominent tone over its criterion.
+    """Largest excess of a tone over its criterion.
 
     Worst over the microphones and speeds; prominent from 0 dB, between -60 and 60 dB.
     """
@@ -21,5 +20,5 @@ class ToneExcess(Criterion):
 
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """Value of each option, dB."""
-        worst: xr.DataArray = of_results.tone_excess(results).max("receiver").max("speed")
+        worst: xr.DataArray = results["largest_tone_excess"].max("receiver").max("speed")
         return worst

@@ -58,7 +58,7 @@ function spectrumChart(target) {
     ]);
 }
 
-function speedChart(target) {
+function speedChart(target, modelled) {
   const x = { time: false, range: (_, low, high) => {
     const edge = Math.max(0.05 * (high - low), 50);
     return [low - edge, high + edge];
@@ -70,16 +70,14 @@ function speedChart(target) {
       curve("total, compared", COLOURS.compared), curve("total, live", COLOURS.live),
       curve("modelled, compared", COLOURS.compared, { dash: [6, 4] }),
       curve("modelled, live", COLOURS.live, { dash: [6, 4] }),
-    ]);
+    ].slice(0, modelled ? 4 : 2));
 }
 
 // Levels of lines and bands over all frequencies of either, rising.
-function spectrum(model, s, m, compared, live) {
+function spectrum(model, s, compared, live) {
   const one = model.page.cases[s], { bands } = model.page;
-  const first = one.noise[live.option] + m * bands.length;
-  const square = Math.max(model.numbers[one.rest[live.option] + m], 0);
-  const part = bands.map((hertz, band) => model.numbers[first + band] * aPower(hertz));
-  const gain = square / Math.max(part.reduce((sum, value) => sum + value, 0), 1e-30);
+  const part = bands.map((hertz, band) => live.noise[band] * aPower(hertz));
+  const gain = live.rest / Math.max(part.reduce((sum, value) => sum + value, 0), 1e-30);
   const rows = one.frequency.map((hertz, i) => [hertz, compared.line[i], live.line[i], null]);
   bands.forEach((hertz, band) => {
     if (part[band] > 0) rows.push([hertz, null, null, level(gain * part[band])]);
@@ -89,11 +87,12 @@ function spectrum(model, s, m, compared, live) {
 }
 
 // Total and modelled levels at a microphone by speed, rising.
-function overSpeed(speeds, m, before, live) {
+function overSpeed(speeds, m, before, live, modelled) {
   const rows = speeds.map((rpm, s) => {
     const [one, other] = [before[s].of[m], live[s].of[m]];
-    return [rpm, one.total, other.total, one.modelled, other.modelled];
+    const total = live[s].unknown ? null : other.total;
+    return [rpm, one.total, total, one.modelled, other.modelled];
   });
   rows.sort((one, other) => one[0] - other[0]);
-  return [0, 1, 2, 3, 4].map((column) => rows.map((row) => row[column]));
+  return [0, 1, 2, 3, 4].slice(0, modelled ? 5 : 3).map((column) => rows.map((row) => row[column]));
 }

@@ -80,7 +80,8 @@ class Model {
   given(option) {
     const { mounts, machine } = this.page;
     const [lateral, vertical, loss] = mounts ? mounts[machine[option]].values : [0, 0, 0];
-    return { option, moment: 0, angle: 0, height: 0, lateral, vertical, loss };
+    const positions = this.page.sliders ? this.page.sliders.list.map((one) => one.own) : [];
+    return { option, moment: 0, angle: 0, height: 0, lateral, vertical, loss, positions };
   }
 
   // Load of the option and of a weight at a line into six complex numbers; whether there is one.
@@ -209,11 +210,19 @@ class Model {
     const pressure = this.pressure(s, values, before), modelled = this.squares(s, pressure);
     if (one.left !== undefined) this.overMeasured(s, values, pressure);
     const all = one.left === undefined ? modelled : this.squares(s, pressure);
-    const of = this.page.microphones.map((_, m) => ({
-      total: level(this.numbers[one.rest[option] + m] + all[m]),
-      modelled: level(this.numbers[one.modelled[option] + m] + (one.load ? modelled[m] : 0)),
-    }));
-    return { pressure, of };
+    const { microphones, bands, sliders } = this.page;
+    const of = microphones.map((_, m) => {
+      const first = one.noise[option] + m * bands.length;
+      return {
+        total: level(this.numbers[one.rest[option] + m] + all[m]),
+        modelled: sliders ? null : level(this.numbers[one.modelled[option] + m] + (one.load ? modelled[m] : 0)),
+        rest: Math.max(this.numbers[one.rest[option] + m], 0),
+        noise: Array.from(this.numbers.subarray(first, first + bands.length)),
+      };
+    });
+    const moved = this.moved(values).length > 0, moves = moved && s === sliders.speed;
+    if (moves) of.forEach((each, m) => this.shift(s, m, values, pressure, each));
+    return { pressure, of, unknown: moved && !moves };
   }
 
   // Of all speeds, into the arrays of such ones that are needed no more.
@@ -227,17 +236,15 @@ class Model {
   }
 
   // What a microphone hears: orders by number, other tones, noise.
-  sound(s, m, values, pressure = this.levels(s, values).pressure) {
-    const one = this.page.cases[s], lines = one.frequency.length, bands = this.page.bands;
+  sound(s, m, values, levels = this.levels(s, values)) {
+    const one = this.page.cases[s], lines = one.frequency.length, { pressure } = levels;
     const orders = [], tones = [];
     for (let i = 0; i < lines; i++) {
       const at = 2 * (m * lines + i), peak = [pressure[at], pressure[at + 1]];
       if (Number.isInteger(one.order[i])) orders[one.order[i]] = peak;
       else tones.push([one.frequency[i], ...peak]);
     }
-    const first = one.noise[values.option] + m * bands.length;
-    const noise = Array.from(this.numbers.subarray(first, first + bands.length));
-    const rest = Math.max(this.numbers[one.rest[values.option] + m], 0);
+    const { noise, rest } = levels.of[m];
     return { shaft: this.page.speeds[s] / 60, orders, tones, noise, rest };
   }
 }

@@ -5,8 +5,8 @@ Object.assign(Panel.prototype, {
   sounds(create = false) {
     if (!this.player.context && !create) return;
     const { s, m, compared, values, before, live } = this.state;
-    this.player.voice("A", this.model.sound(s, m, compared, before[s].pressure));
-    this.player.voice("B", this.model.sound(s, m, values, live[s].pressure));
+    this.player.voice("A", this.model.sound(s, m, compared, before[s]));
+    this.player.voice("B", this.model.sound(s, m, values, live[s]));
   },
 
   // Once for all events of a while: a wave takes longer to make than the levels.
@@ -15,7 +15,9 @@ Object.assign(Panel.prototype, {
     this.waiting = setTimeout(() => {
       const { s, m, values, live } = this.state;
       this.waiting = null;
-      this.player.retune("B", this.model.sound(s, m, values, live[s].pressure));
+      const sound = this.model.sound(s, m, values, live[s]);
+      if (this.page.sliders) this.player.voice("B", sound);  // whose noise changes too
+      else this.player.retune("B", sound);
     }, WHILE);
   },
 

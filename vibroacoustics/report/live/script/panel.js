@@ -5,10 +5,11 @@ class Panel {
     this.at = (name) => root.querySelector(`[data-live="${name}"]`);
     this.choices();
     this.sliders();
+    this.parameters();
     const limits = this.at("spectrum");
     limits.limits = this.limits();
     this.spectrum = spectrumChart(limits);
-    this.speeds = page.speeds.length > 1 ? speedChart(this.at("speeds")) : null;
+    this.speeds = page.speeds.length > 1 ? speedChart(this.at("speeds"), !page.sliders) : null;
     this.at("speeds").hidden = !this.speeds;
     this.buttons();
     this.reset();
@@ -54,13 +55,14 @@ class Panel {
         this.changed(false);
       });
     });
-    this.at("fixed").hidden = Boolean(moves);
-    this.at("unmoved").hidden = Boolean(weight || moves);
+    this.at("fixed").hidden = Boolean(moves || this.page.sliders);
+    this.at("unmoved").hidden = Boolean(weight || moves || this.page.sliders);
   }
 
   // What the sliders say, in SI; stiffness to three digits, as the option's text has it.
   values() {
     const option = Number(this.at("option").value), values = this.model.given(option);
+    values.positions = this.positions(Number(this.at("speed").value));
     Object.entries(this.ranges).forEach(([name, [, , , words, unit]]) => {
       const slider = this.at(name), number = Number(slider.value);
       if (slider.closest("label").hidden) return;
@@ -84,6 +86,7 @@ class Panel {
       this.at(name).value = value;
       delete this.at(name).dataset.moved;
     });
+    (this.inputs || []).forEach(({ input }, k) => { input.value = given.positions[k]; });
     this.changed(true);
   }
 
@@ -100,18 +103,19 @@ class Panel {
   }
 
   show(s, m, before, live) {
-    const [a, b] = [before[s].of[m], live[s].of[m]], { option } = this.state.values;
+    const [a, b] = [before[s].of[m], live[s].of[m]], { sliders } = this.page;
     a.line = this.model.lines(s, m, before[s].pressure);
     b.line = this.model.lines(s, m, live[s].pressure);
-    this.spectrum.draw(() => spectrum(this.model, s, m, a, { ...b, option }));
+    this.spectrum.draw(() => spectrum(this.model, s, a, b));
     if (this.speeds) {
-      this.speeds.draw(() => overSpeed(this.page.speeds, m, before, live));
+      this.speeds.draw(() => overSpeed(this.page.speeds, m, before, live, !sliders));
     }
     const one = this.page.cases[s];
     const loudest = one.frequency.map((_, i) => i)
       .sort((i, j) => Math.max(a.line[j], b.line[j]) - Math.max(a.line[i], b.line[i])).slice(0, 6)
       .sort((i, j) => i - j);
-    const rows = [["Total", a.total, b.total], ["Modelled", a.modelled, b.modelled]];
+    const rows = [["Total", a.total, b.total]];
+    if (!sliders) rows.push(["Modelled", a.modelled, b.modelled]);
     loudest.forEach((i) => {
       const name = one.order[i] ? `${one.order[i]}× (${one.frequency[i].toFixed(1)} Hz)`
         : `${one.frequency[i].toFixed(1)} Hz`;
@@ -120,9 +124,10 @@ class Panel {
     this.fill("levels", rows);
     this.fill("microphones", this.page.microphones.map(
       (name, i) => [name, before[s].of[i].total, live[s].of[i].total]));
-    this.at("says").textContent = `Total ${b.total.toFixed(1)} dB(A), ${change(b.total - a.total)} dB; `
-      + `modelled ${b.modelled.toFixed(1)} dB(A), ${change(b.modelled - a.modelled)} dB against `
-      + `${this.page.options[this.state.compared.option]}, at ${this.page.microphones[m]}, `
+    this.at("says").textContent = `Total ${b.total.toFixed(1)} dB(A), ${change(b.total - a.total)}`
+      + (sliders ? this.errorWords(s, m) : ` dB; modelled ${b.modelled.toFixed(1)} dB(A), `
+        + `${change(b.modelled - a.modelled)} dB`)
+      + ` against ${this.page.options[this.state.compared.option]}, at ${this.page.microphones[m]}, `
       + `${this.page.speeds[s]} rpm`;
   }
 

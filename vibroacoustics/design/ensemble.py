@@ -1,0 +1,166 @@
+"""Machines for which designs are computed: the nominal one, or the weighted samples of a study."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..base.arrays import Array
+from ..base.errors import ParameterError, SolverError
+from ..base.vocabulary import REFERENCE_OPTION
+from ..levels.baseline import with_baseline
+from ..levels.by_source import SourceSound, gain_band_number
+from ..levels.nominal import NominalSound, by_source
+from ..levels.remainder import remaining
+from ..machine.cases import Cases
+from ..machine.source import CaseKey
+from ..pipeline.study import chain_with
+from ..radiation.given import Radiation
+from ..stages.chain import Chain
+from ..study.study import Study
+from ..transfer.received import Transmission
+from ..uncertainty.bank import Bank
+from ..uncertainty.discrepancy import Discrepancy
+from ..uncertainty.evidence import Evidence
+from .engine.deviating import Gains, energy
+from .engine.engine import Engine
+from .engine.machine_sample import Deviation, MachineSample
+from .engine.on_mounts import lines_of_speed, pressure_by_source
+from .engine.response import a_weight
+from .engine.runs import probe_of
+from .engine.seen import Need
+from .engine.sound_way import Ways
+from .reference import unmodelled_of
+from .space import Space
+from .tolerances import Pieces
+
+
+@dataclass(frozen=True)
+class ComparedMachine:
+    """A machine with its designs and itself without an option.
+
+    Attributes
+    ----------
+    machine : nominal, or a sample
+    engine : of its designs
+    reference : of the machine without an option, with the tolerances of values no design chooses
+    """
+
+    machine: MachineSample
+    engine: Engine
+    reference: Engine
+
+
+def compared_machines(
+    study: Study, pieces: Pieces, needs: Sequence[Need], radiation: Radiation
+) -> list[ComparedMachine]:
+    """Return the samples of a study that have a solution; without uncertainty the nominal machine.
+
+    Parameters
+    ----------
+    study : with its options
+    pieces : designs with their tolerances
+    needs : what is asked of designs
+    radiation : gives the transfer vectors
+
+    Raises
+    ------
+    ParameterError, SolverError
+        The study cannot be run.
+    """
+    ways, machines = Ways(radiation), _machines(study, pieces.wide.study, radiation)
+    compared: list[ComparedMachine] = []
+    for machine in machines:
+        first = compared[0] if compared else None
+        with suppress(*([ParameterError, SolverError] if len(machines) > 1 else [])):
+            compared.append(_compared(pieces, needs, ways, machine, first))
+    return compared
+
+
+def _compared(
+    pieces: Pieces,
+    needs: Sequence[Need],
+    ways: Ways,
+    machine: MachineSample,
+    first: ComparedMachine | None,
+) -> ComparedMachine:
+    """Prepare a machine; variables act as they do in the first one."""
+    space, bare = pieces.wide, pieces.without_designs
+    gains = _gains(bare, ways, machine)
+    of_designs, of_reference = (None, None) if first is None else (first.engine, first.reference)
+    return ComparedMachine(
+        machine,
+        Engine(space, pieces.limits, needs, ways, machine, gains, of_designs),
+        Engine(bare, pieces.limits_without_designs, needs, ways, machine, gains, of_reference),
+    )
+
+
+def _gains(space: Space, ways: Ways, machine: MachineSample) -> tuple[Gains | None, ...]:
+    """Discrepancies by speed, with the energy of the machine without an option."""
+    study = space.study
+    if machine.deviation is None:
+        return (None,) * len(study.operation.speed_rpm)
+    probe, way = probe_of(space, study, REFERENCE_OPTION, ways, machine), ways(study)
+    body = {name: array[None] for name, array in probe.body.items()}
+    each = zip(study.operation.speed_rpm, probe.frequency_hz, probe.order, strict=True)
+    gains = []
+    for speed, part in zip(each, probe.by_speed, strict=True):
+        lines = lines_of_speed(*speed, way)
+        arrays = {name: np.asarray(array)[None] for name, array in part.items()}
+        pressure = pressure_by_source(lines, arrays, body)
+        band, weight = gain_band_number(lines.frequency_hz), a_weight(lines.frequency_hz)
+        before = energy(pressure, weight, band, arrays["noise"].real)[0]
+        gains.append(Gains(machine.deviation.gain, machine.deviation.added, before))
+    return tuple(gains)
+
+
+def _machines(study: Study, cut: Study, radiation: Radiation) -> list[MachineSample]:
+    """Samples of a study with uncertainty; the nominal machine where it has too few.
+
+    Parameters
+    ----------
+    study : with all options
+    cut : with the options of designs alone
+    radiation : gives the transfer vectors
+    """
+    samples = list(_samples(cut, radiation)) if study.ranges else []
+    return samples or [MachineSample(np.ones(1), unmodelled_of(study, radiation))]
+
+
+def _samples(study: Study, radiation: Radiation) -> Iterator[MachineSample]:
+    chain = chain_with(study, Bank, radiation=radiation)
+    ensemble, evidence = chain[Bank], chain[Evidence]
+    if not ensemble.suffices:
+        return
+    index, count = ensemble.chosen(study.uncertainty.seed)
+    for number, times in zip(index.tolist(), count.tolist(), strict=True):
+        sound, machine = ensemble.batch.sounds[number], ensemble.batch.machines[number]
+        pairs = evidence.pairs_of(sound, machine, number)
+        discrepancy = evidence.discrepancy(number).some(pairs.discrepancy)
+        square = evidence.unmodelled_pa2(pairs)
+        unmodelled = dict(
+            zip(study.options, _unmodelled(chain, number, discrepancy, square), strict=True)
+        )
+        yield MachineSample(
+            times * pairs.weight[0],
+            unmodelled.__getitem__,
+            ensemble.samples[number],
+            Deviation(discrepancy.gain, discrepancy.added),
+        )
+
+
+def _unmodelled(chain: Chain, number: int, discrepancy: Discrepancy, square: Array) -> Array:
+    """Mean square beside the modelled sound, (option, pair, speed, receiver), Pa²."""
+    study, nominal, ensemble = chain.study, chain[NominalSound], chain[Bank]
+    machine, axes = ensemble.batch.machines[number], nominal.axes
+    unmodelled = [remaining(study, axes, machine, power) for power in square.tolist()]
+    sounds: list[dict[CaseKey, SourceSound]] = [{}] * len(unmodelled)
+    if nominal.points:
+        cases = chain.at(ensemble.samples[number])[Cases]
+        sounds = discrepancy.sounds(by_source(study, axes, chain[Transmission].received(cases)))
+    each = [
+        with_baseline(study, axes, nominal.points, sound, of_pair)
+        for sound, of_pair in zip(sounds, unmodelled, strict=True)
+    ]
+    return np.moveaxis(np.array(each), 2, 0)

@@ -1,0 +1,117 @@
+"""The representative sample: one machine for what has a phase, such as sound."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.progress import no_progress
+from ..base.registry import register
+from ..levels.continuous import noise_levels
+from ..levels.lines import line_pressure, with_order_levels
+from ..levels.nominal import NominalSound
+from ..levels.remainder import remaining
+from ..levels.sample_levels import Deviating, with_discrepancy
+from ..machine.cases import Cases
+from ..machine.machine import Machine
+from ..machine.source import CaseKey
+from ..study.sampling import Sample
+from ..study.study import Study
+from ..transfer.labelled import housing_variables
+from ..transfer.received import Transmission
+from ..uncertainty.bank import Bank
+from ..uncertainty.evidence import PAIRS, Evidence
+from ..uncertainty.representative import at_medians, nearest_row
+from .chain import Chain
+from .forces import PublishedCases, motion_of, with_published
+from .sampled import deviating
+from .samples import ComputedSamples
+from .stage import Given, Stage
+
+_NOISE = ("noise_band_level", "unmodelled_band_level")
+
+
+@dataclass(frozen=True)
+class Representative:
+    """The weighted sample nearest to the medians of the source levels without an option.
+
+    Attributes
+    ----------
+    number : in the ensemble
+    pair : number of its discrepancy and unmodelled level
+    sample : its values by table and field
+    machine : with these values
+    cases : speeds and options with them
+    gain : factors of its discrepancy on the power of sources, of every case, shape (source,
+        receiver, gain band)
+    """
+
+    number: int
+    pair: int
+    sample: Sample
+    machine: Machine
+    cases: Cases
+    gain: Mapping[CaseKey, Array]
+
+
+@register
+class RepresentativeSample(Stage):
+    """Lines with phase and noise of the representative sample, and its values."""
+
+    name = "representative"
+    reads = (
+        Cases, PublishedCases, Transmission, NominalSound, Bank, Evidence, ComputedSamples,
+        "source_level*", "level_unmodelled*", "level_total", "sample_weight", "sampled_value",
+        "order_level", "force_amplitude", "moment_amplitude", "foot_force_amplitude",
+    )  # fmt: skip
+    gives = (Representative, "representative_*")
+    estimates = (
+        "pressure_line", "force", "moment", "force_order", "moment_order", "velocity_order",
+        "block_velocity_order", "foot_force_order", "shaft_speed", "shaft_acceleration",
+    )  # fmt: skip
+
+    def applies(self, study: Study) -> bool:
+        return bool(study.ranges)
+
+    def run(self, chain: Chain) -> Given:
+        computed, ensemble = chain.get(ComputedSamples), chain[Bank]
+        if computed is None:
+            return Given()
+        row = nearest_row(chain.results)
+        rows, pair = divmod(row, PAIRS)
+        number = computed.numbers[rows]
+        sample, _, cases = deviating(with_published(chain), ensemble, number)
+        gain = {key: of_case[pair] for key, of_case in sample.gain.items()}
+        chosen = Representative(number, pair, ensemble.samples[number], sample.machine, cases, gain)
+        lines, noise = _sound(chain, chosen, sample)
+        value = chain.results["sampled_value"].isel(sample=row, drop=True)
+        variables = noise.merge(value.rename("representative_value").to_dataset())
+        return Given(variables, (chosen,), lines.merge(_motion(chain, chosen)))
+
+
+def _motion(chain: Chain, chosen: Representative) -> xr.Dataset:
+    """Forces and motion of the representative sample, at the median amplitudes."""
+    study = chain.study.model_copy(update={"machine": chosen.machine})
+    motion, _ = motion_of(study, no_progress)
+    loads = at_medians(motion, chain.results, ("force_order", "moment_order"))
+    motion = loads.assign(housing_variables(study, loads))
+    names = [name for name in motion.data_vars if name in RepresentativeSample.estimates]
+    return at_medians(motion[names], chain.results, ("foot_force_order",))
+
+
+def _sound(
+    chain: Chain, chosen: Representative, sample: Deviating
+) -> tuple[xr.Dataset, xr.Dataset]:
+    """Lines of the representative sample with its discrepancy, and its noise."""
+    axes = chain[NominalSound].axes
+    received = {
+        key: with_discrepancy(of_case, chosen.gain[key]) for key, of_case in sample.received.items()
+    }
+    unmodelled = remaining(chain.study, axes, sample.machine, float(sample.unmodelled[chosen.pair]))
+    noise = noise_levels(axes, received, unmodelled)
+    nominal = chain.results["line"].values.tolist()
+    lines = line_pressure(axes, received, nominal)
+    return with_order_levels(lines, chain.results["order_level"]), noise[list(_NOISE)].rename(
+        {name: f"representative_{name}" for name in _NOISE}
+    )
