@@ -19,7 +19,7 @@ from ...levels.declared_level import (
     upper_limit_db,
 )
 from ...levels.measured_power import BANDS
-from ...results.estimates import has_samples, in_samples, nominal, weighted_estimate
+from ...results.estimates import has_samples, in_samples, nominal, sample_numbers, weighted_estimate
 from ..sampled_words import not_sampled_sentence
 from ..source_words import prior_words
 from ..study import overall_noise, parameters
@@ -208,7 +208,7 @@ def _uncertainty_words(
     if not has_samples(case):
         why = not_sampled_sentence(case)
         return "nothing was sampled: K_WA is not known" + (f". {why[:-1]}" if why else "")
-    count = np.count_nonzero(in_samples(case, "level_total").weight)
+    count = sample_numbers(case).computed
     none = overall_noise(case) is None and "baseline_band_level" not in case
     how = "equally" if none else "by the likelihood of the published level or the baseline"
     median = f"L_WA is the median of {count} samples, weighted {how}"
