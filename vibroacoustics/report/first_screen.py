@@ -202,8 +202,11 @@ def _vibration(results: xr.Dataset) -> str:
         return ""
     if not better:
         return "No option reduces the 1× foot force measurably."
-    best = min(better, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
+    sure = [name for name in better if _at_largest(shifts[name]).highest < 0.0]
+    best = min(sure or better, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
     change = _with_unit(_at_largest(shifts[best]), "%")
+    if not sure:
+        return f"{best} may reduce the 1× foot force: {change}."
     return f"Best for the feet: {best}, 1× foot force {change}."
 
 
