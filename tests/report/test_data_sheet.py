@@ -124,10 +124,17 @@ def _sampled(tiny: xr.Dataset, spread_db: np.ndarray, weight: np.ndarray) -> xr.
         name: stamp(name, level[None] + spread_db[:, None, None, None], coords | by_receiver)
         for name, level in levels.items()
     }
-    of_both = {"prior": ["flat", "near"], **coords}
-    return tiny.assign(
-        **by_sample, sample_weight=stamp("sample_weight", np.tile(weight, (2, 1)), of_both)
-    )
+    priors, both = {"prior": ["flat", "near"]}, np.tile(weight, (2, 1))
+    of_samples = {
+        "sample_weight": stamp("sample_weight", both, priors | coords),
+        "prior_sample_weight": stamp(
+            "prior_sample_weight", both, priors | {"prior_sample": coords["sample"]}
+        ),
+        "sampled_value": stamp(
+            "sampled_value", spread_db[:, None], coords | {"uncertain_parameter": ["gas.a"]}
+        ),
+    }
+    return tiny.assign(**by_sample, **of_samples)
 
 
 def test_level_is_the_median_and_k_what_95_percent_of_the_samples_stay_below(
