@@ -17,6 +17,7 @@ from vibroacoustics.design.engine.seen import Need
 from vibroacoustics.design.engine.sound_way import Ways
 from vibroacoustics.design.space import Space
 from vibroacoustics.radiation.given import Radiation
+from vibroacoustics.results.estimates import nominal_values
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 
@@ -79,7 +80,7 @@ def largest_difference_db(
 
 def _run(engine: Engine, study: Study, design: Array, radiation: Radiation) -> xr.Dataset:
     changed = study.replace(engine.space.written(design))
-    results = pipeline.run(changed, radiation=radiation)
+    results = nominal_values(pipeline.run(changed, radiation=radiation))
     return results.sel(option=engine.space.option_of(design))
 
 

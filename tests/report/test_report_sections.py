@@ -255,9 +255,10 @@ def test_many_speeds_with_sources_are_six_tables(results: xr.Dataset) -> None:
     wide.attrs = results.attrs | {
         "parameters": results.attrs["parameters"].replace("[50.0, 60.0]", str([50.0] * 12))
     }
-    louder = wide["level_total_by_sample"].copy()
-    louder.loc[{"option": "rattles"}] += xr.DataArray(np.linspace(0.0, 3.0, 12), dims="speed")
-    wide["level_total_by_sample"] = louder
+    for end in ("", "_10_percent", "_90_percent"):
+        louder = wide[f"change_total{end}"].copy()
+        louder.loc[{"option": "rattles"}] += xr.DataArray(np.linspace(0.0, 3.0, 12), dims="speed")
+        wide[f"change_total{end}"] = louder
     page = render(wide)["report.html"].decode()
     assert len(re.findall("<caption>[^<]*option none, microphone front_1m", page)) == 6
     assert "6 of 12 speeds; all are in sources.csv." in page

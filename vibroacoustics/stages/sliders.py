@@ -28,7 +28,7 @@ from .representative import Representative
 from .sampled import timed_sounds
 from .stage import Given, Stage, Trial
 
-_TIMED: Final = 2
+_TIMED: Final = 6
 """Number of samples that are timed."""
 
 

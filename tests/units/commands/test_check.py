@@ -1,5 +1,6 @@
 """`check`: all errors in one go, and what a run costs before it starts."""
 
+import os
 import time
 from math import sqrt
 from pathlib import Path
@@ -94,10 +95,10 @@ def test_time_with_samples_and_kwave_is_within_a_factor_of_two(tmp_path: Path) -
     study = load_study(SAMPLED)
     with without_cache():
         cost = run_cost(study)
-        start = time.process_time()
+        start = sum(os.times()[:4])
         results = pipeline.run(study)
     outputs.write_report(results, tmp_path)
-    taken_s = time.process_time() - start
+    taken_s = sum(os.times()[:4]) - start  # of ended workers too
     assert 0.5 < taken_s / middle_s(cost, "start and study") < 2.0
 
 
