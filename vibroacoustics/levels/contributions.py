@@ -1,7 +1,6 @@
 """Levels and shares of the paths of sound, labelled."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -13,30 +12,11 @@ from ..machine.source import CaseKey
 from ..mechanics.contributions import Contributions, PathName
 from .axes import LevelAxes
 from .bands import Band
-from .by_source import gain_band_number, membership, weighting_power
+from .by_source import membership, weighting_power
 from .labelled import level
 
 SILENT: Final = 1e-12
 """Of the largest mean square, 120 dB below it: a smaller sum is near rounding and has no shares."""
-
-
-def scaled(split: Contributions, gain: Array, sources: Sequence[str]) -> Contributions:
-    """Return the sound by path with gains of the sources; motions stay without them.
-
-    Parameters
-    ----------
-    split : sound of one case by path
-    gain : factors on the power, shape (source, receiver, gain band)
-    sources : names
-    """
-    rows = [list(sources).index(name.source) for name in split.names]
-    root = np.sqrt(gain[rows])[..., gain_band_number(split.frequency_hz)]
-    noise = []
-    for part in split.noise:
-        of_paths = gain[[rows[row] for row in part.rows]]
-        factor = of_paths[..., gain_band_number(part.frequency_hz)]
-        noise.append(replace(part, alone=factor * part.alone, part=factor * part.part))
-    return replace(split, pressure=root * split.pressure, noise=tuple(noise))
 
 
 def energies(split: Contributions, bands: Sequence[Band]) -> tuple[Array, Array]:

@@ -2,7 +2,7 @@
 
 from ..base.registry import register
 from ..levels.contribution_choice import chosen_speeds, loudest_orders
-from ..levels.contributions import contribution_variables, scaled
+from ..levels.contributions import contribution_variables
 from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
 from ..transfer.received import Transmission
@@ -21,12 +21,12 @@ class ContributionsByPath(Stage):
 
     def run(self, chain: Chain) -> Given:
         speeds, nominal, split = chosen_speeds(chain.study), chain[Cases], {}
-        chosen, sources = chain.get(Representative), chain[NominalSound].axes.sources
+        chosen = chain.get(Representative)
         every = nominal if chosen is None else chosen.cases
         cases = every.some(key for key in nominal.cases if key[0] in speeds)
         chain.progress("sound by path", 0, len(cases.cases))
         for key, of_case in chain[Transmission].contributions(cases):
-            split[key] = of_case if chosen is None else scaled(of_case, chosen.gain[key], sources)
+            split[key] = of_case
             chain.progress("sound by path", len(split), len(cases.cases))
         orders = loudest_orders(chain.results)
         return Given(contribution_variables(chain[NominalSound].axes, split, orders))

@@ -57,7 +57,10 @@ class Representative:
 
 @register
 class RepresentativeSample(Stage):
-    """Lines with phase and noise of the representative sample, and its values."""
+    """Lines with phase and noise of the representative sample, and its values.
+
+    None with a measured baseline, whose levels the sound has.
+    """
 
     name = "representative"
     reads = (
@@ -72,7 +75,7 @@ class RepresentativeSample(Stage):
     )  # fmt: skip
 
     def applies(self, study: Study) -> bool:
-        return bool(study.ranges)
+        return bool(study.ranges) and study.baseline is None
 
     def run(self, chain: Chain) -> Given:
         computed, ensemble = chain.get(ComputedSamples), chain[Bank]

@@ -14,9 +14,14 @@ from vibroacoustics.stages import contributions
 from vibroacoustics.study.loading import load_study
 
 
+def without_samples(study):
+    """The study with nominal values alone."""
+    return study.model_copy(update={"ranges": ()})
+
+
 @pytest.fixture
 def results():
-    return run_made_up(load_study(SOURCES_STUDY))
+    return run_made_up(without_samples(load_study(SOURCES_STUDY)))
 
 
 @pytest.fixture(autouse=True)
@@ -92,7 +97,7 @@ def shortened(name, **more):
     operation = {"operation.speed_rpm": [study.operation.speed_rpm[0]]}
     if supply:
         operation["operation.supply_frequency_hz"] = [supply[0]]
-    return study.replace({**operation, **more})
+    return without_samples(study.replace({**operation, **more}))
 
 
 @pytest.mark.parametrize(

@@ -291,7 +291,7 @@ def test_samples_make_a_band_of_all_sources():
     with pytest.MonkeyPatch.context() as patch:
         radiation = lambda study, *_: (made_up_modes(study), False)  # noqa: E731
         results = run_in_room(study, patch, radiation=radiation, **{"operation.stopping": False})
-    low, high = results["room_level_low"], results["room_level_high"]
+    low, high = (results[f"room_level_{end}_percent"] for end in (10, 90))
     assert np.all(high > low)
     assert set(results["room_source_level"]["sound_source"].values) >= {"gas", "keys", "motor"}
     assert study.radiation.maximum_frequency_hz > HIGHEST_HZ

@@ -33,7 +33,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             "rigid body, loads on parts in an elastic shell, flows into its gas. Lines of one "
             "frequency add as phasors: a path that works against the sum has a negative share, and "
             "shares add up to 100 %. In a run with samples the paths are those of the "
-            "representative sample. Unmodelled noise is in no path.",
+            "representative sample without discrepancy. Unmodelled noise is in no path.",
             "note",
         ),
         *_of_receiver(results, receiver),
