@@ -25,7 +25,6 @@ from .study import (
     nearest_speed,
     overall_noise,
     parameters,
-    quoted_dba,
     source_name,
     speeds,
 )
@@ -130,16 +129,24 @@ def largest(of_quantity: Shift) -> int:
 
 
 def _level(results: xr.Dataset) -> str:
-    speed, noise = nearest_speed(results), overall_noise(results)
+    speed = nearest_speed(results)
     level = band(results, "level_total", **at_catalogue(results, speed=speed))
     interval = f"80{NO_BREAK}%: {level.ends(rounding.level)}" if has_samples(results) else ""
-    published = "no published level" if noise is None else f"published {quoted_dba(results):g}"
-    notes = "; ".join(filter(None, [interval, published]))
+    notes = "; ".join(filter(None, [interval, _published(results, speed)]))
     where = catalogue_receiver(results)
     return (
         f"{parameters(results)['machine']['name']} at {speed:g} rpm: "
         f"{level.middle_text(rounding.level)} dB(A) at {where} ({notes})."
     )
+
+
+def _published(results: xr.Dataset, speed_rpm: float) -> str:
+    """Return the published level, with its speed where that is another one."""
+    noise = overall_noise(results)
+    if noise is None:
+        return "no published level"
+    there = "" if speed_rpm == noise["speed_rpm"] else f" at {noise['speed_rpm']:g} rpm"
+    return f"published {noise['level_dba']:g}{there}"
 
 
 def _room(results: xr.Dataset) -> str:
