@@ -141,7 +141,7 @@ def _level(results: xr.Dataset) -> str:
 
 
 def _published(results: xr.Dataset, speed_rpm: float) -> str:
-    """Return the published level, with its speed where that is another one."""
+    """Return the published level, with its speed where that differs."""
     noise = overall_noise(results)
     if noise is None:
         return "no published level"
