@@ -145,8 +145,8 @@ def _published(results: xr.Dataset, speed_rpm: float) -> str:
     noise = overall_noise(results)
     if noise is None:
         return "no published level"
-    there = "" if speed_rpm == noise["speed_rpm"] else f" at {noise['speed_rpm']:g} rpm"
-    return f"published {noise['level_dba']:g}{there}"
+    speed = "" if speed_rpm == noise["speed_rpm"] else f" at {noise['speed_rpm']:g} rpm"
+    return f"published {noise['level_dba']:g}{speed}"
 
 
 def _room(results: xr.Dataset) -> str:
