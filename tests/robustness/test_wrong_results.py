@@ -17,7 +17,7 @@ from support import TINY, append_hash, assert_refused, command_here, made_up_rad
 from vibroacoustics import pipeline, report
 from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.base.hashing import sha256
-from vibroacoustics.base.vocabulary import REFERENCE_OPTION, SUFFIXES
+from vibroacoustics.base.vocabulary import LOW, REFERENCE_OPTION, SUFFIXES
 from vibroacoustics.commands import outputs
 from vibroacoustics.report.drawing import loads
 from vibroacoustics.results import hashed
@@ -149,8 +149,11 @@ def test_what_is_checked_is_all_that_a_report_reads(name: str) -> None:
     results = run(name)
     optional = {"supply_frequency", "projection_error", "force", "transfer_vector_closed_form",
                 "transfer_vector_error", "stopping_order_map", "rank_acceptability",
+                "total_band_level", "alternative_effective",
                 *loads.NEEDED}  # fmt: skip
-    needed = {*needed_variables(results), *optional} & results.keys()
+    with_interval = [name for name in map(str, results) if f"{name}{SUFFIXES[LOW]}" in results]
+    sampled = {name + suffix for name in with_interval for suffix in ("", *SUFFIXES.values())}
+    needed = {*needed_variables(results), *optional, *sampled} & results.keys()
     reduced = results[sorted(needed)]
     beside = {*reduced.dims, *(name for one in needed for name in COORDINATES_OF.get(one, ()))}
     reduced = reduced.drop_vars([name for name in reduced.coords if name not in beside])
