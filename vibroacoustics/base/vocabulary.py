@@ -20,7 +20,7 @@ the representative sample."""
 LOW: Final = "low"
 HIGH: Final = "high"
 SUFFIXES: Final = {LOW: "_10_percent", HIGH: "_90_percent", NOMINAL: "_nominal"}
-"""Of the variables beside one that was sampled: ends of its interval, and the nominal value."""
+"""Suffixes of variables beside a sampled one: ends of its interval, and the nominal value."""
 _SUFFIX_WORDS: Final = {
     LOW: "10 % of the samples are below", HIGH: "90 % of the samples are below",
     NOMINAL: "nominal values",

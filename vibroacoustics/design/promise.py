@@ -11,7 +11,7 @@ from ..results.estimates import QUANTILES
 from .problem import Problem, more_is_better
 
 _SET: Final = 1
-"""Of the samples that the promise is made of; the search has set 0."""
+"""Number of the set of samples from which the promise is computed; the search uses set 0."""
 _DEVIATIONS: Final = 1.96
 
 

@@ -21,7 +21,7 @@ JUDGED: Final = (*FORCES, TOTAL, LINE)
 MASKED_DB: Final = 15.0
 """A line so far below the total, both A-weighted, is not heard (assumed)."""
 _LOWEST_HZ: Final = 20.0
-"""Of the threshold of hearing; lines below have its level."""
+"""Lowest frequency of the threshold of hearing; lower lines are compared with its level there."""
 
 
 AMPLITUDES: Final = ("force_amplitude", "moment_amplitude", "largest_foot_force")

@@ -78,7 +78,7 @@ def measured_points(
 def evidence(points: Iterable[PointKey]) -> list[PointKey]:
     """Points that weigh samples: at each microphone the lowest, a middle and the highest speed.
 
-    Speeds between them tell nearly the same of the machine, and each costs every sample a case.
+    Speeds between them add little information, and each costs one case in every sample.
     """
     by_receiver: dict[str, list[float]] = {}
     for receiver, speed in points:

@@ -37,7 +37,7 @@ _UNCERTAIN: Final = QUANTILES[0]
 _QUIETEST_DB: Final = 30.0
 """Sources so far below the machine are not shown."""
 _LEAST_SPAN_DB: Final = 2.0
-"""Of the scale of changes, on either side of zero."""
+"""Smallest half width of the scale of changes."""
 
 
 def sentences(results: xr.Dataset) -> tuple[str, ...]:

@@ -154,9 +154,9 @@ def pressure_by_source(lines: Lines, arrays: Arrays, body: Arrays) -> ComplexArr
 
 
 def _mean_square(order: int | None, lines: Lines, arrays: Arrays, body: Arrays) -> Array:
-    """Of the pressure, shape (design or 1, pair, receiver), Pa²: A-weighted of all, or of an order.
+    """Return mean square pressure of all lines or of an order, (design or 1, pair, receiver), Pa².
 
-    The level of an order is not weighted.
+    All lines are A-weighted, an order is not.
     """
     rows, weighted = lines.weighted(order)
     few = {name: arrays[name][:, rows] for name in SOUND if name in arrays}
