@@ -28,6 +28,8 @@ Of `compare`: `compared_orders`, `order_differences`, `orders_over_speed`.
 Of `curves`: `curves`. Of `predict`: `predicted_levels`.
 """
 
+from .report.charts.needs import plotted
+from .report.figures import recorded_orders
 from .report.figures.baseline import baseline_third_octaves
 from .report.figures.blocked_forces import blocked_force, blocked_validation
 from .report.figures.campbell import campbell
@@ -44,12 +46,15 @@ from .report.figures.orders_over_speed import orders_over_speed
 from .report.figures.paths import path_shares
 from .report.figures.prediction import predicted_levels
 from .report.figures.radiation import green_difference, levels, transfer
-from .report.figures.recorded_orders import order_map, order_spectrum, tracked_orders
 from .report.figures.scores import rank_acceptability, scores
 from .report.figures.sources import option_third_octaves, source_third_octaves
 from .report.figures.speed_maps import speed_frequency_map
 from .report.figures.stopping import stopping, stopping_order_map
 from .report.figures.transfer_vectors import transfer_vectors
+
+order_map = plotted(recorded_orders.order_map, "orders.nc")
+order_spectrum = plotted(recorded_orders.order_spectrum, "orders.nc")
+tracked_orders = plotted(recorded_orders.tracked_orders, "tracked_orders.nc")
 
 __all__ = [
     "baseline_third_octaves",

@@ -248,7 +248,7 @@ def write_analysis(
     """
     files = {
         **tables,
-        **{f"{picture.name}.{picture.ending}": picture.png for picture in figures(results)},
+        **{f"{picture.name}.{picture.ending}": picture.content for picture in figures(results)},
     }
     with manifest.replacing(Path(folder), name) as staged:
         storage.stage_results(results, staged, name)

@@ -141,7 +141,7 @@ def _rendered(results: xr.Dataset, results_sha256: str) -> dict[str, bytes]:
         **({"sources.csv": sources_csv(results)} if has_sources(results) else {}),
         **({"paths.csv": paths_csv(results)} if has_paths(results) else {}),
         **({"speeds.csv": avoid_csv(avoided(results))} if over_speed(results) else {}),
-        **{file: picture.png for file, picture in page.pictures().items()},
+        **{file: picture.content for file, picture in page.pictures().items()},
     }
 
 

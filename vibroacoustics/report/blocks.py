@@ -9,13 +9,14 @@ All are frozen and hold finished text; `block` names the kind of block in templa
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field, TypeAdapter
 
-from .figures.style import Picture
+from .charts.marks import Chart
+from .charts.picture import Picture, picture
 from .tables import Table
 
 
@@ -76,6 +77,14 @@ class Pictures:
 
     pictures: tuple[Picture, ...]
     block: Literal["pictures"] = field(default="pictures", kw_only=True, repr=False)
+
+
+@dataclass(frozen=True)
+class Charts:
+    """Charts side by side where there is room."""
+
+    charts: tuple[Chart, ...]
+    block: Literal["charts"] = field(default="charts", kw_only=True, repr=False)
 
 
 @dataclass(frozen=True)
@@ -213,6 +222,7 @@ Block: TypeAlias = Annotated[
     | Definitions
     | Table
     | Pictures
+    | Charts
     | Lights
     | Intervals
     | Beside
@@ -230,7 +240,7 @@ def to_json(blocks: Sequence[Block]) -> str:
     ValueError
         One of them is no block, or holds a value of another type than its own.
     """
-    text = json.dumps(_adapter().dump_python(tuple(blocks), mode="json", warnings=False))
+    text = json.dumps(_adapter().dump_python(drawn(blocks), mode="json", warnings=False))
     from_json(text)
     return text
 
@@ -248,13 +258,43 @@ def from_json(text: str) -> tuple[Block, ...]:
 
 def pictures(blocks: Sequence[Block]) -> Iterator[Picture]:
     """All pictures of some blocks, folded ones too."""
-    for block in blocks:
+    for block in _flat(blocks):
         if isinstance(block, Pictures):
             yield from block.pictures
-        elif isinstance(block, Details):
-            yield from pictures(block.blocks)
+        elif isinstance(block, Charts):
+            yield from map(picture, block.charts)
+
+
+def charts(blocks: Sequence[Block]) -> Iterator[Chart]:
+    """All charts of some blocks, folded ones too."""
+    for block in _flat(blocks):
+        if isinstance(block, Charts):
+            yield from block.charts
+
+
+def drawn(blocks: Sequence[Block]) -> tuple[Block, ...]:
+    """Return blocks with pictures in place of charts."""
+    return tuple(map(_drawn, blocks))
+
+
+def _drawn(block: Block) -> Block:
+    if isinstance(block, Charts):
+        return Pictures(tuple(map(picture, block.charts)))
+    if isinstance(block, Details):
+        return replace(block, blocks=drawn(block.blocks))
+    if isinstance(block, Beside):
+        return Beside(_drawn(block.narrow), _drawn(block.wide))
+    return block
+
+
+def _flat(blocks: Sequence[Block]) -> Iterator[Block]:
+    """Yield blocks and those within them."""
+    for block in blocks:
+        yield block
+        if isinstance(block, Details):
+            yield from _flat(block.blocks)
         elif isinstance(block, Beside):
-            yield from pictures((block.narrow, block.wide))
+            yield from _flat((block.narrow, block.wide))
 
 
 @cache

@@ -8,7 +8,7 @@ from importlib import resources
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from .blocks import Text
+from .blocks import Text, drawn
 from .figures.style import Picture
 from .live.assets import live_script, live_style, unpacking_script
 from .live.numbers import packed
@@ -29,10 +29,10 @@ def html(page: Page, results_sha256: str = "") -> bytes:
     )
     environment.filters |= {
         "data_address": _data_address,
-        "full_address": _full_address,
         "along": _along,
         "breakable": _breakable,
         "linked": _linked,
+        "drawn": drawn,
         "script_data": _script_data,
     }
     style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")
@@ -91,11 +91,7 @@ def _breakable(text: str) -> Markup:
 
 
 def _data_address(picture: Picture) -> str:
-    return _address(picture.png, {"png": "png", "svg": "svg+xml"}[picture.ending])
-
-
-def _full_address(picture: Picture) -> str:
-    return _address(picture.full_png, "png")
+    return _address(picture.content, {"png": "png", "svg": "svg+xml"}[picture.ending])
 
 
 def _address(content: bytes, kind: str) -> str:

@@ -14,6 +14,7 @@ from .blocks import (
     Live,
     Pictures,
     Text,
+    drawn,
 )
 from .page import Page, figure_file
 from .tables import Table, escape_markdown, to_markdown
@@ -27,7 +28,7 @@ def markdown(page: Page) -> bytes:
     ]
     for part in page.parts:
         parts.append(f"## {escape_markdown(part.title)}")
-        parts += [_block(block) for block in part.blocks]
+        parts += [_block(block) for block in drawn(part.blocks)]
     return ("\n\n".join(filter(None, parts)) + "\n").encode()
 
 

@@ -47,7 +47,7 @@ def test_track_gives_the_envelopes(file, tmp_path):
     rows = list(csv.DictReader((tmp_path / "tracked_orders.csv").open(encoding="utf-8")))
     assert len(rows) == 2 * 2 * tracked.sizes["track_time"]
     assert rows[0]["channel"] == "ring"
-    assert (tmp_path / "tracked_1_ring.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "tracked_1_ring.svg").read_bytes().startswith(b"<svg")
 
 
 def test_map_shows_orders_and_levels(file, tmp_path):

@@ -56,7 +56,7 @@ def render_designs(search: xr.Dataset) -> dict[str, bytes]:
     return {
         "designs.html": html(page),
         "designs.csv": designs_csv(search),
-        **{file: picture.png for file, picture in page.pictures().items()},
+        **{file: picture.content for file, picture in page.pictures().items()},
     }
 
 

@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .needs import needs
+from ..charts.needs import needs
 from .panels import band, each_panel
 from .style import COLOURS, Picture, png, shortened
 

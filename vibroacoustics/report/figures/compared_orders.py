@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.arrays import Array
+from ..charts.needs import needs
 from ..titles import chosen
-from .needs import needs
 from .panels import each_panel
 from .style import COLOURS, MARKERS, Picture, numbered, png, shortened, whole_number_ticks
 

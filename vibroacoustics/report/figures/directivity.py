@@ -11,6 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from ...base import rounding
 from ...base.arrays import Array
+from ..charts.needs import needs
 from .maps import (
     COLOUR_MAP,
     DEPTH_DB,
@@ -21,7 +22,6 @@ from .maps import (
     silent_dofs,
     unit_level_db,
 )
-from .needs import needs
 from .style import COLOURS, Picture, plain, png, render
 
 RING_STEP_DB: Final = 20.0

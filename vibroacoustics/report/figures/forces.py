@@ -5,9 +5,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..charts.needs import needs
 from ..study import options, speeds, words
 from ..titles import chosen
-from .needs import needs
 from .panels import each_panel, lines
 from .style import Picture, png, wrap
 

@@ -8,10 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from ..charts.needs import needs
 from ..study import parameters
 from ..titles import chosen
 from .maps import COLOUR_MAP
-from .needs import needs
 from .style import (
     WIDTH_INCH,
     Picture,

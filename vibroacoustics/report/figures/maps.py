@@ -15,9 +15,9 @@ from ...base.arrays import Array, ComplexArray
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import amplitude_of_level, level_of_amplitude
 from ...base.vocabulary import REFERENCE_OPTION
+from ..charts.needs import needs
 from ..labels import DOF_WORDS
 from ..study import few_speeds
-from .needs import needs
 from .style import Picture, plain, png, render
 
 WIDE_INCH: Final = 8.0

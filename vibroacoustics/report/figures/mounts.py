@@ -5,9 +5,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base import rounding
+from ..charts.needs import needs
 from ..study import first_order_hz, many_speeds
 from .first_order import mark_first_order
-from .needs import needs
 from .panels import one_panel
 from .style import COLOURS, Picture, frequency_ticks, png
 

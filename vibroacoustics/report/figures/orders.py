@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base import rounding
+from ..charts.needs import needs
 from ..study import catalogue_receiver, few_speeds, options, speeds
 from ..titles import chosen
-from .needs import needs
 from .panels import each_panel, in_rpm, named_rows
 from .style import COLOURS, MARKERS, Picture, logarithmic_ticks, png
 

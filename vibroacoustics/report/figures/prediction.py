@@ -6,8 +6,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.vocabulary import REFERENCE_OPTION
+from ..charts.needs import needs
 from ..titles import chosen
-from .needs import needs
 from .panels import band, each_panel
 from .style import COLOURS, Picture, numbered, png, shortened
 

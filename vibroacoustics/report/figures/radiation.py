@@ -9,12 +9,12 @@ from matplotlib.figure import Figure
 
 from ...base import rounding
 from ...results.estimates import has_samples
+from ..charts.needs import needs
 from ..comparison import comparison
 from ..kwave_words import computed_by_kwave, kwave_to_hz
 from ..study import catalogue_receiver, few_speeds, options, speeds
 from ..titles import chosen
 from .first_order import first_order_marks, mark_first_order
-from .needs import needs
 from .panels import each_panel, in_rpm, lines, named_rows, one_panel
 from .style import COLOURS, Picture, file_name, frequency_ticks, png, wrap
 

@@ -1,34 +1,39 @@
-"""Figures of a recording: order spectrum, orders over speed, order map, levels, tracked orders."""
+"""Charts of a recording: order spectrum, orders over speed, order map, levels, tracked orders."""
 
 from functools import partial
 from typing import Final
 
+import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..charts.layout import shortened
+from ..charts.marks import Axis, Chart, Image, Panel, Segments, lines
+from ..charts.marks import Line as Curve
+from ..charts.needs import needs
+from ..charts.picture import Picture, picture
 from ..map_levels import map_level
 from ..over_speed.level_curves import is_run_up
 from ..titles import chosen
 from .levels_over_speed import levels_over_speed
-from .needs import needs
 from .orders_over_speed import over_speed_picture
-from .panels import level_map, lines, logarithmic, one_panel
 from .speed_maps import MAP_RANGE_DB, speed_frequency_map
-from .style import COLOURS, Picture, in_both_widths, numbered, png, shortened, whole_number_ticks
+from .style import COLOURS, in_both_widths, numbered
 
 _MAP_RANGE_DB: Final = 60.0
+_QUIETEST: Final = 1e-5
+"""Lowest amplitude of a logarithmic axis, as a share of the largest."""
 
 
 def recorded_order_figures(results: xr.Dataset) -> list[Picture]:
     """For each channel: mean spectrum, orders over speed in a run-up, and map if there is one."""
     pictures = []
     for channel, name in numbered(results, "channel"):
-        pictures.append(_spectrum_picture(results, channel, name))
+        pictures.append(picture(order_spectrum(results, channel)))
         if _is_run_up(results):
             pictures.append(over_speed_picture(results, f"orders_{name}", channel))
         if "order_map" in results:
-            pictures.append(_map_picture(results, channel, name))
+            pictures.append(picture(order_map(results, channel)))
     return pictures
 
 
@@ -36,10 +41,10 @@ def _is_run_up(results: xr.Dataset) -> bool:
     return results.sizes["speed"] > 1
 
 
-def _of_channel(orders: xr.Dataset, channel: str | None) -> tuple[xr.Dataset, str]:
-    """One channel and its name as a title."""
+def _of_channel(orders: xr.Dataset, channel: str | None) -> tuple[xr.Dataset, str, str]:
+    """A channel, its name, and the end of the names of its files."""
     name = chosen(orders, "channel", channel)
-    return orders.sel(channel=name), shortened(str(name))
+    return orders.sel(channel=name), str(name), dict(numbered(orders, "channel"))[str(name)]
 
 
 def _unit(of_channel: xr.Dataset) -> str:
@@ -70,16 +75,14 @@ def _steady_limits(of_channel: xr.Dataset) -> xr.DataArray | None:
     return steady if steady.size else None
 
 
-def _draw_steady_limits(axes: Axes, limits: xr.DataArray, band_order: float) -> None:
-    half = 0.5 * band_order
-    orders = limits["order"].values
-    axes.hlines(
-        limits, orders - half, orders + half, colors=COLOURS[1], label="limit in an order's band"
-    )
+def _limit_marks(limits: xr.DataArray, band_order: float) -> Segments:
+    half, orders = 0.5 * band_order, limits["order"].values
+    label = "limit in an order's band"
+    return Segments(orders - half, limits, orders + half, limits, label, COLOURS[1], width=1.5)
 
 
 @needs("mean_order_spectrum", from_="`analyse_orders`")
-def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Figure:
+def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Chart:
     """Mean order spectrum of a channel: root mean square of each line.
 
     With `order_limit` (of `check_limits`), limits that hold at every speed are drawn.
@@ -89,45 +92,35 @@ def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Figure:
     orders : of `analyse_orders`; needs `mean_order_spectrum` (channel, map_order), in
         the channel's unit
     channel : one of the dataset's channels; default: the first
-
-    Raises
-    ------
-    ParameterError
-        The dataset holds none, or there is no such channel.
-
-    Examples
-    --------
-    >>> orders = va.open_results("orders.nc")
-    >>> va.plot.order_spectrum(orders).savefig("order_spectrum.png")
     """
-    of_channel, title = _of_channel(orders, channel)
+    of_channel, title, file = _of_channel(orders, channel)
     spectrum = _without_offset(of_channel["mean_order_spectrum"], of_channel)
     limits = _steady_limits(of_channel)
-
-    def paint(axes: Axes) -> None:
-        axes.plot(spectrum["map_order"], spectrum)
-        logarithmic(axes, spectrum.values, None if limits is None else limits.values)
-        if limits is not None:
-            _draw_steady_limits(axes, limits, of_channel.attrs["band_order"])
-        whole_number_ticks(axes)
-
-    has_limits = int(limits is not None)
-    y = f"RMS of a line, {_unit(of_channel)}"
-    return one_panel(2.6, paint, "Shaft order", y, title, columns=has_limits, rows=has_limits)
-
-
-def _spectrum_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
-    highest = float(results["map_order"][-1])
-    return Picture(
-        f"spectrum_{name}",
-        f"Mean order spectrum of {channel}, to order {highest:g}.",
-        f"Mean order spectrum of {channel}: root of the mean power over the blocks.",
-        png(order_spectrum(results, channel)),
+    marks = [Curve(spectrum["map_order"], spectrum)]
+    others = () if limits is None else (_limit_marks(limits, of_channel.attrs["band_order"]),)
+    y = Axis(f"RMS of a line, {_unit(of_channel)}", "log", _amplitude_limits(spectrum, limits))
+    return Chart(
+        f"spectrum_{file}",
+        f"Mean order spectrum of {title}, to order {float(orders['map_order'][-1]):g}.",
+        f"Mean order spectrum of {title}: root of the mean power over the blocks.",
+        (Panel(Axis("Shaft order", whole=True), y, (*marks, *others), shortened(title)),),
     )
 
 
+def _amplitude_limits(
+    sizes: xr.DataArray, limits: xr.DataArray | None
+) -> tuple[float, float] | None:
+    """Ends of a logarithmic axis over sizes and their limits; None where all are zero."""
+    highest = float(sizes.max())
+    if not highest > 0.0:
+        return None
+    allowed = [] if limits is None else limits.values.ravel().tolist()
+    lowest = max(0.5 * float(sizes.min()), _QUIETEST * highest)
+    return min([lowest, *(0.5 * limit for limit in allowed)]), 2.0 * max([highest, *allowed])
+
+
 @needs("order_map", from_="`analyse_orders(..., with_map=True)`, command `orders --map`")
-def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
+def order_map(orders: xr.Dataset, channel: str | None = None) -> Chart:
     """Order spectra of a channel over the speed of a run-up or else the time, dB.
 
     Reference: 20 µPa of sound pressure, 1 unit peak of others.
@@ -137,88 +130,54 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Figure:
     orders : of `analyse_orders`; needs `order_map` (channel, block, map_order), in the
         channel's unit
     channel : one of the dataset's channels; default: the first
-
-    Raises
-    ------
-    ParameterError
-        The dataset holds none, or there is no such channel.
-
-    Examples
-    --------
-    >>> orders = va.open_results("orders.nc")
-    >>> va.plot.order_map(orders).savefig("order_map.png")
     """
-    of_channel, title = _of_channel(orders, channel)
+    of_channel, title, file = _of_channel(orders, channel)
     is_run_up = _is_run_up(orders)
     spectra = _without_offset(of_channel["order_map"].transpose("block", "map_order"), of_channel)
-    spectra = spectra.sortby("block_speed") if is_run_up else spectra
     level, label = map_level(spectra.values, _unit(of_channel))
     along = spectra["block_speed" if is_run_up else "block_time"]
-
-    def paint(axes: Axes) -> None:
-        level_map(axes, spectra["map_order"], along, level, _MAP_RANGE_DB, label)
-        whole_number_ticks(axes)
-
-    return one_panel(3.4, paint, "Shaft order", "Speed, rpm" if is_run_up else "Time, s", title)
-
-
-def _map_picture(results: xr.Dataset, channel: str, name: str) -> Picture:
-    return Picture(
-        f"map_{name}",
-        f"Order map of {channel}.",
-        f"Order map of {channel}: level of each line, {_MAP_RANGE_DB:g} dB shown.",
-        png(order_map(results, channel)),
+    top = float(np.max(level))
+    colours = Image(spectra["map_order"], along, level, (top - _MAP_RANGE_DB, top), label)
+    y = Axis("Speed, rpm" if is_run_up else "Time, s")
+    return Chart(
+        f"map_{file}",
+        f"Order map of {title}.",
+        f"Order map of {title}: level of each line, {_MAP_RANGE_DB:g} dB shown.",
+        (Panel(Axis("Shaft order", whole=True), y, (colours,), shortened(title), 3.4),),
     )
 
 
 @needs("tracked_order", from_="`track_orders`, command `track`")
-def tracked_orders(tracked: xr.Dataset, channel: str | None = None) -> Figure:
+def tracked_orders(tracked: xr.Dataset, channel: str | None = None) -> Chart:
     """Amplitude of each tracked order of a channel over speed, peak: a line an order.
 
-    Of a steady speed over the time instead.
+    The abscissa is the time where the speed is steady.
 
     Parameters
     ----------
     tracked : of `track_orders`; needs `tracked_order` (channel, track_time, order)
     channel : one of the dataset's channels; default: the first
-
-    Raises
-    ------
-    ParameterError
-        The dataset holds none, or there is no such channel.
-
-    Examples
-    --------
-    >>> tracked = va.open_results("tracked_orders.nc")
-    >>> va.plot.tracked_orders(tracked).savefig("tracked.png")
     """
-    name = chosen(tracked, "channel", channel)
-    size = abs(tracked["tracked_order"].sel(channel=name))
+    of_channel, title, file = _of_channel(tracked, channel)
+    size = abs(of_channel["tracked_order"]).transpose("order", ...)
     varies = is_run_up(tracked["track_speed"])
     along = tracked["track_speed"] if varies else tracked["track_time"]
-    orders = [f"{order:g}×" for order in size["order"].values]
-
-    def paint(axes: Axes) -> None:
-        lines(axes, along, orders, size.transpose("order", ...))
-        axes.set_ylim(bottom=0.0)
-
-    y = f"Peak, {tracked['channel_unit'].sel(channel=name).item()}"
-    x, title = "Speed, rpm" if varies else "Time, s", shortened(str(name))
-    return one_panel(2.6, paint, x, y, title, columns=4, rows=-(-len(orders) // 4))
+    names = [f"{order:g}×" for order in size["order"].values]
+    marks = lines(along, zip(names, size.values, strict=True))
+    y = Axis(f"Peak, {_unit(of_channel)}", limits=(0.0, None))
+    bandwidth = f"bandwidth {tracked.attrs['bandwidth_hz']:g} Hz"
+    return Chart(
+        f"tracked_{file}",
+        f"Tracked orders of {title}.",
+        f"Tracked orders of {title}: peak amplitude, {bandwidth}.",
+        (Panel(Axis("Speed, rpm" if varies else "Time, s"), y, marks, shortened(title), 2.6),),
+    )
 
 
 def tracked_order_figures(tracked: xr.Dataset) -> list[Picture]:
     """For each channel: tracked orders over the speed."""
-    return [
-        Picture(
-            f"tracked_{file}",
-            f"Tracked orders of {name}.",
-            f"Tracked orders of {name}: peak amplitude, bandwidth "
-            f"{tracked.attrs['bandwidth_hz']:g} Hz.",
-            png(tracked_orders(tracked, name)),
-        )
-        for name, file in numbered(tracked, "channel")
-    ]
+    names = map(str, tracked["channel"].values)
+    return [picture(tracked_orders(tracked, name)) for name in names]
 
 
 def speed_map_figures(mapped: xr.Dataset) -> list[Picture]:

@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from ...results.estimates import has_samples
 from ...scoring.scores import ANY_WEIGHTS
+from ..charts.needs import needs
 from ..study import options
-from .needs import needs
 from .panels import one_panel, stacked_bars
 from .style import COLOURS, Picture, png, wrap
 

@@ -13,6 +13,7 @@ from ...base.remembered import remembered
 from ...base.vocabulary import REFERENCE_OPTION
 from ...levels.weighting import a_weighting
 from ...results.estimates import has_samples
+from ..charts.needs import needs
 from ..quantities import HEARD_DB
 from ..study import (
     balancers,
@@ -24,7 +25,6 @@ from ..study import (
     speeds,
 )
 from ..titles import chosen
-from .needs import needs
 from .panels import each_panel, in_rpm, one_panel, third_octaves
 from .style import Picture, png, wrap
 

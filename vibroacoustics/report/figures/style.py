@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from itertools import cycle, islice
-from typing import Any, Final, Literal, NamedTuple
+from typing import Any, Final
 
 import matplotlib
 import numpy as np
@@ -16,9 +16,9 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import LogLocator, MaxNLocator
 from PIL import Image
-from pydantic import Base64Bytes
 
 from ...base.arrays import Array
+from ..charts.picture import Picture as Picture
 
 WIDTH_INCH: Final = 4.6
 FULL_WIDTH_INCH: Final = 9.2
@@ -55,21 +55,6 @@ STYLE: Final[dict[str, Any]] = {
     "lines.linewidth": 1.6,
     "axes.unicode_minus": True,
 }
-
-
-class Picture(NamedTuple):
-    """A finished figure: file name without ending, text in its place, caption, content of its file.
-
-    The content is PNG, or SVG where the ending says so. `full_png` is the same figure as wide as a
-    page, for where there is room; empty for none.
-    """
-
-    name: str
-    alt: str
-    caption: str
-    png: Base64Bytes
-    ending: Literal["png", "svg"] = "png"
-    full_png: Base64Bytes = b""
 
 
 class Drawing(Figure):
@@ -138,8 +123,7 @@ def in_both_widths(name: str, alt: str, caption: str, make: Callable[[float], Fi
     name, alt, caption : of the picture
     make : draws the figure at a width, inch
     """
-    narrow, full = (small_png(make(width)) for width in (WIDTH_INCH, FULL_WIDTH_INCH))
-    return Picture(name, alt, caption, narrow, full_png=full)
+    return Picture(name, alt, caption, small_png(make(FULL_WIDTH_INCH)), wide=True)
 
 
 def small_png(figure: Figure) -> bytes:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.arrays import Array, ComplexArray
+from ..charts.needs import needs
 from .maps import (
     WIDE_INCH,
     dof_title,
@@ -18,7 +19,6 @@ from .maps import (
     unit_level_db,
     write_silent,
 )
-from .needs import needs
 from .style import Picture, frequency_ticks, line_looks, png, render, wrap
 
 CURVE_DEPTH_DB: Final = 100.0

@@ -1,0 +1,77 @@
+"""What a chart needs of the dataset that it is drawn from."""
+
+from collections.abc import Callable
+from functools import wraps
+from inspect import cleandoc
+from typing import Any, TypeVar, cast
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from ...base.errors import ParameterError
+from ...base.vocabulary import VARIABLES
+from ..titles import titled
+
+Maker = TypeVar("Maker", bound=Callable[..., Any])
+
+
+def needs(*variables: str, from_: str = "`run`", any_of: bool = False) -> Callable[[Maker], Maker]:
+    """Refuse, in one line, a dataset without the variables that a chart is drawn from.
+
+    Parameters
+    ----------
+    from_ : what gives results that have them
+    any_of : a single variable is enough
+    variables : names of the vocabulary
+    """
+
+    def guarded(make: Maker) -> Maker:
+        @wraps(make)
+        def checked(results: xr.Dataset, *args: Any, **kwargs: Any) -> Any:
+            missing = [name for name in variables if name not in results]
+            for name in missing:
+                if not any_of or len(missing) == len(variables):
+                    raise ParameterError(
+                        f"plot.{make.__name__}: these results hold no {name} "
+                        f"({VARIABLES[name].long_name}); it comes from {from_}"
+                    )
+            return make(titled(results), *args, **kwargs)
+
+        return cast(Maker, checked)
+
+    return guarded
+
+
+def plotted(make: Callable[..., Any], file: str = "results.nc") -> Callable[..., Figure]:
+    """Return a function that draws with matplotlib what another returns as a chart.
+
+    Parameters
+    ----------
+    make : returns a chart of a dataset; its docstring ends with its parameters
+    file : of such a dataset, for the example
+    """
+
+    @wraps(make)
+    def plot(*args: Any, **kwargs: Any) -> Figure:
+        from .figure import figure
+
+        made = make(*args, **kwargs)
+        return made if isinstance(made, Figure) else figure(made)
+
+    plot.__doc__ = f"""{cleandoc(make.__doc__ or "")}
+
+Returns
+-------
+figure of matplotlib, which belongs to no window
+
+Raises
+------
+ParameterError
+    The dataset holds none of what is drawn, or a label is not among its own.
+
+Examples
+--------
+>>> dataset = va.open_results("{file}")
+>>> va.plot.{make.__name__}(dataset).savefig("{make.__name__}.png")
+"""
+    return plot

@@ -1,0 +1,40 @@
+"""Finished pictures of a page."""
+
+from typing import Final, Literal, NamedTuple
+from weakref import WeakKeyDictionary
+
+from pydantic import Base64Bytes
+
+from .marks import Chart
+from .svg import svg
+
+
+class Picture(NamedTuple):
+    """A finished figure.
+
+    Attributes
+    ----------
+    name : of its file, without ending
+    alt : text in its place
+    caption : below it
+    content : of its file
+    ending : of its file
+    wide : as wide as a page, or half
+    """
+
+    name: str
+    alt: str
+    caption: str
+    content: Base64Bytes
+    ending: Literal["png", "svg"] = "png"
+    wide: bool = False
+
+
+_DRAWN: Final[WeakKeyDictionary[Chart, Picture]] = WeakKeyDictionary()
+
+
+def picture(chart: Chart) -> Picture:
+    """Return the picture of a chart, which is drawn once."""
+    if chart not in _DRAWN:
+        _DRAWN[chart] = Picture(chart.name, chart.alt, chart.caption, svg(chart), "svg", chart.wide)
+    return _DRAWN[chart]

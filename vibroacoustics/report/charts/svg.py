@@ -1,0 +1,129 @@
+"""A chart as SVG: sharp at every size, its words are text, and it needs nothing from elsewhere."""
+
+from html import escape
+from typing import Final
+
+import numpy as np
+
+from .colours import BLANK
+from .frame import Frame, frame_of
+from .layout import NOTHING_TO_DRAW, ROW, Box, Key, layout, lines, margins
+from .marks import Chart, Image, Panel
+from .svg_image import colour_bar
+from .svg_marks import draw_mark, looks_of
+from .svg_parts import INK, rectangle, words
+
+GRID: Final = "#dddddd"
+
+
+def svg(chart: Chart) -> bytes:
+    """Return the SVG of a chart; equal charts give equal bytes."""
+    placed = layout(chart)
+    size = f'width="{placed.width:g}" height="{placed.height:.0f}"'
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {placed.width:g} '
+        f'{placed.height:.0f}" {size} font-family="system-ui,Helvetica,Arial,sans-serif" '
+        f'font-size="12" fill="{INK}"><title>{escape(chart.alt)}</title>'
+    ]
+    if chart.title:
+        parts.append(words(8.0, 16.0, chart.title, font_size="12.5"))
+    keys: dict[str, str] = {}
+    for number, (panel, box) in enumerate(zip(chart.panels, placed.boxes, strict=True)):
+        parts += _panel(panel, box, f"p{number}", keys)
+    parts += [_key(key, keys[key.name]) for key in placed.keys if key.name in keys]
+    return "\n".join([*parts, "</svg>\n"]).encode()
+
+
+def _panel(panel: Panel, box: Box, name: str, keys: dict[str, str]) -> list[str]:
+    """Axes, marks and words of a panel; adds what the legend draws of each mark."""
+    parts = _titles(panel, box)
+    frame = frame_of(panel, box)
+    if frame is None:
+        middle = (box.x + 0.5 * box.width, box.y + 0.5 * box.height)
+        return [*parts, words(*middle, NOTHING_TO_DRAW if panel.marks else "", "middle")]
+    clip = f'<clipPath id="{name}"><path d="{rectangle(frame.box)}"/></clipPath>'
+    marks = []
+    for mark, look in zip(panel.marks, looks_of(panel.marks), strict=True):
+        drawn, key = draw_mark(mark, frame, look)
+        marks.append(drawn)
+        if key and getattr(mark, "label", ""):
+            keys.setdefault(mark.label, key)  # type: ignore[union-attr]
+    images = [mark for mark in panel.marks if isinstance(mark, Image)]
+    bars = [colour_bar(mark, frame.box) for mark in images]
+    grid = _polar_grid(frame) if panel.polar else _grid(frame, bool(images))
+    inside = f'<g clip-path="url(#{name})">' if not panel.polar else "<g>"
+    return [*parts, clip, *grid, inside, *marks, "</g>", *bars, *_edges(panel, frame)]
+
+
+def _titles(panel: Panel, box: Box) -> list[str]:
+    """Title and labels around the axes."""
+    left, _, below, above = margins(panel)
+    parts = []
+    if panel.title:
+        parts.append(words(box.x, box.y - above + 13.0, panel.title, font_size="12.5"))
+    if panel.x.label and not panel.polar:
+        foot = box.y + box.height + below - ROW * lines(panel.x.label) + 10.0
+        parts.append(words(box.x + 0.5 * box.width, foot, panel.x.label, "middle"))
+    if panel.y.label and not panel.polar:
+        turn = f"rotate(-90 {box.x - left + 14.0:.1f} {box.y + 0.5 * box.height:.1f})"
+        at = (box.x - left + 14.0, box.y + 0.5 * box.height)
+        parts.append(words(*at, panel.y.label, "middle", transform=turn))
+    return parts
+
+
+def _grid(frame: Frame, blank: bool) -> list[str]:
+    """Grid lines at the ticks; a grey ground below an image."""
+    x, y, width, height = frame.box
+    if blank:
+        return [f'<path d="{rectangle(frame.box)}" fill="#{BLANK}"/>']
+    across = [x + width * float(frame.x.share(value)) for value, _ in frame.x.ticks]
+    down = [y + height * (1.0 - float(frame.y.share(value))) for value, _ in frame.y.ticks]
+    shape = "".join(f"M{at:.1f} {y:.1f}v{height:.1f}" for at in across)
+    shape += "".join(f"M{x:.1f} {at:.1f}h{width:.1f}" for at in down)
+    return [f'<path d="{shape}" stroke="{GRID}" stroke-width=".8"/>']
+
+
+def _edges(panel: Panel, frame: Frame) -> list[str]:
+    """Axes with their ticks and words, on top of the marks."""
+    if panel.polar:
+        return []
+    x, y, width, height = frame.box
+    foot = y + height
+    shape, parts = f"M{x:.1f} {y:.1f}V{foot:.1f}H{x + width:.1f}", []
+    for value, word in frame.x.ticks:
+        at = x + width * float(frame.x.share(value))
+        shape += f"M{at:.1f} {foot:.1f}v4"
+        parts.append(words(at, foot + 16.0, word, "middle"))
+    for value, word in frame.y.ticks:
+        at = y + height * (1.0 - float(frame.y.share(value)))
+        shape += f"M{x:.1f} {at:.1f}h-4"
+        middle = at + 4.0 - 7.0 * (lines(word) - 1)
+        parts.append(words(x - 7.0, middle, word, "end"))
+    return [f'<path d="{shape}" fill="none" stroke="{INK}"/>', *parts]
+
+
+def _polar_grid(frame: Frame) -> list[str]:
+    (x, y), rings = frame.middle, frame.y.ticks
+    parts = [
+        f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{frame.radius * float(frame.y.share(value)):.1f}" '
+        f'fill="none" stroke="{GRID}"/>'
+        for value, _ in rings
+    ]
+    parts.append(
+        f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{frame.radius:.1f}" fill="none" stroke="{INK}"/>'
+    )
+    for angle, word in frame.x.ticks:
+        turn = np.radians(angle)
+        end = (x + frame.radius * np.cos(turn), y - frame.radius * np.sin(turn))
+        parts.append(f'<path d="M{x:.1f} {y:.1f}L{end[0]:.1f} {end[1]:.1f}" stroke="{GRID}"/>')
+        out = frame.radius + 13.0
+        parts.append(words(x + out * np.cos(turn), y - out * np.sin(turn) + 4.0, word, "middle"))
+    for value, word in rings:
+        ring = frame.radius * float(frame.y.share(value))
+        parts.append(words(x + 0.38 * ring + 2.0, y - 0.92 * ring, word, font_size="9.5"))
+    return parts
+
+
+def _key(key: Key, drawn: str) -> str:
+    name = words(key.x + 32.0, key.y + 12.0, key.name)
+    return f'<g transform="translate({key.x:.1f} {key.y + 8.0:.1f})">{drawn}</g>{name}'
