@@ -27,6 +27,7 @@ from .commands.exporting import export_recording as export_recording
 from .commands.listening import listen as listen
 from .commands.outputs import write_report as write_report
 from .commands.sheets import write_data_sheet as write_data_sheet
+from .declaration.sheet import data_sheet as data_sheet
 from .design.engine.seen import Need as Need
 from .design.figure import DesignFigure as DesignFigure
 from .design.optimising import optimise as optimise
@@ -97,9 +98,8 @@ from .recordings.recorded import Request as Request
 from .recordings.remarks import RecordingWarning as RecordingWarning
 from .report import blocks as blocks
 from .report.columns import Column as Column
-from .report.data_sheet.model import DataSheet as DataSheet
-from .report.data_sheet.sheet import data_sheet as data_sheet
 from .report.sections import Section as Section
+from .results.data_sheet import DataSheet as DataSheet
 from .results.estimates import Estimate as Estimate
 from .results.estimates import estimate as estimate
 from .results.figure_limit import FigureLimit as FigureLimit

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from sources_study import SOURCES_STUDY
 
+from vibroacoustics.declaration.sound import power_db
 from vibroacoustics.levels.agreement import LEVELS_DB, data_of, log_weights, priors_of
 from vibroacoustics.levels.by_source import GAIN_BANDS
 from vibroacoustics.levels.declared_level import combined_deviation_db, upper_limit_db
 from vibroacoustics.machine.remainder import OverallNoise, Remainder
-from vibroacoustics.report.data_sheet.model import SoundPower
-from vibroacoustics.report.data_sheet.sound import power_db
+from vibroacoustics.results.data_sheet import SoundPower
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.uncertainty.discrepancy import DISCREPANCIES, Discrepancy
 from vibroacoustics.uncertainty.evidence import systematic

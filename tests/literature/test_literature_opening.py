@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scroll_openings import GAS, OPENING, POINTS, SPEED_RPM, WRAPS, gas_at
 
-from vibroacoustics.levels.weighting import a_weighting
+from vibroacoustics.base.weighting import a_weighting
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle

@@ -16,10 +16,10 @@ from support import assert_refused, command_here, tiny_run
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError, SchemaError
 from vibroacoustics.base.vocabulary import stamp
-from vibroacoustics.report.data_sheet.files import data_sheet_csv, data_sheet_html, headline
-from vibroacoustics.report.data_sheet.model import DataSheet
-from vibroacoustics.report.data_sheet.vibration import peak_to_peak, point_velocity
+from vibroacoustics.declaration.vibration import peak_to_peak, point_velocity
+from vibroacoustics.report.data_sheet import data_sheet_csv, data_sheet_html, headline
 from vibroacoustics.results import storage
+from vibroacoustics.results.data_sheet import DataSheet
 from vibroacoustics.sound.tone_spectra import tone_variables
 
 

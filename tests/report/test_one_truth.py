@@ -9,17 +9,17 @@ import pytest
 from sources_study import sources_run
 
 from vibroacoustics import report
+from vibroacoustics.base.ellipse import semi_major_axis
 from vibroacoustics.base.vocabulary import HIGH, LOW, NOMINAL, SUFFIXES
-from vibroacoustics.mechanics.ellipse import semi_major_axis
 from vibroacoustics.report import first_screen
 from vibroacoustics.report.bands import band
 from vibroacoustics.report.columns import COLUMNS
 from vibroacoustics.report.comparison import comparison_tables
-from vibroacoustics.report.study import catalogue_receiver
 from vibroacoustics.results.estimates import estimate
 from vibroacoustics.results.figure_limit import FigureLimit
 from vibroacoustics.results.figure_limits import Compared, check_figures
 from vibroacoustics.results.order_comparison import channel_orders, compare
+from vibroacoustics.results.stored_study import catalogue_receiver
 from vibroacoustics.sound.ingredients import ingredients
 
 ROUNDED = 5.1e-9

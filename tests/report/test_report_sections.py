@@ -16,8 +16,9 @@ from vibroacoustics.report.html import html
 from vibroacoustics.report.markdown import markdown
 from vibroacoustics.report.page import Page, Part
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.study import few_speeds, few_speeds_words, speeds
+from vibroacoustics.report.shown_speeds import few_speeds, few_speeds_words
 from vibroacoustics.report.tables import Table
+from vibroacoustics.results.stored_study import speeds
 
 PNG = b"\x89PNG and so on"
 LIGHT = blocks.Light("not sure", "−7 to 0", (-0.07, 0.0), 0.05)

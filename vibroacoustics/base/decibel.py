@@ -20,6 +20,8 @@ Values = TypeVar("Values", float, Array, "xr.DataArray")
 
 SILENCE_DB: Final = -300.0
 """Level that stands for no sound at all: finite, so that tables and sums stay numbers."""
+NO_TONE_DB: Final = -60.0
+"""Excess of a line that is no audible tone, or has no noise in its critical band."""
 
 
 def level_of_power(ratio: Values) -> Values:

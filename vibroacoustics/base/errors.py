@@ -45,10 +45,10 @@ class SchemaError(VibroacousticsError):
 
     Examples
     --------
-    >>> va.stamp("loudness", 1.0)
+    >>> va.stamp("warmth", 1.0)
     Traceback (most recent call last):
         ...
-    vibroacoustics.base.errors.SchemaError: variable loudness is not in the vocabulary
+    vibroacoustics.base.errors.SchemaError: variable warmth is not in the vocabulary
     """
 
 

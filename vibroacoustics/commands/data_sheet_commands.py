@@ -40,6 +40,7 @@ def datasheet_command(
 ) -> None:
     """Write the data sheet of an option, predicted: page, CSV and JSON (ISO 4871, EN 12102-1)."""
     from .. import report
+    from ..declaration.sheet import data_sheet
     from . import arguments, outputs, sheets
 
     load_plugins(plugin)
@@ -49,7 +50,7 @@ def datasheet_command(
     outputs.check_folder(folder)
     results, _ = outputs.open_run(results_file)
     with outputs.naming(results_file):
-        sheet = report.data_sheet(results, option, speed, names, points_m, batch)
+        sheet = data_sheet(results, option, speed, names, points_m, batch)
     written = sheets.write_data_sheet(sheet, folder)
     typer.echo(report.data_sheet_headline(sheet))
     typer.echo(f"data sheet: {written}")

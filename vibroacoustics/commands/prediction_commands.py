@@ -49,6 +49,7 @@ def blocked_forces_command(
     """Find a source's blocked forces (ISO 20270) where it stands, validated on board."""
     from .. import report
     from ..measured.blocked_forces import blocked_forces
+    from ..measured.blocked_orders import blocked_orders_csv
     from . import outputs
 
     folder = out or Path("reports") / file.stem
@@ -60,7 +61,7 @@ def blocked_forces_command(
         "blocked_forces.md": report.blocked_markdown(blocked),
     }
     with outputs.naming(file):
-        orders = report.blocked_orders_csv(blocked)
+        orders = blocked_orders_csv(blocked)
     if orders is not None:
         tables["orders.csv"] = orders
     written = outputs.write_analysis(blocked, folder, BLOCKED_NAME, tables, report.blocked_figures)

@@ -42,7 +42,7 @@ def schema_command(
     plugin: Plugins = None,
 ) -> None:
     """Write JSON schemas: of study and machine files, for editors, and of a data sheet."""
-    from ..report import data_sheet_schema
+    from ..results.data_sheet import data_sheet_schema
     from ..results.files import write_together
 
     load_plugins(plugin)

@@ -7,7 +7,7 @@ from .. import report
 from ..results.files import write_together
 
 if TYPE_CHECKING:
-    from ..report.data_sheet.model import DataSheet
+    from ..results.data_sheet import DataSheet
 
 SHEET_NAME: Final = "data_sheet"
 

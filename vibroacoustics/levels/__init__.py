@@ -14,6 +14,7 @@ from ..base.decibel import (
     mean_square_level,
     sound_pressure_level,
 )
+from ..base.weighting import WEIGHTING, a_weighting, c_weighting, weighted_signal, z_weighting
 from .bands import Band, band_mean_square, bands_between, measurable_bands
 from .block_levels import block_levels
 from .by_source import SourceSound, filled_thirds, source_sound
@@ -32,7 +33,6 @@ from .time_weighting import (
     SLOW_TIME_CONSTANT_S,
     time_weighted_mean_square,
 )
-from .weighting import WEIGHTING, a_weighting, c_weighting, weighted_signal, z_weighting
 
 __all__ = [
     "FAST_TIME_CONSTANT_S",

@@ -20,6 +20,7 @@ from scipy.special import logsumexp
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_power, power_of_level
+from ..base.vocabulary import PUBLISHED_LEVEL, PUBLISHED_SHARE
 from ..machine.remainder import OverallNoise, Remainder
 from .by_source import GAIN_BANDS
 
@@ -101,20 +102,16 @@ class Datum:
         return np.asarray(-0.5 * ((self.predicted(bands) - self.value) / self.deviation) ** 2)
 
 
-LEVEL: Final = "level"
-SHARE: Final = "spectral share"
-
-
 def data_of(noise: OverallNoise | None) -> tuple[Datum, ...]:
     """Return the published data of a machine, its level first."""
     if noise is None:
         return ()
-    level = Datum(LEVEL, noise.level_dba, noise.deviation_db, _level)
+    level = Datum(PUBLISHED_LEVEL, noise.level_dba, noise.deviation_db, _level)
     share = noise.spectral_share
     if share is None:
         return (level,)
     predicted = partial(_share, _part_below(share.below_hz))
-    return (level, Datum(SHARE, share.share_ratio, share.deviation_ratio, predicted))
+    return (level, Datum(PUBLISHED_SHARE, share.share_ratio, share.deviation_ratio, predicted))
 
 
 def _level(bands: Array) -> Array:

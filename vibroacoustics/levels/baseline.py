@@ -11,6 +11,7 @@ from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
 from ..base.vocabulary import REFERENCE_OPTION, stamped
+from ..base.weighting import WEIGHTING
 from ..machine.source import CaseKey
 from ..study.study import Study
 from .axes import LevelAxes
@@ -25,7 +26,6 @@ from .measured_points import (
     holds,
     measured_points,
 )
-from .weighting import WEIGHTING
 
 _UNMODELLED_COLUMNS: Final = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
 """Columns of unmodelled noise among the bands of a baseline."""

@@ -7,7 +7,7 @@ from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
 from ..base.vocabulary import WEIGHTINGS, stamp
-from .weighting import WEIGHTING
+from ..base.weighting import WEIGHTING
 
 
 def block_levels(

@@ -9,11 +9,11 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.decibel import power_of_level
 from ..base.vocabulary import WEIGHTINGS
+from ..base.weighting import WEIGHTING
 from ..mechanics.added import third_octave_number
 from ..mechanics.received_sound import NoisePower, ReceivedSound
 from ..study.baseline import HIGHEST_HZ, LOWEST_HZ
 from .bands import Band, bands_between
-from .weighting import WEIGHTING
 
 LOWEST_BAND_HZ: Final = 20.0
 GAIN_BANDS: Final = bands_between(3, LOWEST_HZ, HIGHEST_HZ)

@@ -9,9 +9,9 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import amplitude_of_level, level_of_amplitude
 from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS, stamped
+from ..base.weighting import WEIGHTING
 from ..study.scoring import Measurable
 from .hearing import hearing_threshold_db
-from .weighting import WEIGHTING
 
 FORCES: Final = ("force", "moment", "foot_force")
 """Amplitudes at 1x on the housing and, the largest, into a foot."""

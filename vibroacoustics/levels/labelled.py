@@ -9,10 +9,10 @@ from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, sound_pressure_level
 from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS, stamped
+from ..base.weighting import WEIGHTING
 from ..machine.source import CaseKey
 from .axes import LevelAxes
 from .by_source import A_FIRST, SourceSound
-from .weighting import WEIGHTING
 
 
 def level(mean_square: Array) -> Array:

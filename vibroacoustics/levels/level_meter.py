@@ -15,8 +15,8 @@ from scipy import fft
 from ..base.arrays import Array, ComplexArray
 from ..base.decibel import amplitude_of_level
 from ..base.errors import ParameterError
+from ..base.weighting import WEIGHTING
 from .time_weighting import FAST_TIME_CONSTANT_S, SLOW_TIME_CONSTANT_S
-from .weighting import WEIGHTING
 
 RUN_IN_S: Final = 0.1
 """Left out at either end of A- and C-weighted signals: the slowest part of the weightings,

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..base.arrays import Array
 from ..base.decibel import SILENCE_DB, energy_mean, energy_sum
+from ..base.weighting import WEIGHTING
 from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 from .bands import Band, bands_between
 from .sound_power import (
@@ -16,7 +16,6 @@ from .sound_power import (
     environment_correction,
     sound_power_level,
 )
-from .weighting import WEIGHTING
 
 BANDS: Final[tuple[Band, ...]] = bands_between(3, 100.0, 10_000.0)
 """Frequency range of interest (3.15)."""
@@ -143,8 +142,3 @@ def spread_dba(levels_db: Array) -> float:
     Where it exceeds the number of positions there are too few of them (ISO 3744).
     """
     return float(np.ptp(a_weighted_sum(levels_db)))
-
-
-def is_upper_bound(margin_db: Array | float) -> NDArray[np.bool_]:
-    """Whether a level is an upper bound: its margin over the background is below 6 dB (8.2.3)."""
-    return np.asarray(margin_db) < MINIMUM_BACKGROUND_MARGIN_DB

@@ -12,12 +12,12 @@ from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
 from ..base.errors import ParameterError
+from ..base.weighting import WEIGHTING, check_weighting
 from ..study.order_analysis import BAND_METHODS, BandMethod
 from .band_meter import BandMeter
 from .bands import Band, band_sums, check_measurable
 from .filter_bank import filtered_energy
 from .level_meter import LevelMeter, MeterPlan
-from .weighting import WEIGHTING, check_weighting
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ import xarray as xr
 
 from ..base.decibel import energy_mean, energy_sum, sound_pressure_level
 from ..base.vocabulary import VARIABLES, WEIGHTINGS, stamp, stamped
+from ..base.weighting import WEIGHTING
 from ..study.sound_power import SoundPowerSettings
 from .sound_power import sound_power_level, stand_corrections_db, surface_area_m2
-from .weighting import WEIGHTING
 
 UNIT_VELOCITY_PEAK: Final = np.sqrt(2.0) * 1e-3
 """1 mm/s (1 mrad/s) root mean square as a peak."""

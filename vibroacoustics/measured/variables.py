@@ -10,7 +10,7 @@ from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_power, power_of_level, sound_pressure_level
 from ..base.vocabulary import WEIGHTINGS, stamp
-from ..levels.weighting import WEIGHTING
+from ..base.weighting import WEIGHTING
 from .band import amplitude_band, power_band
 
 

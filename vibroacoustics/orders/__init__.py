@@ -8,7 +8,7 @@
 array([0.707])
 """
 
-from ..mechanics.ellipse import semi_major_axis
+from ..base.ellipse import semi_major_axis
 from .angular import AngularSignal, whole_revolutions
 from .angular_stream import angular_resample
 from .crank_motion import CrankMotion, constant_speed, from_angle, from_speed

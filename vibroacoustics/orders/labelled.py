@@ -3,9 +3,9 @@
 import numpy as np
 import xarray as xr
 
+from ..base.ellipse import semi_major_axis
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import check, stamp
-from ..mechanics.ellipse import semi_major_axis
 from ..study.study import Study
 from .spectrum import order_spectra
 

@@ -8,10 +8,10 @@ from ..base.fault import collected
 from ..base.hashing import canonical_json
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.registry import plugins
+from ..results.stored_study import has_sources
 from .blocked_forces import (
     blocked_csv,
     blocked_markdown,
-    blocked_orders_csv,
     blocked_text,
     validation_csv,
 )
@@ -21,10 +21,8 @@ from .compared.order_rows import comparison_of_orders_csv, comparison_of_orders_
 from .compared.page import comparison_html
 from .comparison import comparison_csv, comparison_text
 from .curve_tables import curve_csv
-from .data_sheet.files import data_sheet_csv, data_sheet_html, data_sheet_json
-from .data_sheet.files import headline as data_sheet_headline
-from .data_sheet.model import data_sheet_schema
-from .data_sheet.sheet import data_sheet
+from .data_sheet import data_sheet_csv, data_sheet_html, data_sheet_json
+from .data_sheet import headline as data_sheet_headline
 from .designs.best import no_best
 from .designs.page import designs_json, designs_text, render_designs
 from .figures.blocked_forces import blocked_figures
@@ -61,14 +59,13 @@ from .radiation_tables import kwave_text, radiation_figures, radiation_text
 from .recording_pages import orders_html, speed_map_html
 from .scores import scores_csv
 from .sections import SECTIONS
+from .shown_speeds import over_speed
 from .source_tables import sources_csv
-from .study import has_sources, over_speed
 
 __all__ = [
     "blocked_csv",
     "blocked_figures",
     "blocked_markdown",
-    "blocked_orders_csv",
     "blocked_text",
     "broken_lines",
     "check_kept",
@@ -79,12 +76,10 @@ __all__ = [
     "comparison_text",
     "curve_csv",
     "curve_figures",
-    "data_sheet",
     "data_sheet_csv",
     "data_sheet_headline",
     "data_sheet_html",
     "data_sheet_json",
-    "data_sheet_schema",
     "designs_json",
     "designs_text",
     "figure_limits_csv",

@@ -7,9 +7,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.decibel import level_of_power, power_of_level
 from ..results.estimates import has_samples
-from .bands import INTERVAL, band
-from .remainder import growth_sentence
-from .study import (
+from ..results.stored_study import (
     catalogue_receiver,
     operating_points,
     overall_noise,
@@ -17,6 +15,8 @@ from .study import (
     quoted_dba,
     words,
 )
+from .bands import INTERVAL, band
+from .remainder import growth_sentence
 from .tables import Table
 
 ASSUMED: Final = "assumed"

@@ -9,7 +9,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.decibel import power_of_level
 from ..results.estimates import Estimate, effective_samples, estimate, is_sampled
-from .study import catalogue_receiver
+from ..results.stored_study import catalogue_receiver
 
 Units = tuple[float, float, float]
 """Powers of ten to which lower end, value and upper end are written; 0 of nominal values."""

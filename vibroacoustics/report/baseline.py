@@ -11,10 +11,11 @@ from ..base import rounding
 from ..base.decibel import power_of_level
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
-from ..levels.weighting import a_weighting
+from ..base.weighting import a_weighting
 from ..results.estimates import prior_ensemble
+from ..results.stored_study import options, parameters, speeds
 from .bands import percent
-from .study import few_speeds, options, parameters, speeds
+from .shown_speeds import few_speeds
 from .tables import Table
 
 _TOLERANCE: Final = 0.02

@@ -4,9 +4,6 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..base.errors import ParameterError
-from ..base.units import shaft_frequency_hz
-from ..mechanisms.tabulated.csv_layout import orders_csv
 from .tables import (
     Table,
     dataset_csv,
@@ -16,10 +13,6 @@ from .tables import (
     to_markdown,
     to_text,
 )
-
-ON_ORDER = 0.01
-"""Largest distance of a line from an order, in orders."""
-SOURCE = "blocked_forces"
 
 
 def blocked_text(blocked: xr.Dataset) -> str:
@@ -69,35 +62,6 @@ def validation_csv(blocked: xr.Dataset) -> bytes:
         "difference_db": blocked["validation_difference"],
     }
     return dataset_csv(("validation_point", "frequency"), columns)
-
-
-def blocked_orders_csv(blocked: xr.Dataset) -> bytes | None:
-    """Force and moment by order as the machine by table reads them; none without a speed.
-
-    Raises
-    ------
-    ParameterError
-        No line is an order of the speed.
-    """
-    speed = blocked.attrs.get("speed_rpm")
-    if speed is None:
-        return None
-    force = blocked["blocked_force_sum"].values
-    peaks = np.concatenate([force, blocked["blocked_moment_sum"].values])
-    shaft_hz = shaft_frequency_hz(float(speed))
-    order = blocked["frequency"].values / shaft_hz
-    lines = np.flatnonzero((np.abs(order - np.rint(order)) <= ON_ORDER) & (order > 0.5))
-    numbers = np.rint(order[lines]).astype(int)
-    if len(lines) == 0 or len(set(numbers.tolist())) < len(numbers):
-        count = "no line is" if len(lines) == 0 else "several lines are"
-        raise ParameterError(
-            f"blocked_forces.speed_rpm = {speed:g} rpm: {count} within {ON_ORDER:g} of an order, "
-            f"a multiple of {shaft_hz:g} Hz; give operating spectra at the orders"
-        )
-    return orders_csv(
-        (float(speed), int(number), SOURCE, peaks[:, line])
-        for number, line in zip(numbers, lines, strict=True)
-    )
 
 
 def _validation(blocked: xr.Dataset) -> Table:

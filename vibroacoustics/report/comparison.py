@@ -11,20 +11,19 @@ from ..base.arrays import Array
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from ..results.estimates import has_samples
-from .bands import INTERVAL, Band, band
-from .columns import Column
-from .kept_columns import columns_of
-from .option_verdict import table_words
-from .remainder import total_sentence
-from .study import (
+from ..results.stored_study import (
     catalogue_receiver,
-    few_speeds,
-    few_speeds_words,
     first_order_hz,
     options,
     overall_noise,
     speeds,
 )
+from .bands import INTERVAL, Band, band
+from .columns import Column
+from .kept_columns import columns_of
+from .option_verdict import table_words
+from .remainder import total_sentence
+from .shown_speeds import few_speeds, few_speeds_words
 from .tables import Table, dataset_csv, to_text
 
 _DIMENSIONS = ("option", "speed", "receiver")

@@ -6,9 +6,9 @@ from typing import Final
 import xarray as xr
 
 from ..base import rounding
-from ..levels.agreement import LEVEL, SHARE
+from ..base.vocabulary import PUBLISHED_LEVEL, PUBLISHED_SHARE
+from ..results.stored_study import parameters
 from .bands import Band, percent
-from .study import parameters
 from .tables import Table
 
 CONFLICT: Final = 0.05
@@ -72,11 +72,11 @@ def _published(results: xr.Dataset, name: str) -> str:
 
 
 def _number(name: str) -> Callable[[float], str]:
-    return percent if name == SHARE else rounding.fixed
+    return percent if name == PUBLISHED_SHARE else rounding.fixed
 
 
 def _unit(results: xr.Dataset, name: str) -> str:
-    if name == LEVEL:
+    if name == PUBLISHED_LEVEL:
         return " dB(A)"
     below_hz = parameters(results)["machine"]["overall_noise"]["spectral_share"]["below_hz"]
     return f" of the energy below {below_hz:g} Hz"

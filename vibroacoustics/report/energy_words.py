@@ -4,9 +4,9 @@ import xarray as xr
 
 from ..base import rounding
 from ..results.estimates import estimate
+from ..results.stored_study import at_catalogue, nearest_speed, source_name
 from .bands import FINEST_DB, Band, band, written
 from .source_words import UNMODELLED, source_share, unmodelled_share
-from .study import at_catalogue, nearest_speed, source_name
 from .tables import Table
 
 _WORDS = {"level alone": "published level alone", "other prior": "second prior"}

@@ -18,7 +18,7 @@ from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
 from ..base.vocabulary import REFERENCE_OPTION
 from ..results.estimates import nominal, prior_ensemble
-from .study import (
+from ..results.stored_study import (
     at_catalogue,
     catalogue_receiver,
     elsewhere,

@@ -6,10 +6,10 @@ import xarray as xr
 
 from ..base.vocabulary import REFERENCE_OPTION
 from ..results.estimates import has_samples
+from ..results.stored_study import balancers, catalogue_receiver, options
 from .column_values import column
 from .quantities import JUDGED, Quantity
 from .shifts import at_receiver, shift
-from .study import balancers, catalogue_receiver, options
 from .tables import Table
 
 NONE_MEASURABLE: Final = "none that could be measured"

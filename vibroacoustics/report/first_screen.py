@@ -12,12 +12,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
 from ..results.estimates import QUANTILES, has_samples
-from .bands import Band, band
-from .blocks import Interval, Intervals, IntervalWord
-from .quantities import FOOT_FORCE, NO_BREAK, TOTAL
-from .shifts import Shift, measurable, shift
-from .source_words import UNMODELLED, ranked, source_share, unmodelled_share
-from .study import (
+from ..results.stored_study import (
     at_catalogue,
     balancers,
     catalogue_receiver,
@@ -28,6 +23,11 @@ from .study import (
     source_name,
     speeds,
 )
+from .bands import Band, band
+from .blocks import Interval, Intervals, IntervalWord
+from .quantities import FOOT_FORCE, NO_BREAK, TOTAL
+from .shifts import Shift, measurable, shift
+from .source_words import UNMODELLED, ranked, source_share, unmodelled_share
 from .unknowns import most_valuable
 
 _HALF: Final = 0.5

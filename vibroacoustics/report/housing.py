@@ -9,9 +9,9 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
+from ..results.stored_study import first_order_hz, options, parameters, speeds
 from . import labels
 from .kwave_words import receiver_methods
-from .study import first_order_hz, options, parameters, speeds
 from .tables import Table
 
 DOMINANT: Final = 0.02

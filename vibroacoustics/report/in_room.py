@@ -1,20 +1,17 @@
 """The machine in a room, in words and tables: how loud, by which path, what changes it."""
 
-from contextlib import suppress
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
-from ..sound.ingredients import ingredients
-from ..sound.loudness import NEEDED, available, loudness_of
+from ..results.stored_study import balancers, nearest_speed, options, overall_noise
 from .bands import band
 from .structure_borne import carrier
-from .study import balancers, nearest_speed, options, overall_noise
 from .tables import Table
+from .tones import NO_LOUDNESS
 
 SONE_HEAD: Final = "Loudness, sone (diffuse field)"
 _HOW: Final = (
@@ -36,21 +33,17 @@ def sones(results: xr.Dataset, listener: str) -> list[str]:
     results : of a run
     listener : one of its room
     """
-    if not (has_sound_in_room(results) and available()):
+    if "room_loudness" not in results:
         return []
-    speed = nearest_speed(results)
-    parts = [ingredients(results, option, listener, speed) for option in options(results)]
-    with suppress(ParameterError):  # louder than the standard goes: without it
-        loud = loudness_of(parts, field="diffuse")
-        return [rounding.fixed(one.loudness_sone) for one in loud]
-    return []
+    here = results["room_loudness"].sel(speed=nearest_speed(results), listener=listener)
+    return [rounding.fixed(one) for one in here.values.tolist()] if here.notnull().all() else []
 
 
 def loudness_words(results: xr.Dataset) -> str:
     """How the loudness is computed, or what it needs."""
     if not has_sound_in_room(results):
         return ""
-    return _HOW if available() else f"{NEEDED[0].upper()}{NEEDED[1:]}."
+    return _HOW if "room_loudness" in results else NO_LOUDNESS
 
 
 SEAM_DB: Final = 2.0

@@ -16,7 +16,7 @@ from ..results.complete import read_attribute
 from ..results.run_attributes import Part
 from . import left_out
 from .columns import COLUMNS, Column, Write
-from .study import few_speeds
+from .shown_speeds import few_speeds
 
 ATTRIBUTE: Final = "report_columns"
 _DIMENSIONS: Final = ("option", "speed", "receiver")

@@ -7,11 +7,11 @@ import numpy as np
 import xarray as xr
 
 from ..results.estimates import QUANTILES, has_samples
+from ..results.stored_study import balancers, catalogue_receiver, other_receivers
 from .blocks import Light, LightRow, Lights
 from .option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
 from .quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
 from .shifts import Shift, extent, measurable, shift
-from .study import balancers, catalogue_receiver, other_receivers
 
 FULL_SCALE: Final = {"%": 100.0, "dB": 20.0}
 """Change at which a bar reaches the end of its cell."""

@@ -4,9 +4,10 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike, NDArray
 
 from ..base import rounding
-from ..levels.measured_power import is_upper_bound
+from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 from .blocks import Bullets, Pictures, Text
 from .figures.measured_power import power_picture
 from .html import html
@@ -61,7 +62,7 @@ def measured_power_html(measured: xr.Dataset) -> bytes:
 def headline(measured: xr.Dataset) -> str:
     """Level and grade in a sentence."""
     level = rounding.fixed(measured["measured_power_level_a"].item())
-    at_most = "at most " if is_upper_bound(measured["background_margin_a"].item()) else ""
+    at_most = "at most " if _bound(measured["background_margin_a"].item()) == "yes" else ""
     return f"L_WA = {at_most}{level} dB(A) re 1 pW: {GRADES[int(measured.attrs['grade'])]}."
 
 
@@ -73,7 +74,7 @@ def _table(measured: xr.Dataset) -> Table:
     ]
     sums = [measured[f"{name}_a"].item() for name in list(_COLUMNS)[1:]]
     rows.append(("A", "", *map(rounding.fixed, sums)))
-    bounds = is_upper_bound(measured["background_margin"].values)
+    bounds = _is_upper_bound(measured["background_margin"].values)
     rows = [
         (f"{band}{' *' if bound else ''}", *cells)
         for (band, *cells), bound in zip(rows, [*bounds, False], strict=True)
@@ -108,7 +109,7 @@ def _background(measured: xr.Dataset) -> str:
     if np.isnan(margin):
         return "The background was not recorded: K1 is 0, and the level is high by what it makes."
     words = f"A-weighted, the machine is {rounding.fixed(margin)} dB above the background"
-    if is_upper_bound(measured["background_margin"].values).any():
+    if _is_upper_bound(measured["background_margin"].values).any():
         words += "; in bands with * by less than 6 dB: their level is an upper bound"
     return f"{words}."
 
@@ -120,4 +121,9 @@ def _cell(value: float) -> str | float:
 def _bound(margin_db: float) -> str:
     if np.isnan(margin_db):
         return ""
-    return "yes" if is_upper_bound(margin_db) else "no"
+    return "yes" if _is_upper_bound(margin_db) else "no"
+
+
+def _is_upper_bound(margin_db: ArrayLike) -> NDArray[np.bool_]:
+    """Return whether levels are upper bounds, by their margin over the background (8.2.3)."""
+    return np.asarray(margin_db) < MINIMUM_BACKGROUND_MARGIN_DB

@@ -9,10 +9,16 @@ import xarray as xr
 from ..base import rounding
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results.stored_study import (
+    balancers,
+    catalogue_receiver,
+    has_sources,
+    other_receivers,
+    words,
+)
 from .quantities import JUDGED, LINE, TOLERANCE_DB, TOTAL
 from .shifts import Shift, shift
 from .source_changes import change_sentences
-from .study import balancers, catalogue_receiver, has_sources, other_receivers, words
 
 BETTER: Final = "better"
 WORSE: Final = "worse"

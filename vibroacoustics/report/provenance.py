@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import xarray as xr
 
-from .study import parameters
+from ..results.stored_study import parameters
 from .tables import Table
 
 _ATTRIBUTES: Final = {

@@ -7,9 +7,9 @@ import numpy as np
 import xarray as xr
 
 from ..base.units import split_key
+from ..results.stored_study import parameters
 from . import labels
 from .bands import percent
-from .study import has_sources, parameters
 
 _TABLES: Final = {"variation": "path through the shell", "structure": "shell"}
 """Plain words for tables; others go by their name."""
@@ -37,25 +37,6 @@ def held_sentence(results: xr.Dataset) -> str:
         return ""
     texts = [f"{', '.join(items)}, which {reason}" for reason, items in by_reason.items()]
     return f"Not sampled, though they have a range: {'; '.join(texts)}."
-
-
-def not_sampled_sentence(results: xr.Dataset) -> str:
-    """That ranges are not sampled without sources; empty where none is given, or sources are there.
-
-    Parameters
-    ----------
-    results : of a run without samples
-    """
-    count = sum(record["lowest"] is not None for record in parameters(results)["records"])
-    if not count or has_sources(results):
-        return ""
-    values = (
-        "1 value has a range; it is" if count == 1 else f"{count} values have a range; they are"
-    )
-    return (
-        f"{values} not sampled, so that nothing has a band: values are sampled only where a "
-        "study has sources of sound, tables [sources.NAME]."
-    )
 
 
 def _listed(ranges: Iterable[dict[str, Any]]) -> str:

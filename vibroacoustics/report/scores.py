@@ -9,12 +9,12 @@ import xarray as xr
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
 from ..results.estimates import has_samples
-from ..scoring.ranking import utilities
-from ..scoring.scores import ANY_WEIGHTS, OF_THE_STUDY
+from ..results.run_variables import ANY_WEIGHTS, OF_THE_STUDY
+from ..results.stored_study import has_sources, options, parameters
+from ..results.utility import utilities
 from . import labels
 from .bands import percent
 from .option_verdict import NO_CHANGE, option_verdicts
-from .study import has_sources, options, parameters
 from .tables import Table, to_csv
 
 SUM_TOLERANCE: Final = 1e-6

@@ -16,10 +16,10 @@ from ..results.estimates import (
     sample_numbers,
     weighted_estimate,
 )
+from ..results.stored_study import catalogue_receiver
 from .bands import INTERVAL, written
 from .labels import unit
 from .sampled_words import named
-from .study import catalogue_receiver
 from .tables import Table
 
 NARROWED: Final = 0.8

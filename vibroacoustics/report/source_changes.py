@@ -10,10 +10,11 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.remembered import remembered
 from ..results.estimates import has_samples
+from ..results.stored_study import at_catalogue, balancers, options, speeds, total_of
 from .bands import INTERVAL, Band, bands_by_speed, hull
 from .quantities import TOLERANCE_DB, TOTAL
 from .shifts import shift
-from .study import at_catalogue, balancers, many_speeds, options, speeds, total_of
+from .shown_speeds import many_speeds
 
 
 class SourceChange(NamedTuple):

@@ -8,13 +8,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION, SUFFIXES
 from ..results.estimates import has_samples, is_sampled
-from . import labels
-from .bands import INTERVAL, band
-from .column_values import column
-from .remainder import remainder_band
-from .source_changes import key_figure
-from .source_words import ranked, source_share, unmodelled_share
-from .study import (
+from ..results.stored_study import (
     at_catalogue,
     balancers,
     catalogue_receiver,
@@ -24,6 +18,12 @@ from .study import (
     speeds,
     words,
 )
+from . import labels
+from .bands import INTERVAL, band
+from .column_values import column
+from .remainder import remainder_band
+from .source_changes import key_figure
+from .source_words import ranked, source_share, unmodelled_share
 from .tables import Table, dataset_csv
 
 

@@ -6,17 +6,12 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
-from ..levels.agreement import priors_of
-from ..machine.remainder import Remainder
 from ..results.estimates import has_samples, prior_ensemble, sample_numbers
-from .bands import INTERVAL, Band, band, percent
-from .sampled_words import sampled_sentences
-from .study import (
+from ..results.stored_study import (
     at_catalogue,
     catalogue_receiver,
     elsewhere,
     first_order_hz,
-    many_speeds,
     nearest_speed,
     overall_noise,
     parameters,
@@ -25,6 +20,9 @@ from .study import (
     speeds,
     total_of,
 )
+from .bands import INTERVAL, Band, band, percent
+from .sampled_words import sampled_sentences
+from .shown_speeds import many_speeds
 
 LINE_FIGURE: Final = "foot_force_2x_line_n"
 UNMODELLED: Final = "unmodelled noise"
@@ -72,15 +70,6 @@ def shares_sentence(results: xr.Dataset) -> str:
     what = f"means with their {INTERVAL}; they add up to 100 %" if has_samples(results) else ""
     how = f" ({what})" if what else ""
     return f"Shares of the sound energy{how}: {', '.join(shares)}."
-
-
-def prior_words(results: xr.Dataset) -> list[str]:
-    """Priors of unmodelled noise after "unmodelled noise"; of older files those that then held."""
-    table = parameters(results)["machine"].get("remainder", {})
-    known = {name: value for name, value in table.items() if value is not None}
-    remainder = Remainder.model_construct(**known)  # whatever it is: it is only put into words
-    words_of = {prior.name: prior.words for prior in priors_of(remainder)}
-    return [words_of.get(str(name), str(name)) for name in results["prior"].values]
 
 
 def certainty_sentences(results: xr.Dataset) -> list[str]:

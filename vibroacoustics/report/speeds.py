@@ -3,7 +3,7 @@
 import xarray as xr
 
 from .blocks import Text
-from .study import few_speeds_words
+from .shown_speeds import few_speeds_words
 
 
 def chosen_speeds(results: xr.Dataset, file: str) -> list[Text]:

@@ -8,8 +8,8 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results.stored_study import parameters, speeds
 from .source_words import LINE_FIGURE
-from .study import parameters, speeds
 from .tables import Table
 
 

@@ -7,7 +7,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
-from .study import balancers, nearest_speed, options
+from ..results.stored_study import balancers, nearest_speed, options
 from .tables import Table
 
 _FIRST: Final = "order 1"

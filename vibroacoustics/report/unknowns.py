@@ -14,10 +14,9 @@ from ..results.estimates import (
     sample_numbers,
     weighted_estimate,
 )
-from ..uncertainty.shares import ASKED
+from ..results.stored_study import catalogue_receiver, overall_noise
 from .bands import INTERVAL, percent, written
 from .sampled_words import file_unit, named
-from .study import catalogue_receiver, overall_noise
 from .tables import Table
 
 NOT_RESOLVED: Final = "not resolved"
@@ -150,8 +149,9 @@ def _most_valuable(results: xr.Dataset) -> str:
 def _best(results: xr.Dataset) -> int | None:
     """Number of the unknown that is worth most for a choice; none if chance could give it."""
     gain = results["parameter_information"].values
+    votes = results["parameter_information_votes"].values
     best = int(gain.argmax())
-    certain = int(results["parameter_information_votes"][best]) == ASKED
+    certain = votes[best] == votes.sum()
     return best if certain and gain[best] > float(results["parameter_information_floor"]) else None
 
 

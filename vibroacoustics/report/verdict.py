@@ -7,6 +7,18 @@ import xarray as xr
 
 from ..base import rounding
 from ..results.estimates import has_samples
+from ..results.sample_words import not_sampled_sentence
+from ..results.stored_study import (
+    at_catalogue,
+    balancers,
+    catalogue_receiver,
+    first_order_hz,
+    has_sources,
+    overall_noise,
+    quoted_dba,
+    quoted_speed,
+    speeds,
+)
 from . import conflict
 from .baseline import not_measured
 from .column_values import column
@@ -17,25 +29,13 @@ from .option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
 from .quantities import FOOT_FORCE, FORCE, MOMENT
 from .ranking_words import ranking_sentence
 from .remainder import growth_sentence, measured_rpm, remainder_band
-from .sampled_words import not_sampled_sentence
 from .shifts import shift
+from .shown_speeds import many_speeds
 from .source_changes import changes_sentence
 from .source_words import (
     carrier_sentence,
     samples_sentence,
     shares_sentence,
-)
-from .study import (
-    at_catalogue,
-    balancers,
-    catalogue_receiver,
-    first_order_hz,
-    has_sources,
-    many_speeds,
-    overall_noise,
-    quoted_dba,
-    quoted_speed,
-    speeds,
 )
 from .tables import Table
 from .unknowns import measure_next_sentence

@@ -223,6 +223,7 @@ class Words(Part):
     shell_bends: bool
     units: dict[str, str] = {}
     source_figures: list[str]
+    priors: dict[str, str] = {}
     sources: dict[str, str]
     sentences: dict[str, list[str]]
 

@@ -28,12 +28,16 @@ COORDINATES_OF: Final[dict[str, list[str]]] = _RULES["coordinates_of"]
 EMPTY_WHERE_NONE: Final = frozenset(_RULES["empty_where_none"])
 ADDED_MASS: Final = "added_mass_kg"
 """Figure that every option has."""
+ANY_WEIGHTS: Final = "any"
+"""Ranks with weights of the criteria sampled evenly from all that there are."""
+OF_THE_STUDY: Final = "of the study"
+"""Ranks with the weights that the study gives."""
 LABELS: Final[dict[str, tuple[str, ...]]] = {
     "option": (REFERENCE_OPTION,),
     "axis": AXES,
     "dof": RIGID_BODY_DOFS,
     "weighting": WEIGHTINGS,
-    "criteria_weights": ("any", "of the study"),
+    "criteria_weights": (ANY_WEIGHTS, OF_THE_STUDY),
     "figure": (ADDED_MASS,),
     "stopping_phase": ("steady", "stopping"),
 }

@@ -8,6 +8,7 @@ import xarray as xr
 
 from ..base.arrays import Array
 from ..base.units import UNITS
+from ..levels.agreement import priors_of
 from ..machine.source import CaseKey
 from ..mechanics.loads import Loads
 from ..sources.cases import sources_of
@@ -46,6 +47,7 @@ def words(
         "shell_bends": study.drives_shell,
         "units": {suffix: UNITS[suffix].symbol for suffix in UNITS.origins()},
         "source_figures": _source_figures(loads),
+        "priors": {prior.name: prior.words for prior in priors_of(study.machine.remainder)},
         "sources": {
             name: source.label for name, source in sources_of(study).items() if source.label
         },

@@ -1,9 +1,10 @@
 """Criteria, scores, ranks and how sure they are, whatever the weights and the samples."""
 
+from ..results.utility import utilities
 from .acceptability import any_weights, rank_acceptability
 from .given import given_values
 from .published import published_table
-from .ranking import METHODS, topsis, utilities, weighted_sum
+from .ranking import METHODS, topsis, weighted_sum
 from .scores import score
 from .study_scores import study_scores
 from .text import ranking_text

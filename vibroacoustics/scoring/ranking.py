@@ -1,4 +1,4 @@
-"""From values to utilities and scores."""
+"""From utilities to scores."""
 
 from collections.abc import Callable
 from typing import Final
@@ -6,14 +6,6 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array
-
-
-def utilities(values: Array, best: Array, worst: Array) -> Array:
-    """Utility of each option and criterion: 1 at `best`, 0 at `worst`, linear, within 0 to 1.
-
-    The scale does not depend on the options at hand: adding one cannot reorder the others.
-    """
-    return np.clip((worst - values) / (worst - best), 0.0, 1.0)
 
 
 def weighted_sum(utility: Array, shares: Array) -> Array:

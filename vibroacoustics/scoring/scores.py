@@ -3,7 +3,6 @@
 import json
 from collections.abc import Sequence
 from itertools import repeat
-from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -13,15 +12,12 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.vocabulary import check, stamp
 from ..results.estimates import has_samples, sample_weights
+from ..results.run_variables import ANY_WEIGHTS, OF_THE_STUDY
+from ..results.utility import utilities
 from ..study.scoring import Scoring
 from .acceptability import any_weights, rank_acceptability
-from .ranking import METHODS, utilities
+from .ranking import METHODS
 from .values import Scored, scored_criteria
-
-ANY_WEIGHTS: Final = "any"
-"""Ranks with weights of the criteria sampled evenly from all that there are."""
-OF_THE_STUDY: Final = "of the study"
-"""Ranks with the weights that the study gives."""
 
 
 def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:

@@ -17,8 +17,8 @@ from ..base.decibel import (
 )
 from ..base.errors import ParameterError, SchemaError
 from ..base.units import shaft_frequency_hz
+from ..base.weighting import WEIGHTING
 from ..levels.bands import OCTAVE_RATIO, Band
-from ..levels.weighting import WEIGHTING
 from ..mechanics.added import third_octave_number
 
 _ORDER: Final = "order "
@@ -26,12 +26,12 @@ _AT_1_KHZ: Final = 30
 """Number of its third octave."""
 HALF_BAND: Final = OCTAVE_RATIO ** (1.0 / 6.0)
 """Upper edge of a third octave over its centre, 10^0.05."""
-_AT_MICROPHONE: Final = (
+AT_MICROPHONE: Final = (
     "pressure_line", "noise_band_level", "unmodelled_band_level", "baseline_band_level",
     "baseline_order_level", "level_total", "representative_noise_band_level",
     "representative_unmodelled_band_level", "total_band_level",
 )  # fmt: skip
-_IN_ROOM: Final = (
+IN_ROOM: Final = (
     "room_pressure_line", "room_plate_line_level", "room_noise_band_level", "room_level",
     "room_plate_level",
 )  # fmt: skip
@@ -219,7 +219,7 @@ def _case(results: xr.Dataset, option: str, microphone: str, speed: float) -> xr
     in_room = microphone not in results.variables["receiver"].values
     if in_room and "room_pressure_line" not in results:
         raise SchemaError("the results hold no sound in the room: run the study again")
-    names = _IN_ROOM if in_room else _AT_MICROPHONE
+    names = IN_ROOM if in_room else AT_MICROPHONE
     at = {"option": option, "listener" if in_room else "receiver": microphone, "speed": speed}
     return results[[name for name in names if name in results]].sel(at)
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import SILENCE_DB, level_of_power, mean_square_level
+from ..base.decibel import NO_TONE_DB, SILENCE_DB, level_of_power, mean_square_level
 from ..levels.hearing import hearing_threshold_db
 from .critical_bands import (
     CUT_BELOW_HZ,
@@ -25,8 +25,6 @@ from .critical_bands import (
 from .ingredients import HALF_BAND
 
 MOST_EXCESS_DB: Final = 60.0
-NO_TONE_DB: Final = -60.0
-"""Excess of a line that is no audible tone, or has no noise in its critical band."""
 
 _LEAST: Final = 1e-40
 """Mean square beside a tone that is none, Pa²."""

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, ComplexArray
+from ..base.ellipse import semi_major_axis
 from ..base.vocabulary import (
     AXES,
     REFERENCE_OPTION,
@@ -13,7 +14,6 @@ from ..base.vocabulary import (
     check,
     stamp,
 )
-from ..mechanics.ellipse import semi_major_axis
 from ..study.study import Study
 from .machine import MachineOnMounts, Response, on_mounts
 

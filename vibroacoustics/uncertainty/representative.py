@@ -6,8 +6,8 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ..base.ellipse import semi_major_axis
 from ..base.vocabulary import REFERENCE_OPTION
-from ..mechanics.ellipse import semi_major_axis
 
 _QUIETEST_DB: Final = 30.0
 """Sources so far below the machine do not count."""

@@ -7,10 +7,10 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
+from ..base.ellipse import semi_major_axis
 from ..base.units import shaft_frequency_hz
 from ..machine.cases import Cases
 from ..machine.source import Case, CaseKey
-from ..mechanics.ellipse import semi_major_axis
 from ..mechanics.loads import PortLoads, summed
 from ..sources.labelled import figures_of
 from ..study.study import Study

@@ -8,9 +8,9 @@ from sources_study import NO_DISCREPANCY, SOURCES_STUDY, run_made_up
 from support import ROOT
 
 import vibroacoustics as va
+from vibroacoustics.base.weighting import a_weighting
 from vibroacoustics.levels.agreement import log_weight_of_points, priors_of
 from vibroacoustics.levels.measured_points import evidence
-from vibroacoustics.levels.weighting import a_weighting
 from vibroacoustics.results.estimates import nominal
 from vibroacoustics.stages import room as room_stage
 

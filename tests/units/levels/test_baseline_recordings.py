@@ -5,8 +5,8 @@ import pytest
 from support import ROOT, made_up_radiation
 
 import vibroacoustics as va
+from vibroacoustics.base.weighting import a_weighting
 from vibroacoustics.levels.bands import bands_between
-from vibroacoustics.levels.weighting import a_weighting
 from vibroacoustics.results.storage import write_results
 
 RATE_HZ = 2048.0

@@ -5,9 +5,9 @@ import pytest
 
 from vibroacoustics.base.rounding import FORCE_FLOOR
 from vibroacoustics.base.vocabulary import WEIGHTINGS, stamp
+from vibroacoustics.base.weighting import a_weighting
 from vibroacoustics.levels.changes import JUDGED, MASKED_DB, change_db, change_variables, changes_of
 from vibroacoustics.levels.hearing import hearing_threshold_db
-from vibroacoustics.levels.weighting import a_weighting
 from vibroacoustics.study.scoring import Measurable
 
 HERTZ = 50.0

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from vibroacoustics.base.vocabulary import VARIABLES, WEIGHTINGS
+from vibroacoustics.base.weighting import WEIGHTING
 from vibroacoustics.levels.axes import LevelAxes
 from vibroacoustics.levels.by_source import GAIN_BANDS, sound_by_source
 from vibroacoustics.levels.measured_points import BASELINE_BANDS, REMAINDER_BANDS
@@ -15,7 +16,6 @@ from vibroacoustics.levels.sample_levels import (
     with_discrepancy,
     with_gain,
 )
-from vibroacoustics.levels.weighting import WEIGHTING
 from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import NoisePower, ReceivedSound
 

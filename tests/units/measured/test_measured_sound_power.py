@@ -7,7 +7,7 @@ from synthetic_microphones import BANDS, recording
 
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.levels.weighting import a_weighting
+from vibroacoustics.base.weighting import a_weighting
 from vibroacoustics.radiation.arrangements import box_positions, hemisphere_positions
 
 POWER_DB = 60.0 + 8.0 * np.sin(np.arange(len(BANDS)))

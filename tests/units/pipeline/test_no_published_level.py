@@ -9,8 +9,8 @@ from vibroacoustics import pipeline, report
 from vibroacoustics.base.decibel import SILENCE_DB
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.commands.cost_lines import samples_text, study_lines
-from vibroacoustics.report.data_sheet.files import headline
-from vibroacoustics.report.data_sheet.sheet import data_sheet
+from vibroacoustics.declaration.sheet import data_sheet
+from vibroacoustics.report.data_sheet import headline
 from vibroacoustics.report.evidence import rungs
 from vibroacoustics.study.loading import load_study
 

@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import quad
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from vibroacoustics.base.weighting import WEIGHTING
 from vibroacoustics.levels.structure_borne import level_range, mean_square_per_power
-from vibroacoustics.levels.weighting import WEIGHTING
 from vibroacoustics.study.structure_borne import StructureBorne
 from vibroacoustics.transfer.plate.driven import (
     Plate,

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from sources_study import sources_run
 
-from vibroacoustics.levels.weighting import a_weighting
+from vibroacoustics.base.weighting import a_weighting
 from vibroacoustics.uncertainty.representative import nearest_row
 
 OPTIONS = ["none", "loud"]

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from sources_study import nominal_run, sources_run
 
+from vibroacoustics.base.ellipse import semi_major_axis
 from vibroacoustics.base.rounding import FORCE_FLOOR
 from vibroacoustics.base.vocabulary import VARIABLES
 from vibroacoustics.levels.changes import JUDGED
-from vibroacoustics.mechanics.ellipse import semi_major_axis
 from vibroacoustics.uncertainty.evidence import PAIRS
 from vibroacoustics.uncertainty.sample_variables import Weighted
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from ...base.arrays import Array, ComplexArray, IndexArray
 from ...base.decibel import power_of_level
-from ...levels.weighting import WEIGHTING
-from ...mechanics.ellipse import semi_major_axis
+from ...base.ellipse import semi_major_axis
+from ...base.weighting import WEIGHTING
 
 LOSS: Final = 1e-13
 """Difference between loss factors of mounts, of the stiffness, that is rounding."""

@@ -9,7 +9,7 @@ from ..figures.levels_over_speed import levels_over_speed
 from ..figures.orders_over_speed import over_speed_picture
 from ..figures.style import Picture, in_both_widths, numbered_file_name
 from ..page import Part
-from ..study import FEWEST_OVER_SPEED, over_speed
+from ..shown_speeds import FEWEST_OVER_SPEED, over_speed
 from .validation import is_study
 
 

@@ -9,9 +9,9 @@ import xarray as xr
 
 from ...base import rounding
 from ...results.figure_limits import Compared
+from ...results.stored_study import parameters
 from .. import labels
 from ..order_tables import shown_speeds
-from ..study import parameters
 from ..tables import Table
 
 Figure = tuple[str, str, float, float]

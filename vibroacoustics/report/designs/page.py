@@ -7,11 +7,11 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ...results.stored_study import parameters
 from ..blocks import Block, Bullets, Details, Pictures, Text
 from ..figures.style import Picture, png
 from ..html import html
 from ..page import Page, Part
-from ..study import parameters
 from ..tables import Table, to_text
 from ..unknowns import NOT_RESOLVED, share_words
 from .best import best_tables, limiting, no_best, shown

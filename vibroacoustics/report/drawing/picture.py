@@ -7,10 +7,10 @@ import xarray as xr
 
 from ...base import rounding
 from ...base.arrays import Array
-from ...mechanics.ellipse import semi_major_axis
+from ...base.ellipse import semi_major_axis
+from ...results.stored_study import parameters
 from ..figures.style import Picture
 from ..quantities import FOOT_FORCE, FORCE, MOMENT
-from ..study import parameters
 from . import svg
 from .loads import Loads, loads
 from .outline import Outline, feet_m, outline

@@ -6,8 +6,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.stored_study import options, speeds
 from ..charts.needs import needs
-from ..study import few_speeds, options, speeds
+from ..shown_speeds import few_speeds
 from ..titles import chosen
 from .panels import each_panel, in_rpm, third_octaves
 from .style import Picture, png, wrap

@@ -3,7 +3,8 @@
 import xarray as xr
 from matplotlib.axes import Axes
 
-from ..study import first_order_hz, many_speeds
+from ...results.stored_study import first_order_hz
+from ..shown_speeds import many_speeds
 
 
 def mark_first_order(axes: Axes, results: xr.Dataset, colour: str, label: str = "") -> None:

@@ -5,8 +5,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...results.stored_study import options, speeds, words
 from ..charts.needs import needs
-from ..study import options, speeds, words
 from ..titles import chosen
 from .panels import each_panel, lines
 from .style import Picture, png, wrap

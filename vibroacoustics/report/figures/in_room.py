@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from ...results.stored_study import parameters
 from ..charts.needs import needs
-from ..study import parameters
 from ..titles import chosen
 from .maps import COLOUR_MAP
 from .style import (

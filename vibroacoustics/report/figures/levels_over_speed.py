@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from ...base.rounding import LEVEL_FLOOR_DB
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.stored_study import catalogue_receiver
 from ..charts.needs import needs
 from ..over_speed.avoid import LEVEL, Range, recorded_speeds_to_avoid, speeds_to_avoid
 from ..over_speed.level_curves import (
@@ -19,7 +20,6 @@ from ..over_speed.level_curves import (
     recorded_curves,
     source_curves,
 )
-from ..study import catalogue_receiver
 from ..titles import chosen, titled
 from .panels import each_panel, one_panel
 from .style import WIDTH_INCH, line_looks, shade, shortened, wrap

@@ -17,7 +17,7 @@ from ...base.decibel import amplitude_of_level, level_of_amplitude
 from ...base.vocabulary import REFERENCE_OPTION
 from ..charts.needs import needs
 from ..labels import DOF_WORDS
-from ..study import few_speeds
+from ..shown_speeds import few_speeds
 from .style import Picture, plain, png, render
 
 WIDE_INCH: Final = 8.0

@@ -5,8 +5,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base import rounding
+from ...results.stored_study import first_order_hz
 from ..charts.needs import needs
-from ..study import first_order_hz, many_speeds
+from ..shown_speeds import many_speeds
 from .first_order import mark_first_order
 from .panels import one_panel
 from .style import COLOURS, Picture, frequency_ticks, png

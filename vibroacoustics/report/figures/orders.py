@@ -8,8 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base import rounding
+from ...results.stored_study import catalogue_receiver, options, speeds
 from ..charts.needs import needs
-from ..study import catalogue_receiver, few_speeds, options, speeds
+from ..shown_speeds import few_speeds
 from ..titles import chosen
 from .panels import each_panel, in_rpm, named_rows
 from .style import COLOURS, MARKERS, Picture, logarithmic_ticks, png

@@ -4,8 +4,8 @@ import xarray as xr
 
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results.estimates import has_samples
+from ...results.stored_study import catalogue_receiver, has_sources
 from ..bands import INTERVAL
-from ..study import catalogue_receiver, has_sources
 from .campbell import LOUD_DB, campbell
 from .levels_over_speed import levels_over_speed, source_levels_over_speed
 from .orders_over_speed import over_speed_picture

@@ -6,9 +6,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.stored_study import catalogue_receiver
 from ..charts.needs import needs
 from ..paths import at_path_speed, foot_forces, leading, path_speed, path_words
-from ..study import catalogue_receiver
 from ..titles import chosen
 from .panels import each_panel, one_panel
 from .style import COLOURS, Picture, numbered, png, wrap

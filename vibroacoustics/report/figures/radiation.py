@@ -9,10 +9,11 @@ from matplotlib.figure import Figure
 
 from ...base import rounding
 from ...results.estimates import has_samples
+from ...results.stored_study import catalogue_receiver, options, speeds
 from ..charts.needs import needs
 from ..comparison import comparison
 from ..kwave_words import computed_by_kwave, kwave_to_hz
-from ..study import catalogue_receiver, few_speeds, options, speeds
+from ..shown_speeds import few_speeds
 from ..titles import chosen
 from .first_order import first_order_marks, mark_first_order
 from .panels import each_panel, in_rpm, lines, named_rows, one_panel

@@ -8,9 +8,9 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 
 from ...results.estimates import has_samples
-from ...scoring.scores import ANY_WEIGHTS
+from ...results.run_variables import ANY_WEIGHTS
+from ...results.stored_study import options
 from ..charts.needs import needs
-from ..study import options
 from .panels import one_panel, stacked_bars
 from .style import COLOURS, Picture, png, wrap
 

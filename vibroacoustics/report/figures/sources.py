@@ -11,19 +11,19 @@ from matplotlib.figure import Figure
 from ...base.arrays import Array
 from ...base.remembered import remembered
 from ...base.vocabulary import REFERENCE_OPTION
-from ...levels.weighting import a_weighting
+from ...base.weighting import a_weighting
 from ...results.estimates import has_samples
-from ..charts.needs import needs
-from ..quantities import HEARD_DB
-from ..study import (
+from ...results.stored_study import (
     balancers,
     catalogue_receiver,
-    few_speeds,
     has_sources,
     quoted_speed,
     source_name,
     speeds,
 )
+from ..charts.needs import needs
+from ..quantities import HEARD_DB
+from ..shown_speeds import few_speeds
 from ..titles import chosen
 from .panels import each_panel, in_rpm, one_panel, third_octaves
 from .style import Picture, png, wrap

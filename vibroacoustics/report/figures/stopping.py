@@ -8,9 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.decibel import level_of_amplitude
+from ...results.stored_study import catalogue_receiver, speeds
 from ..charts.needs import needs
+from ..shown_speeds import few_speeds
 from ..stopping import force_and_moments
-from ..study import catalogue_receiver, few_speeds, speeds
 from .panels import each_panel, in_rpm, level_map, lines, one_panel
 from .style import Picture, png, shortened, whole_number_ticks
 

@@ -18,7 +18,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator
 from PIL import Image
 
 from ...base.arrays import Array
-from ..charts.picture import Picture as Picture
+from ..charts.picture import Picture as Picture  # noqa: PLC0414
 
 WIDTH_INCH: Final = 4.6
 FULL_WIDTH_INCH: Final = 9.2

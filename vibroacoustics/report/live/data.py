@@ -7,7 +7,8 @@ import numpy as np
 import xarray as xr
 
 from ...levels.measured_points import BASELINE_BANDS
-from ..study import catalogue_receiver, few_speeds, options
+from ...results.stored_study import catalogue_receiver, options
+from ..shown_speeds import few_speeds
 from .cases import case_of
 from .lines import Lines, lines_at
 from .mounts import put_matrices

@@ -11,7 +11,7 @@ from ...base.arrays import Array, ComplexArray
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import power_of_level
 from ...base.units import shaft_frequency_hz
-from ...levels.weighting import WEIGHTING
+from ...base.weighting import WEIGHTING
 from ...sound import Ingredients, ingredients
 
 QUIET: Final = 1e-6

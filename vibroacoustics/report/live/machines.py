@@ -13,8 +13,8 @@ from ...base.arrays import Array
 from ...base.errors import ParameterError
 from ...machine.machine import AnyMachine, Machine
 from ...machine.option import AnyOption, Option
+from ...results.stored_study import options, parameters
 from ...transfer import MachineOnMounts, on_mounts
-from ..study import options, parameters
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import xarray as xr
 
 from ...base.arrays import ComplexArray
 from ...base.vocabulary import REFERENCE_OPTION
-from ..study import options, parameters
+from ...results.stored_study import options, parameters
 from .machines import Machines, machines_of
 from .mounts import MountMatrices, is_over_frequency, mount_matrices
 from .transmission import Transmission, transmission_of

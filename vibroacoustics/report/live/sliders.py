@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ...results.stored_study import options
 from ...uncertainty.slider_variables import HOOD
 from ..sampled_words import file_unit, named
-from ..study import options
 from .numbers import FEW_BITS, NOISE_BITS, Numbers
 
 _DIMS = ("receiver", "noise_band")

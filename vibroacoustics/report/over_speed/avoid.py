@@ -12,8 +12,8 @@ from ...base.arrays import Array
 from ...base.decibel import level_of_amplitude, level_of_power, power_of_level
 from ...base.rounding import FORCE_FLOOR, LEVEL_FLOOR_DB
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.stored_study import catalogue_receiver, options
 from ..bands import energy_share, percent
-from ..study import catalogue_receiver, options
 from ..tables import Table, to_csv
 from .modes import Mode, modes_of
 from .sound_lines import sound_lines

@@ -9,9 +9,9 @@ from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import amplitude_of_level, level_of_amplitude
 from ...base.vocabulary import REFERENCE_OPTION
-from ...levels.weighting import WEIGHTING
+from ...base.weighting import WEIGHTING
 from ...results.order_comparison import channel_orders
-from ..study import catalogue_receiver
+from ...results.stored_study import catalogue_receiver
 from ..titles import chosen
 
 MOST_ORDERS: Final = 8

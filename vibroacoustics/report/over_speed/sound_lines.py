@@ -10,8 +10,8 @@ from ...base.arrays import Array
 from ...base.decibel import sound_pressure_level
 from ...base.rounding import LEVEL_FLOOR_DB
 from ...base.vocabulary import REFERENCE_OPTION
-from ...levels.weighting import WEIGHTING
-from ..study import catalogue_receiver
+from ...base.weighting import WEIGHTING
+from ...results.stored_study import catalogue_receiver
 
 MOST_ORDERS: Final = 8
 MOST_TONES: Final = 4

@@ -3,9 +3,9 @@
 import xarray as xr
 
 from ...base.registry import register
+from ...results.stored_study import overall_noise
 from .. import assumptions
 from ..blocks import Block, Bullets, Heading, Text
-from ..study import overall_noise
 from . import Section
 
 

@@ -4,12 +4,12 @@ import xarray as xr
 
 from ...base.registry import register
 from ...base.rounding import FORCE_FLOOR, LEVEL_FLOOR_DB, fixed
+from ...results.stored_study import catalogue_receiver, has_sources, other_receivers, overall_noise
 from ..blocks import Block, Details, Heading, Text
 from ..comparison import bands_sentence, comparison_tables
 from ..kept_columns import columns_of
 from ..remainder import total_sentence
 from ..speeds import chosen_speeds
-from ..study import catalogue_receiver, has_sources, other_receivers, overall_noise
 from . import Section
 
 

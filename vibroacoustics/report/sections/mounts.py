@@ -6,8 +6,8 @@ from ...base.registry import register
 from ..blocks import Block, Pictures, Text
 from ..figures import mount_figures
 from ..housing import attached_table, block_table, isolation_sentence, modes_table
+from ..shown_speeds import few_speeds
 from ..speeds import chosen_speeds
-from ..study import few_speeds
 from . import Section
 
 

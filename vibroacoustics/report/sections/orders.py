@@ -3,10 +3,10 @@
 import xarray as xr
 
 from ...base.registry import register
+from ...results.stored_study import words
 from ..blocks import Block, Pictures, Text
 from ..figures import order_figures
 from ..speeds import chosen_speeds
-from ..study import words
 from . import Section
 
 

@@ -6,7 +6,7 @@ from ...base.registry import register
 from ..blocks import Block, Pictures, Text
 from ..figures.over_speed import over_speed_figures
 from ..over_speed.avoid import avoid_table, avoided, reference_words, rule_words
-from ..study import over_speed
+from ..shown_speeds import over_speed
 from . import Section
 
 

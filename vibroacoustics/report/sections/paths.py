@@ -3,6 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
+from ...results.stored_study import catalogue_receiver, other_receivers
 from ..blocks import Block, Details, Heading, Pictures, Text
 from ..figures.paths import foot_figure, path_figure
 from ..paths import (
@@ -20,7 +21,6 @@ from ..paths import (
     path_speed,
     paths_table,
 )
-from ..study import catalogue_receiver, other_receivers
 from . import Section
 
 

@@ -12,8 +12,8 @@ from ..housing import (
     sound_power_table,
 )
 from ..kwave_words import kwave_sentence
+from ..shown_speeds import few_speeds
 from ..speeds import chosen_speeds
-from ..study import few_speeds
 from . import Section
 
 _SENTENCES = (kwave_sentence, line_difference_sentence, grid_error_sentence)

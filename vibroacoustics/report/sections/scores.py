@@ -3,10 +3,10 @@
 import xarray as xr
 
 from ...base.registry import register
+from ...results.stored_study import parameters
 from .. import scores
 from ..blocks import Block, Heading, Pictures, Text
 from ..figures import score_figures
-from ..study import parameters
 from . import Section
 
 

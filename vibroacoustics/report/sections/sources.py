@@ -3,12 +3,14 @@
 import xarray as xr
 
 from ...base.registry import register
+from ...results.sample_words import prior_words
+from ...results.stored_study import has_sources
 from .. import energy_words, source_tables, source_words
 from ..blocks import Block, Bullets, Heading, Pictures, Text
 from ..figures import source_figures
 from ..remainder import total_sentence
+from ..shown_speeds import few_speeds
 from ..speeds import chosen_speeds
-from ..study import few_speeds, has_sources
 from . import Section
 
 
@@ -38,7 +40,7 @@ def _alternatives(results: xr.Dataset) -> list[Block]:
     table = energy_words.alternatives_table(results)
     if table is None:
         return []
-    words = source_words.prior_words(results)
+    words = prior_words(results)
     priors = zip(("First", "Second"), words, strict=False)
     named = "; ".join(f"{which.lower()} prior {what}" for which, what in priors)
     return [table, Text(f"Level of unmodelled noise before the data: {named}.", "note")]

@@ -5,9 +5,9 @@ import xarray as xr
 from ...base.registry import register
 from ..blocks import Block, Pictures, Text
 from ..figures.stopping import stopping_figures
+from ..shown_speeds import few_speeds
 from ..speeds import chosen_speeds
 from ..stopping import forces_table, sentences, sound_table
-from ..study import few_speeds
 from . import Section
 
 

@@ -3,9 +3,9 @@
 import xarray as xr
 
 from ...base.registry import register
+from ...results.stored_study import catalogue_receiver, other_receivers
 from ..blocks import Block, Details, Text
 from ..structure_borne import has_plate, plate_lines_table, way_sentence, ways_table
-from ..study import catalogue_receiver, other_receivers
 from . import Section
 
 

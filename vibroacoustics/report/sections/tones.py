@@ -4,10 +4,9 @@ import xarray as xr
 
 from ...base.registry import register
 from ...results.estimates import is_sampled
-from ...sound.loudness import NEEDED, available
 from ..blocks import Block, Text
 from ..speeds import chosen_speeds
-from ..tones import has_sound, tone_tables
+from ..tones import NO_LOUDNESS, has_sound, tone_tables
 from . import Section
 
 _HOW = (
@@ -27,7 +26,7 @@ _LOUDNESS = "Loudness in sone by ISO 532-1 (Zwicker, free field), sharpness in a
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    loudness = _LOUDNESS if available() else f"{NEEDED[0].upper()}{NEEDED[1:]}."
+    loudness = _LOUDNESS if "loudness" in results else NO_LOUDNESS
     return [
         *chosen_speeds(results, "results.nc"),
         *tone_tables(results),

@@ -4,6 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from ...results.left_out import lines_of
+from ...results.stored_study import parameters
 from ...results.version_2 import RAISED
 from .. import first_screen
 from ..blocks import Beside, Block, Bullets, Details, Pictures, Text
@@ -11,7 +12,6 @@ from ..drawing import machine_picture
 from ..lights import lights
 from ..option_verdict import option_verdicts
 from ..ranking_words import ranking_sentence
-from ..study import parameters
 from . import Section
 
 

@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from ...sound import of_results
+from ...sound.of_results import with_hearing
 from ...study.criterion import Criterion
 
 
@@ -21,5 +21,5 @@ class Loudness(Criterion):
 
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """Value of each option, sone."""
-        worst: xr.DataArray = of_results.loudness(results).mean("receiver").max("speed")
-        return worst
+        loudness = with_hearing(results)["loudness"]
+        return loudness.mean("receiver", skipna=False).max("speed", skipna=False)

@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from ...sound import of_results
+from ...sound.of_results import with_hearing
 from ...study.criterion import Criterion
 
 
@@ -21,5 +21,6 @@ class Sharpness(Criterion):
 
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """Value of each option, acum."""
-        worst: xr.DataArray = of_results.sharpness(results).mean("receiver").max("speed")
-        return worst
+        heard = with_hearing(results)
+        sharpness = heard["sharpness"].fillna(0.0).where(heard["loudness"].notnull())
+        return sharpness.mean("receiver", skipna=False).max("speed", skipna=False)

@@ -1,22 +1,17 @@
-"""What the report reads from a results dataset: parameters, names, and the speeds it shows."""
+"""Parameters, names and published level of the study that results keep."""
 
 import json
 from functools import lru_cache
-from typing import Any, Final, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.remembered import remembered
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
 
 Labelled = TypeVar("Labelled", xr.DataArray, xr.Dataset)
-MOST_SPEEDS: Final = 6
-"""Speeds that get a table, a panel or a curve of their own."""
-FEWEST_OVER_SPEED: Final = 3
-"""Speeds from which on curves over the speed are drawn."""
 
 
 def parameters(results: xr.Dataset) -> dict[str, Any]:
@@ -139,38 +134,3 @@ def has_sources(results: xr.Dataset) -> bool:
 def first_order_hz(results: xr.Dataset) -> Array:
     """Frequency of the 1x line at each speed, Hz."""
     return np.array([shaft_frequency_hz(speed) for speed in speeds(results)])
-
-
-def many_speeds(results: xr.Dataset) -> bool:
-    """Whether there are more speeds than are shown one by one."""
-    return len(speeds(results)) > MOST_SPEEDS
-
-
-def over_speed(results: xr.Dataset) -> bool:
-    """Whether there are lines at speeds enough to be drawn over."""
-    return "pressure_line" in results and len(speeds(results)) >= FEWEST_OVER_SPEED
-
-
-@remembered
-def few_speeds(results: xr.Dataset) -> xr.Dataset:
-    """The results at the speeds that are shown one by one: all, or six evenly chosen.
-
-    These are the lowest, the highest, the catalogue's where it is among them, and others between.
-    """
-    if not many_speeds(results):
-        return results
-    order = np.argsort(speeds(results))
-    chosen = np.linspace(0, order.size - 1, MOST_SPEEDS).round().astype(int)
-    published = np.flatnonzero(results["speed"].values[order] == quoted_speed(results))
-    if published.size and published[0] not in chosen:
-        between = np.abs(chosen - published[0])
-        between[[0, -1]] = order.size  # lowest and highest stay
-        chosen[np.argmin(between)] = published[0]
-    return results.isel(speed=np.sort(order[chosen]))
-
-
-def few_speeds_words(results: xr.Dataset, file: str = "comparison.csv") -> str:
-    """`6 of 200 speeds; all are in comparison.csv.`; empty where all speeds are shown."""
-    if not many_speeds(results):
-        return ""
-    return f"{MOST_SPEEDS} of {len(speeds(results))} speeds; all are in {file}."

@@ -6,9 +6,9 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from ...base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
-from ..study import operating_points, parameters
-from .model import Fact
+from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..results.data_sheet import Fact
+from ..results.stored_study import operating_points, parameters
 
 _PRESSURES: Final = {
     "suction_pressure_pa": "suction pressure",

@@ -5,25 +5,24 @@ from typing import Final, Literal, NamedTuple
 import numpy as np
 import xarray as xr
 
-from ...base import rounding
-from ...base.arrays import Array
-from ...base.decibel import SILENCE_DB, level_of_power, power_of_level
-from ...base.errors import ParameterError
-from ...base.quantiles import weighted_quantiles
-from ...base.rounding import LEVEL_FLOOR_DB
-from ...levels.by_source import LOWEST_BAND_HZ
-from ...levels.declared_level import (
+from ..base import rounding
+from ..base.arrays import Array
+from ..base.decibel import SILENCE_DB, level_of_power, power_of_level
+from ..base.errors import ParameterError
+from ..base.quantiles import weighted_quantiles
+from ..base.rounding import LEVEL_FLOOR_DB
+from ..levels.by_source import LOWEST_BAND_HZ
+from ..levels.declared_level import (
     MEASUREMENT_DEVIATION_DB,
     SHARE,
     combined_deviation_db,
     upper_limit_db,
 )
-from ...levels.measured_power import BANDS
-from ...results.estimates import has_samples, in_samples, nominal, sample_numbers, weighted_estimate
-from ..sampled_words import not_sampled_sentence
-from ..source_words import prior_words
-from ..study import overall_noise, parameters
-from .model import BandPower, SoundPower
+from ..levels.measured_power import BANDS
+from ..results.data_sheet import BandPower, SoundPower
+from ..results.estimates import has_samples, in_samples, nominal, sample_numbers, weighted_estimate
+from ..results.sample_words import not_sampled_sentence, prior_words
+from ..results.stored_study import overall_noise, parameters
 
 _LEAST_SPREAD_DB: Final = 0.05
 """Smallest spread of samples whose levels differ; less is no uncertainty of the model."""

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from ...levels.hearing import hearing_threshold_db
-from ...sound.prominence import NO_TONE_DB
-from ..tones import ProminentTone, listed_tones
-from .model import Tone
+from ..base.decibel import NO_TONE_DB
+from ..levels.hearing import hearing_threshold_db
+from ..results.data_sheet import Tone
+from ..results.prominent_tones import ProminentTone, listed_tones
 
 
 def prominent_tones(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..base.arrays import Array, ComplexArray
+from .arrays import Array, ComplexArray
 
 
 def semi_major_axis(phasor: ComplexArray, axis: int) -> Array:

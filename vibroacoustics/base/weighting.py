@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 from scipy import fft
 
-from ..base.arrays import Array
-from ..base.decibel import amplitude_of_level, level_of_amplitude
-from ..base.errors import ParameterError
+from .arrays import Array
+from .decibel import amplitude_of_level, level_of_amplitude
+from .errors import ParameterError
 
 # Pole frequencies of the A and C weightings, Hz (IEC 61672-1:2013, Annex E, from f_r = 1 kHz,
 # f_L = 10^1.5 Hz, f_H = 10^3.9 Hz, f_A = 10^2.45 Hz, D = 1/√2).

@@ -6,10 +6,10 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ...base.arrays import Array, ComplexArray
-from ...base.vocabulary import AXES, RIGID_BODY_DOFS
-from ..study import parameters
-from .model import Vibration
+from ..base.arrays import Array, ComplexArray
+from ..base.vocabulary import AXES, RIGID_BODY_DOFS
+from ..results.data_sheet import Vibration
+from ..results.stored_study import parameters
 
 _ANGLES_PER_ORDER: Final = 32
 """Of the highest order: a peak is then seen within half a percent."""

@@ -2,16 +2,16 @@
 
 from collections.abc import Iterator
 
-from ...base import rounding
-from ...results.estimates import Estimate
-from ...sound.prominence import NO_TONE_DB
-from ..blocks import Bullets, Pictures, Text
-from ..html import html
-from ..page import Page, Part
-from ..tables import Table, to_csv
-from ..tones import excess_words
-from .figure import sheet_picture
-from .model import BandPower, DataSheet, SoundPower, Tone, Vibration
+from ..base import rounding
+from ..base.decibel import NO_TONE_DB
+from ..results.data_sheet import BandPower, DataSheet, SoundPower, Tone, Vibration
+from ..results.estimates import Estimate
+from .blocks import Bullets, Pictures, Text
+from .figures.data_sheet import sheet_picture
+from .html import html
+from .page import Page, Part
+from .tables import Table, to_csv
+from .tones import excess_words
 
 Row = tuple[str, str, str, str | float, str]
 

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..figures.panels import one_panel, third_octave_ticks
-from ..figures.style import COLOURS, Picture, png
-from .model import SoundPower
+from ...results.data_sheet import SoundPower
+from .panels import one_panel, third_octave_ticks
+from .style import COLOURS, Picture, png
 
 _RANGE_DB = 50.0
 

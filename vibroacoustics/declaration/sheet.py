@@ -6,10 +6,10 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ...base.errors import ParameterError, SchemaError
-from ..study import parameters, words
+from ..base.errors import ParameterError, SchemaError
+from ..results.data_sheet import DataSheet
+from ..results.stored_study import parameters, words
 from .facts import mounting, not_available, operating
-from .model import DataSheet
 from .sound import sound_power, surfaces_m2
 from .tones import not_judged, prominent_tones
 from .vibration import WORDS, offsets_m, vibration
