@@ -43,7 +43,7 @@ def measured(file: Path, out: Path) -> tuple[float, float]:
     """Seconds of the processors, and the largest resident memory of a process in MB."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     command = [sys.executable, "-m", "vibroacoustics", "orders", str(file)]
-    command += ["--speed", "tacho", "--out", str(out)]
+    command += ["--speed-channel", "tacho", "--out", str(out)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

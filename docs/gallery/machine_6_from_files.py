@@ -108,7 +108,7 @@ va.export_recording(recording, folder / "stand.csv")
 # Its orders, on the command line ``vibroacoustics orders stand.csv …``; the map keeps what third
 # octaves over speed need.
 command = [sys.executable, "-m", "vibroacoustics", "orders", str(folder / "stand.csv")]
-command += ["--speed", "tacho", "--pulses", "1", "--orders", "1,2,3,4,5,6,7,8,9,10"]
+command += ["--speed-channel", "tacho", "--pulses", "1", "--orders", "1,2,3,4,5,6,7,8,9,10"]
 command += ["--maximum-order", "45", "--resolution", "0.1", "--speed-step", "25", "--map"]
 done = subprocess.run([*command, "--out", str(folder)], capture_output=True, text=True, check=True)
 print("\n".join(done.stdout.splitlines()[:3]))

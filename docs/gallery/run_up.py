@@ -36,7 +36,7 @@ recording = va.label_recording(
 # %%
 # Over speed and frequency
 # ------------------------
-# ``vibroacoustics map run_up.csv --speed speed --resolution 4``
+# ``vibroacoustics map run_up.csv --speed-channel speed --resolution 4``
 mapped = va.speed_frequency_map(recording, va.SpeedChannel("speed"), resolution_hz=4.0)
 figure = va.plot.speed_frequency_map(mapped, "front")
 
@@ -50,7 +50,7 @@ print(f"loudest at {loudest:.0f} rpm, {level.max().item():.0f} dB")
 # %%
 # Orders over the time
 # --------------------
-# ``vibroacoustics track run_up.csv --speed speed --orders 1,4 --bandwidth 3``
+# ``vibroacoustics track run_up.csv --speed-channel speed --orders 1,4 --bandwidth 3``
 tracked = va.track_orders(recording, va.SpeedChannel("speed"), [1.0, 4.0], bandwidth_hz=3.0)
 figure = va.plot.tracked_orders(tracked)
 fourth = abs(tracked["tracked_order"].sel(channel="front", order=4.0))

@@ -291,8 +291,14 @@ def test_page_shows_every_band_and_point(tiny: xr.Dataset) -> None:
     [
         (["--option", "hood"], "option = hood: must be one of none, counterweight-half"),
         (["--speed", "3000"], "speed_rpm = 3000 rpm: must be one of 2900 rpm"),
-        (["--microphones", "front_1m,back"], "microphones = back: must be one of front_1m"),
-        (["--microphones", "front_1m,front_1m"], "microphones: must be given, each once"),
+        (
+            ["--microphone", "front_1m", "--microphone", "back"],
+            "microphones = back: must be one of front_1m",
+        ),
+        (
+            ["--microphone", "front_1m", "--microphone", "front_1m"],
+            "microphones: must be given, each once",
+        ),
         (["--point", "top=1,2"], "--point top=1,2: must be three numbers up to 20000 mm"),
         (["--point", "top=1,2,x"], "--point: 'x' is no number"),
     ],

@@ -5,7 +5,7 @@ import re
 import pytest
 from sound_studies import result_with_baseline
 
-from vibroacoustics.commands.recorded_tones import tone_row
+from vibroacoustics.commands.tone_tables import tone_row
 from vibroacoustics.report import baseline, first_screen, verdict
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.sound import loudness, tonality

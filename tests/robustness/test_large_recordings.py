@@ -69,7 +69,9 @@ def test_four_times_the_cap_in_blocks(tmp_path):
     """
     chunks = 4 * MAXIMUM_RECORDING_BYTES // (8 * (MICROPHONES + 1) * CHUNK)
     path = write_recording(tmp_path / "long.h5", chunks)
-    code, said, memory = command("orders", path, "--speed", "tacho", "--out", tmp_path / "out")
+    code, said, memory = command(
+        "orders", path, "--speed-channel", "tacho", "--out", tmp_path / "out"
+    )
     assert code == 0, said
     assert memory < MOST_MEMORY_BYTES
     check_results(open_results(tmp_path / "out" / "orders.nc"), chunks)
@@ -93,8 +95,8 @@ def check_results(found, chunks):
 @pytest.mark.parametrize(
     ("name", "options"),
     [
-        ("track", ["--bandwidth", "2", "--speed", "microphone 0"]),
-        ("map", ["--speed", "microphone 0"]),
+        ("track", ["--bandwidth", "2", "--speed-channel", "microphone 0"]),
+        ("map", ["--speed-channel", "microphone 0"]),
         ("export", []),
     ],
 )

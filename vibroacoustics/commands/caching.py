@@ -1,14 +1,14 @@
-"""What `vibroacoustics cache` does and says."""
+"""Content of the cache, and its limit."""
 
-from collections.abc import Iterator
 from datetime import datetime
 
 from ..results import cache
 from ..results.files import naming
+from .outcome import Outcome, columns
 
 
-def lines(clear: bool, limit_gb: float | None) -> Iterator[str]:
-    """Clear the cache or limit its size, then one line for each entry that is left.
+def managed(clear: bool, limit_gb: float | None) -> Outcome:
+    """Clear the cache or limit its size, then list its entries, the least recently used first.
 
     Raises
     ------
@@ -22,13 +22,20 @@ def lines(clear: bool, limit_gb: float | None) -> Iterator[str]:
             if limit_gb is not None:
                 cache.set_limit(folder, round(1e9 * limit_gb))
             removed = cache.clear(folder) if clear else cache.tidy(folder)
-    if removed:
-        yield f"removed {len(removed)} results, {_megabytes(removed)}"
-    left, limit = cache.contents()
-    for entry in left:
-        used = datetime.fromtimestamp(entry.used_s).isoformat(" ", "minutes")
-        yield f"{used}  {entry.size_bytes / 1e6:9.1f} MB  {entry.name}"
-    yield f"{path}: {len(left)} results, {_megabytes(left)} of at most {limit / 1e6:g} MB"
+    entries, limit = cache.contents()
+    rows = [
+        {
+            "used": datetime.fromtimestamp(entry.used_s).isoformat(" ", "minutes"),
+            "size_mb": entry.size_bytes / 1e6,
+            "name": entry.name,
+            "study": entry.study or "unknown study",
+        }
+        for entry in entries
+    ]
+    lines = [f"removed {len(removed)} results, {_megabytes(removed)}"] if removed else []
+    lines += ["{used}  {size_mb:9.1f} MB  {name}  {study}".format(**row) for row in rows]
+    total = f"{len(entries)} results, {_megabytes(entries)} of at most {limit / 1e6:g} MB"
+    return Outcome("\n".join([*lines, f"{path}: {total}"]), tables={"entries": columns(rows)})
 
 
 def _megabytes(entries: list[cache.Entry]) -> str:

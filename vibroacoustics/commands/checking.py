@@ -1,8 +1,7 @@
-"""Limits as commands take them: read first, held against the orders, told on stdout."""
+"""Limits as commands take them: read first, compared with the orders, shown with their margins."""
 
 from pathlib import Path
 
-import typer
 import xarray as xr
 
 from .. import report
@@ -21,8 +20,11 @@ def held_against(results: xr.Dataset, limits: tuple[Limit, ...]) -> xr.Dataset:
     return with_limits(results, limits) if limits else results
 
 
-def print_margins(results: xr.Dataset, file: Path) -> None:
-    """Print the margins and where they are, if there are limits."""
-    if "order_limit" in results:
-        typer.echo(report.limits_text(results))
-        typer.echo(f"limits: {file} (the exit code is 0, exceeded or not)")
+def with_margins(text: str, results: xr.Dataset) -> str:
+    """Text with the margins below it, if there are limits."""
+    return f"{text}\n{report.limits_text(results)}" if "order_limit" in results else text
+
+
+def margin_files(results: xr.Dataset, file: Path) -> dict[str, Path]:
+    """File of the margins by its label, if there are limits."""
+    return {"limits": file} if "order_limit" in results else {}

@@ -5,39 +5,42 @@ from typing import Annotated
 
 import typer
 
-from .options import Plugins, ResultsFile, load_plugins, out_option
+from ..base.progress import Progress, stage
+from .command import command
+from .options import Option, Plugins, ResultsFile, Speed, load_plugins, out_option
+from .outcome import Outcome
 
-commands = typer.Typer()
 
-
-@commands.command("datasheet")
+@command(
+    "datasheet",
+    "Results",
+    "reports/mine/results.nc --option lanchester --speed 2900",
+    {"--microphones": "--microphone, once for each microphone"},
+)
 def datasheet_command(
+    progress: Progress,
     results_file: ResultsFile,
-    option: Annotated[str, typer.Option(help="Balancing option.")] = "none",
-    speed: Annotated[
-        float | None, typer.Option(help="One of the speeds, rpm; default: the first.")
-    ] = None,
-    microphones: Annotated[
-        str | None,
-        typer.Option(help="From which the sound power comes, with commas; default: all."),
+    option: Option = "none",
+    speed: Speed = None,
+    microphone: Annotated[
+        list[str] | None,
+        typer.Option(help="Microphone of the sound power; may be repeated; default: all."),
     ] = None,
     point: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="NAME=X,Y,HEIGHT",
-            help="Point of the housing, mm, from the axis and above the floor.",
+            help="NAME=X,Y,HEIGHT: point of the housing, mm, from the axis and above the floor."
         ),
     ] = None,
     batch: Annotated[
         float | None,
         typer.Option(
-            metavar="DB",
-            help="Assumed standard deviation of the machines of a batch; default: one machine.",
+            help="Assumed standard deviation of the machines of a batch, dB; default: one machine."
         ),
     ] = None,
     out: Annotated[Path | None, out_option("Folder; default: that of the file.")] = None,
     plugin: Plugins = None,
-) -> None:
+) -> Outcome:
     """Write the data sheet of an option, predicted: page, CSV and JSON (ISO 4871, EN 12102-1)."""
     from .. import report
     from ..declaration.sheet import data_sheet
@@ -46,11 +49,12 @@ def datasheet_command(
     load_plugins(plugin)
     folder = out or results_file.parent
     points_m = arguments.points("--point", point)
-    names = None if microphones is None else microphones.split(",")
     outputs.check_folder(folder)
     results, _ = outputs.open_run(results_file)
-    with outputs.naming(results_file):
-        sheet = data_sheet(results, option, speed, names, points_m, batch)
-    written = sheets.write_data_sheet(sheet, folder)
-    typer.echo(report.data_sheet_headline(sheet))
-    typer.echo(f"data sheet: {written}")
+    with outputs.naming(results_file), stage(progress, "data sheet"):
+        sheet = data_sheet(results, option, speed, microphone or None, points_m, batch)
+    page = sheets.write_data_sheet(sheet, folder)
+    files = {"data sheet": page, "table": page.with_suffix(".csv")}
+    return Outcome(
+        report.data_sheet_headline(sheet), {**files, "for programs": page.with_suffix(".json")}
+    )

@@ -1,5 +1,6 @@
 """Commands for designs. Heavy imports wait until they are needed."""
 
+import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -7,10 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
+from ..base.progress import Progress
 from . import messages
-from .grouped import with_groups
-from .options import Paper, Pdf, Plugins, StudyOut, load_plugins
-from .progress import progress_on_stderr
+from .command import command
+from .options import Paper, Pdf, Plugins, StudyOut, load_plugins, with_pdf
+from .outcome import Outcome, Table, columns
 from .workers import Workers
 
 if TYPE_CHECKING:
@@ -22,20 +24,19 @@ if TYPE_CHECKING:
 
 SWEEP_NAME: Final = "sweep.nc"
 TABLE_NAME: Final = "sweep.csv"
+PAGE_NAME: Final = "designs.html"
 DESIGNS_NAME: Final = "designs.nc"
 SWEEP_CHUNKS: Final = "sweep_chunks"
 SEARCH_CHUNKS: Final = "search_chunks"
 
-commands = typer.Typer()
-
 StudyFile = Annotated[
-    Path, typer.Argument(metavar="STUDY.toml", help="The study with a table `design`.")
+    Path, typer.Argument(metavar="STUDY", help="Study file, .toml, with a table `design`.")
 ]
 
 
-@commands.command("sweep")
-@with_groups
+@command("sweep", "Designs", "pipelines/copeland_designs.toml --workers 4")
 def sweep_command(
+    progress: Progress,
     study_file: StudyFile,
     *,
     out: StudyOut = None,
@@ -43,13 +44,11 @@ def sweep_command(
     plugin: Plugins = None,
     longest: Annotated[
         float,
-        typer.Option(
-            "--longest", metavar="HOURS", min=0.0, help="Refuse a sweep that takes longer."
-        ),
+        typer.Option("--longest", min=0.0, help="Refuse a sweep that takes longer, hours."),
     ] = 12.0,
     pdf: Pdf = False,
     paper: Paper = None,
-) -> None:
+) -> Outcome:
     """Compute every design of a study's grid or sample: a dataset, a table and a report.
 
     Ended at any moment, the same command goes on where it was.
@@ -64,11 +63,8 @@ def sweep_command(
     opened = workers.opener()
     problem, folder = _problem(study_file, out, plugin)
     prepared = prepare(problem, 3600.0 * longest)
-    typer.echo(f"plan: {prepared.plan.text}")
-    with (
-        _evaluating(problem, study_file, folder / SWEEP_CHUNKS, opened, plugin) as evaluate,
-        progress_on_stderr() as progress,
-    ):
+    messages.inform(f"plan: {prepared.plan.text}")
+    with _evaluating(problem, study_file, folder / SWEEP_CHUNKS, opened, plugin) as evaluate:
         results = swept(prepared, progress, evaluate)
         searched = as_searched(prepared, results)
         search = explained(problem, searched, evaluate) if searched.any_allowed else None
@@ -81,25 +77,21 @@ def sweep_command(
     failed = int((results["failure"] > 0).sum())
     if failed:
         messages.warn([f"{failed} designs failed; {TABLE_NAME} tells why"])
-    typer.echo(f"designs: {written}")
-    if prints is not None and search is not None:
-        typer.echo(f"pdf: {folder / 'designs.pdf'}")
+    printed = None if search is None else prints
+    return Outcome(files=with_pdf({"designs": written}, folder / PAGE_NAME, printed))
 
 
-@commands.command("optimise")
-@with_groups
+@command("optimise", "Designs", "pipelines/copeland_designs.toml --json")
 def optimise_command(
+    progress: Progress,
     study_file: StudyFile,
     *,
     out: StudyOut = None,
     workers: Workers,
     plugin: Plugins = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the best designs as JSON on stdout alone.")
-    ] = False,
     pdf: Pdf = False,
     paper: Paper = None,
-) -> None:
+) -> Outcome:
     """Search the design space of a study: the best design, or the front of several objectives.
 
     Ended at any moment, the same command goes on where it was.
@@ -112,20 +104,31 @@ def optimise_command(
     prints = printer(pdf, paper)
     opened = workers.opener()
     problem, folder = _problem(study_file, out, plugin)
-    with (
-        _evaluating(problem, study_file, folder / SEARCH_CHUNKS, opened, plugin) as evaluate,
-        progress_on_stderr() as progress,
-    ):
+    with _evaluating(problem, study_file, folder / SEARCH_CHUNKS, opened, plugin) as evaluate:
         search = searched_designs(problem, evaluate, progress)
     files = outputs.with_pdf(_report(problem, search, study_file, folder), prints)
     written = outputs.write_analysis(search, folder, DESIGNS_NAME, files, lambda _: [])
-    if as_json:
-        typer.echo(report.designs_json(search))
-        return
-    typer.echo(report.designs_text(search))
-    typer.echo(f"designs: {written}")
-    if prints is not None:
-        typer.echo(f"pdf: {folder / 'designs.pdf'}")
+    return Outcome(
+        report.designs_text(search),
+        with_pdf({"designs": written}, folder / PAGE_NAME, prints),
+        _best(report.designs_json(search)),
+    )
+
+
+def _best(designs: str) -> dict[str, Table]:
+    """Tables of the best designs: their variables, and what they promise with 80 % intervals."""
+    found = json.loads(designs)
+    best = list(enumerate(found.pop("best"), 1))
+    promised = [
+        {"design": number, "wanted": name, **ends}
+        for number, design in best
+        for name, ends in design["wanted"].items()
+    ]
+    return {
+        "search": columns([found]),
+        "best": columns([{"design": number, **design["variables"]} for number, design in best]),
+        "promised": columns(promised),
+    }
 
 
 def _problem(

@@ -1,28 +1,31 @@
 """Commands that write sound. Heavy imports wait until they run."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from .options import NoCache, Plugins, ResultsFile, load_plugins, out_option, used_cache
-from .progress import progress_on_stderr
+from ..base.progress import Progress, stage
+from .command import command
+from .options import NoCache, Plugins, ResultsFile, StudyFile, load_plugins, out_option, used_cache
+from .outcome import Outcome
 
-commands = typer.Typer()
 
-
-@commands.command("listen")
+@command("listen", "Results", "reports/mine/results.nc --option none --option lanchester")
 def listen_command(
+    progress: Progress,
     results_file: ResultsFile,
     option: Annotated[
         list[str] | None, typer.Option(help="Option to listen to; default: all.")
     ] = None,
     microphone: Annotated[
         list[str] | None,
-        typer.Option(help="Microphone, or listener in a room; default: the first."),
+        typer.Option(help="Microphone, also in a room; may be repeated; default: the first."),
     ] = None,
     speed: Annotated[
-        list[float] | None, typer.Option(help="Speed, rpm; default: the first.")
+        list[float] | None,
+        typer.Option(help="Shaft speed, rpm; may be repeated; default: the first."),
     ] = None,
     seconds: Annotated[
         float, typer.Option(help="Duration, s, rounded to whole revolutions; 1 to 600.")
@@ -30,13 +33,11 @@ def listen_command(
     full_scale: Annotated[
         float | None,
         typer.Option(
-            metavar="PA",
-            help="Pressure at full scale, Pa; default: one that all sounds of the results fit in.",
+            help="Pressure at full scale, Pa; default: one that all sounds of the results fit in."
         ),
     ] = None,
     calibration: Annotated[
-        float | None,
-        typer.Option(metavar="DB", help="A tone of 1 kHz of this level too, dB re 20 µPa."),
+        float | None, typer.Option(help="Level of a further tone of 1 kHz, dB re 20 µPa.")
     ] = None,
     file_format: Annotated[
         str, typer.Option("--format", help="wav, or flac (extra `sound`).")
@@ -44,13 +45,13 @@ def listen_command(
     out: Annotated[
         Path | None, out_option("Folder of the sounds; default: sound, beside the file.")
     ] = None,
-) -> None:
-    """Write the sound of options where one listens, all at one gain, which the names state."""
+) -> Outcome:
+    """Write the sound of options at microphones, all at one gain, which the names state."""
     from . import outputs
     from .listening import listen
 
     results, _ = outputs.open_run(results_file)
-    with outputs.naming(results_file):
+    with outputs.naming(results_file), stage(progress, "sounds"):
         written = listen(
             results,
             out or results_file.parent / "sound",
@@ -62,23 +63,26 @@ def listen_command(
             calibration_db=calibration,
             file_format=file_format,
         )
-    for path in written:
-        typer.echo(f"sound: {path}")
+    return _named("sound", written)
 
 
-@commands.command("impulse-responses")
+@command(
+    "impulse-responses",
+    "Results",
+    "kitchen.toml --microphone table",
+    {"--listener": "--microphone"},
+)
 def impulse_responses_command(
-    study_file: Annotated[
-        Path, typer.Argument(metavar="STUDY.toml", help="A study with a table `room`.")
-    ],
-    listener: Annotated[
-        list[str] | None, typer.Option(help="Listener in the room; default: all.")
+    progress: Progress,
+    study_file: StudyFile,
+    microphone: Annotated[
+        list[str] | None,
+        typer.Option(help="Microphone in the room; may be repeated; default: all."),
     ] = None,
     full_scale: Annotated[
         float | None,
         typer.Option(
-            metavar="PA",
-            help="Pa per m/s² or rad/s² at full scale; default: one that all responses fit in.",
+            help="Pa per m/s² or rad/s² at full scale; default: one that all responses fit in."
         ),
     ] = None,
     out: Annotated[
@@ -87,7 +91,7 @@ def impulse_responses_command(
     ] = None,
     plugin: Plugins = None,
     no_cache: NoCache = False,
-) -> None:
+) -> Outcome:
     """Write responses in a room to the shell's accelerations, for listening to measured ones."""
     from .. import pipeline
     from ..study.loading import load_study
@@ -98,10 +102,14 @@ def impulse_responses_command(
     folder = out or Path("reports") / study_file.stem / "impulse_responses"
     study = load_study(study_file)
     outputs.check_folder(folder)
-    with outputs.naming(study_file), used_cache(no_cache), progress_on_stderr() as progress:
+    with outputs.naming(study_file), used_cache(no_cache):
         if study.room is not None:
-            check_asked(study.room.listeners, listener, full_scale)
+            check_asked(study.room.listeners, microphone, full_scale)
         responses = pipeline.impulse_responses(study, progress)
-        written = write_impulse_responses(responses, folder, listener or None, full_scale)
-    for path in written:
-        typer.echo(f"impulse response: {path}")
+        written = write_impulse_responses(responses, folder, microphone or None, full_scale)
+    return _named("impulse response", written)
+
+
+def _named(label: str, files: Sequence[Path]) -> Outcome:
+    """Files, each with a label of its own."""
+    return Outcome(files={f"{label} {number}": path for number, path in enumerate(files, 1)})

@@ -15,6 +15,8 @@ from ..base.folder import Folder, opened_folder
 _MAXIMUM_BYTES: Final = 1_000_000_000
 
 _LOG: Final[ContextVar[TextIO | None]] = ContextVar("_LOG", default=None)
+_WARNED: Final[ContextVar[list[str] | None]] = ContextVar("_WARNED", default=None)
+_QUIET: Final = ContextVar("_QUIET", default=False)
 
 
 @contextmanager
@@ -69,9 +71,31 @@ def lines_of(error: VibroacousticsError) -> list[str]:
 def warn(lines: Iterable[str]) -> None:
     """Print each as a warning."""
     for line in lines:
-        words = f"warning: {' '.join(line.split())}"
-        note(words)
-        print(words, file=sys.stderr)
+        words = " ".join(line.split())
+        warned = _WARNED.get()
+        if warned is not None:
+            warned.append(words)
+        note(f"warning: {words}")
+        print(f"warning: {words}", file=sys.stderr, flush=True)
+
+
+def inform(line: str) -> None:
+    """Write a line to the log and, unless the command is quiet, on stderr."""
+    note(line)
+    if not _QUIET.get():
+        print(line, file=sys.stderr, flush=True)
+
+
+@contextmanager
+def collected(quiet: bool) -> Iterator[list[str]]:
+    """Collect the warnings of a command; quiet, it prints nothing else on stderr."""
+    warned: list[str] = []
+    tokens = _WARNED.set(warned), _QUIET.set(quiet)
+    try:
+        yield warned
+    finally:
+        _WARNED.reset(tokens[0])
+        _QUIET.reset(tokens[1])
 
 
 @contextmanager

@@ -1,14 +1,11 @@
 """Messages of the library in the words of the command line: its options, not Python's arguments."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
-from functools import wraps
-from typing import Any, Final, TypeVar
+from typing import Final
 
 from ..base.errors import VibroacousticsError
-
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 _ARGUMENTS: Final = {
     "sample_rate_hz": "--sample-rate",
@@ -35,6 +32,7 @@ _ARGUMENTS: Final = {
     "distance_m": "--box, distance",
 }
 """Arguments, as messages write them with ` =` behind or `give` before, and the options."""
+_PARTS: Final = {"highest": "tacholess"}
 _GIVEN: Final = {"units": "--unit", "calibration": "--calibration"}
 _PAIR: Final = re.compile(r"(units|calibration)=\{'([^']*)': '?([^'}]*)'?\}")
 _UNKNOWN_CHANNEL: Final = re.compile(r"\b(units|calibration): no channel")
@@ -43,44 +41,42 @@ _ARGUMENT: Final = re.compile(
 )
 
 
-def in_options(message: str) -> str:
-    """A message of the library as the command line says it.
+def in_options(message: str, options: Collection[str]) -> str:
+    """Return a message of the library as the command line says it.
 
     Parameters
     ----------
     message : of an error
+    options : names of the command's options, as Python writes them
     """
-    message = _PAIR.sub(_pair, message)
-    message = _UNKNOWN_CHANNEL.sub(lambda match: f"{_GIVEN[match[1]]}: no channel", message)
-    message = message.replace("from_s and to_s, or channels", "--from and --to, or --channels")
-    message = message.replace("by from_s and to_s", "by --from and --to")
-    return _ARGUMENT.sub(_argument, message)
 
+    def argument(match: re.Match[str]) -> str:
+        option = _ARGUMENTS[match[1] or match[2]]
+        name = option.removeprefix("--").partition(",")[0].replace("-", "_")
+        if not {name, f"{name}_s", _PARTS.get(name, "")} & set(options):
+            return match[0]
+        return f"{option} = " if match[1] else option
 
-def in_own_words(command: Command) -> Command:
-    """The command with errors that speak of its options."""
-
-    @wraps(command)
-    def spoken(*arguments: Any, **options: Any) -> Any:
-        with _spoken():
-            return command(*arguments, **options)
-
-    return spoken  # type: ignore[return-value]
+    if "unit" in options:
+        message = _PAIR.sub(_pair, message)
+        message = _UNKNOWN_CHANNEL.sub(lambda match: f"{_GIVEN[match[1]]}: no channel", message)
+        message = message.replace("from_s and to_s, or channels", "--from and --to, or --channels")
+        message = message.replace("by from_s and to_s", "by --from and --to")
+    return _ARGUMENT.sub(argument, message)
 
 
 @contextmanager
-def _spoken() -> Iterator[None]:
+def spoken(options: Collection[str]) -> Iterator[None]:
+    """Let errors speak of a command's options."""
     try:
         yield
     except VibroacousticsError as error:
-        raise type(error)(*map(in_options, str(error).splitlines())) from error.__cause__
+        lines = str(error).splitlines()
+        changed = [in_options(line, options) for line in lines]
+        if changed == lines:
+            raise
+        raise type(error)(*changed) from error.__cause__
 
 
 def _pair(match: re.Match[str]) -> str:
     return f'{_GIVEN[match[1]]} "{match[2]}={match[3].removesuffix(".0")}"'
-
-
-def _argument(match: re.Match[str]) -> str:
-    if match[1]:
-        return f"{_ARGUMENTS[match[1]]} = "
-    return _ARGUMENTS[match[2]]

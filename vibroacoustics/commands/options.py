@@ -12,36 +12,39 @@ def out_option(words: str) -> Any:
     return typer.Option("--out", help=words)
 
 
-ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.nc", help="Results of a run.")]
+StudyFile = Annotated[Path, typer.Argument(metavar="STUDY", help="Study file, .toml.")]
+ResultsFile = Annotated[
+    Path, typer.Argument(metavar="RESULTS", help="Results of a run, results.nc.")
+]
+Recording = Annotated[Path, typer.Argument(metavar="RECORDING", help="File of the recording.")]
 FileOut = Annotated[
     Path | None, out_option("Folder of the results; default: reports/NAME OF THE FILE.")
 ]
 StudyOut = Annotated[
     Path | None, out_option("Folder of the results; default: reports/NAME OF THE STUDY.")
 ]
+Speed = Annotated[
+    float | None, typer.Option("--speed", help="Shaft speed, rpm; default: the first.")
+]
+Option = Annotated[str, typer.Option("--option", help="Balancing option of the study.")]
 Plugins = Annotated[
     list[Path] | None,
     typer.Option(
         "--plugin",
-        metavar="FILE.py",
-        help="Python file with options, sources, machines, readers, … of yours; it is run.",
+        help="Python file, .py, with options, sources, machines, readers, … of yours; it is run.",
     ),
 ]
 LimitsFile = Annotated[
     Path | None,
     typer.Option(
         "--limits",
-        metavar="LIMITS.csv",
-        help="Hold the orders against these limits: channel,order,limit,unit. "
-        "The exit code is 0 where they are exceeded, too.",
+        help="CSV file of limits: channel,order,limit,unit; `compare` takes those of bands, "
+        "totals and criteria, too. The exit code is 1 where a limit is broken.",
     ),
 ]
-
 NoCache = Annotated[
     bool, typer.Option("--no-cache", help="Neither read nor write the cache of the radiation.")
 ]
-
-
 Pdf = Annotated[
     bool,
     typer.Option(
@@ -49,7 +52,7 @@ Pdf = Annotated[
     ),
 ]
 Paper = Annotated[
-    str | None, typer.Option(metavar="SIZE", help="Of the PDF: a4 or letter; default: a4.")
+    str | None, typer.Option("--paper", help="Sheets of the PDF: a4 or letter; default: a4.")
 ]
 
 
@@ -66,3 +69,8 @@ def load_plugins(plugins: list[Path] | None) -> None:
 
     for file in plugins or ():
         load_plugin(file)
+
+
+def with_pdf(files: dict[str, Path], page: Path, printed: object) -> dict[str, Path]:
+    """Return the files by label, with the PDF of a page where it was printed."""
+    return files if printed is None else {**files, "pdf": page.with_suffix(".pdf")}

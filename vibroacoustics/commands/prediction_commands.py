@@ -1,25 +1,28 @@
-"""Commands for what measurements alone tell. Heavy imports wait until it is needed."""
+"""Commands for measurements without a model. Heavy imports wait until they are needed."""
 
 from pathlib import Path
 from typing import Annotated, Final
 
 import typer
 
+from ..base.progress import Progress, stage
+from .command import command
 from .options import FileOut
+from .outcome import Outcome
 
 PREDICTION_NAME: Final = "prediction.nc"
 BLOCKED_NAME: Final = "blocked_forces.nc"
 
-commands = typer.Typer()
 
-
-@commands.command("predict")
+@command("predict", "Measurements", "softer_mounts.toml")
 def predict_command(
+    progress: Progress,
     file: Annotated[
-        Path, typer.Argument(metavar="FILE.toml", help="Measured files, mounts and changes.")
+        Path,
+        typer.Argument(metavar="FILE", help="File, .toml, of measurements, mounts and changes."),
     ],
     out: FileOut = None,
-) -> None:
+) -> Outcome:
     """Predict a change of mounts, masses or absorbers from measurements alone, with a band."""
     from .. import report
     from ..measured.prediction import predict
@@ -27,26 +30,27 @@ def predict_command(
 
     folder = out or Path("reports") / file.stem
     outputs.check_folder(folder)
-    predicted = predict(file)
-    tables = {
-        "prediction.csv": report.prediction_csv(predicted),
-        "prediction.md": report.prediction_markdown(predicted),
-    }
-    written = outputs.write_analysis(
-        predicted, folder, PREDICTION_NAME, tables, report.predicted_figures
-    )
-    typer.echo(report.prediction_text(predicted))
-    typer.echo(f"prediction: {written}")
+    with stage(progress, "prediction"):
+        predicted = predict(file)
+        tables = {
+            "prediction.csv": report.prediction_csv(predicted),
+            "prediction.md": report.prediction_markdown(predicted),
+        }
+        written = outputs.write_analysis(
+            predicted, folder, PREDICTION_NAME, tables, report.predicted_figures
+        )
+    return Outcome(report.prediction_text(predicted), {"prediction": written})
 
 
-@commands.command("blocked-forces")
+@command("blocked-forces", "Measurements", "fan_in_situ.toml")
 def blocked_forces_command(
+    progress: Progress,
     file: Annotated[
-        Path, typer.Argument(metavar="FILE.toml", help="Measured files and the interface.")
+        Path, typer.Argument(metavar="FILE", help="File, .toml, of measurements and interface.")
     ],
     out: FileOut = None,
-) -> None:
-    """Find a source's blocked forces (ISO 20270) where it stands, validated on board."""
+) -> Outcome:
+    """Find the blocked forces of an installed source (ISO 20270), with on-board validation."""
     from .. import report
     from ..measured.blocked_forces import blocked_forces
     from ..measured.blocked_orders import blocked_orders_csv
@@ -54,16 +58,18 @@ def blocked_forces_command(
 
     folder = out or Path("reports") / file.stem
     outputs.check_folder(folder)
-    blocked = blocked_forces(file)
-    tables = {
-        "blocked_forces.csv": report.blocked_csv(blocked),
-        "validation.csv": report.validation_csv(blocked),
-        "blocked_forces.md": report.blocked_markdown(blocked),
-    }
-    with outputs.naming(file):
-        orders = blocked_orders_csv(blocked)
-    if orders is not None:
-        tables["orders.csv"] = orders
-    written = outputs.write_analysis(blocked, folder, BLOCKED_NAME, tables, report.blocked_figures)
-    typer.echo(report.blocked_text(blocked))
-    typer.echo(f"blocked forces: {written}")
+    with stage(progress, "blocked forces"):
+        blocked = blocked_forces(file)
+        tables = {
+            "blocked_forces.csv": report.blocked_csv(blocked),
+            "validation.csv": report.validation_csv(blocked),
+            "blocked_forces.md": report.blocked_markdown(blocked),
+        }
+        with outputs.naming(file):
+            orders = blocked_orders_csv(blocked)
+        if orders is not None:
+            tables["orders.csv"] = orders
+        written = outputs.write_analysis(
+            blocked, folder, BLOCKED_NAME, tables, report.blocked_figures
+        )
+    return Outcome(report.blocked_text(blocked), {"blocked forces": written})

@@ -30,15 +30,10 @@ def progress_on_stderr(quiet: bool = False, verbose: bool = False) -> Iterator[P
     if quiet:
         yield Lines(messages.note, shortest_s=shortest_s)
     elif verbose or not sys.stderr.isatty():
-        yield Lines(_print_and_note, shortest_s=shortest_s)
+        yield Lines(messages.inform, shortest_s=shortest_s)
     else:
         with _bar() as progress:
             yield progress
-
-
-def _print_and_note(line: str) -> None:
-    messages.note(line)
-    print(line, file=sys.stderr, flush=True)
 
 
 @contextmanager

@@ -32,11 +32,11 @@ class Reading:
 
     unit: Annotated[
         list[str] | None,
-        typer.Option("--unit", metavar="CHANNEL=UNIT", help="Where the file states none."),
+        typer.Option(help="CHANNEL=UNIT, where the file states none; may be repeated."),
     ] = None
     calibration: Annotated[
         list[str] | None,
-        typer.Option(metavar="CHANNEL=FACTOR", help="Unit per unit stored in the file."),
+        typer.Option(help="CHANNEL=FACTOR: unit per unit stored in the file; may be repeated."),
     ] = None
     channels: Annotated[str | None, typer.Option(help="Channels to read, with commas.")] = None
     sample_rate: SampleRate = None

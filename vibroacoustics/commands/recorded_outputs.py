@@ -1,4 +1,4 @@
-"""What `track` and `map` leave on disk: the dataset, its table and figures."""
+"""Files of `track`, `map` and `tones`: the dataset, its table, page and figures."""
 
 from pathlib import Path
 from typing import Final
@@ -7,10 +7,13 @@ import xarray as xr
 
 from .. import report
 from .outputs import write_analysis
+from .tone_tables import tones_csv, tones_html
 
 TRACKED_NAME: Final = "tracked_orders.nc"
 SPEED_MAP_NAME: Final = "speed_map.nc"
 SPEED_MAP_REPORT_NAME: Final = "speed_map.html"
+TONES_NAME: Final = "tones.nc"
+TONES_REPORT_NAME: Final = "tones.html"
 
 
 def write_tracked(tracked: xr.Dataset, folder: str | Path) -> Path:
@@ -24,3 +27,9 @@ def write_speed_map(mapped: xr.Dataset, folder: str | Path) -> Path:
     pictures = report.speed_map_figures(mapped)
     page = {SPEED_MAP_REPORT_NAME: report.speed_map_html(mapped, pictures)}
     return write_analysis(mapped, folder, SPEED_MAP_NAME, page, lambda _: pictures)
+
+
+def write_tones(found: xr.Dataset, folder: str | Path) -> Path:
+    """Write tones with table and page; see `write_analysis`."""
+    files = {"tones.csv": tones_csv(found), TONES_REPORT_NAME: tones_html(found)}
+    return write_analysis(found, folder, TONES_NAME, files, lambda _: [])

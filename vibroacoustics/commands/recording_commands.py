@@ -1,36 +1,36 @@
-"""Commands for recordings: orders, track, map, export, tones.
+"""Commands for recordings: orders, track, map, tones, export.
 
 Heavy imports wait until a command needs them.
 """
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
-from .grouped import with_groups
-from .option_words import in_own_words
-from .options import FileOut, LimitsFile, Paper, Pdf, Plugins
-from .progress import progress_on_stderr
+from ..base.progress import Progress, stage
+from .command import command
+from .options import FileOut, LimitsFile, Paper, Pdf, Plugins, Recording, with_pdf
+from .outcome import Outcome
 from .reading import Reading
 from .speed_options import SpeedOptions
 
-commands = typer.Typer()
+RENAMED: Final = {"--speed": "--speed-channel"}
+Orders = Annotated[str, typer.Option("--orders", help="Shaft orders, with commas.")]
 
-Recording = Annotated[Path, typer.Argument(metavar="FILE", help="The recording.")]
 
-
-@commands.command("orders")
-@in_own_words
-@with_groups
+@command("orders", "Recordings", "machine.wav --speed-channel tacho --orders 1,2", RENAMED)
 def orders_command(
+    progress: Progress,
     recording_file: Recording,
     *,
     speed: SpeedOptions,
-    orders: Annotated[str, typer.Option(help="Orders wanted, with commas.")] = "1,2,3,4",
+    orders: Orders = "1,2,3,4",
     maximum_order: Annotated[float, typer.Option(help="Highest order of spectra and map.")] = 20.0,
     resolution: Annotated[float, typer.Option(help="Coarsest resolution, orders.")] = 0.25,
-    speed_step: Annotated[float, typer.Option(help="Of a run-up's operating points, rpm.")] = 100.0,
+    speed_step: Annotated[
+        float, typer.Option(help="Step between operating points of a run-up, rpm.")
+    ] = 100.0,
     with_map: Annotated[bool, typer.Option("--map", help="Keep and draw the order map.")] = False,
     bands: Annotated[
         str, typer.Option(help="Third octaves: sums of lines, or filters of IEC 61260-1.")
@@ -41,7 +41,7 @@ def orders_command(
     plugin: Plugins = None,
     pdf: Pdf = False,
     paper: Paper = None,
-) -> None:
+) -> Outcome:
     """Find the orders of a recording: orders.html, netCDF, CSV, figures and a table."""
     from .. import report
     from ..measured.recorded_orders import analyse_orders
@@ -49,9 +49,8 @@ def orders_command(
     from . import arguments, checking, outputs
     from .printing import printer
 
-    source = speed.source()
     settings = OrderAnalysis(
-        source,
+        speed.source(),
         arguments.order_numbers(orders),
         maximum_order,
         resolution,
@@ -63,34 +62,32 @@ def orders_command(
     outputs.check_folder(folder)
     allowed = checking.read(limits)
     recording = reading.in_blocks(recording_file, plugin)
-    with progress_on_stderr() as progress:
-        results = analyse_orders(recording, settings, progress)
-        results = checking.held_against(results, allowed)
-        written = outputs.write_orders(results, folder, prints)
-    typer.echo(report.orders_text(results))
-    checking.print_margins(results, folder / outputs.LIMITS_NAME)
-    typer.echo(f"orders: {written}")
-    typer.echo(f"report: {folder / outputs.ORDERS_REPORT_NAME}")
-    if prints is not None:
-        typer.echo(f"pdf: {(folder / outputs.ORDERS_REPORT_NAME).with_suffix('.pdf')}")
+    results = checking.held_against(analyse_orders(recording, settings, progress), allowed)
+    written = outputs.write_orders(results, folder, prints)
+    page = folder / outputs.ORDERS_REPORT_NAME
+    files = checking.margin_files(results, folder / outputs.LIMITS_NAME)
+    return Outcome(
+        checking.with_margins(report.orders_text(results), results),
+        with_pdf({**files, "orders": written, "report": page}, page, prints),
+        broken=report.broken_lines(results, ()),
+    )
 
 
-@commands.command("track")
-@in_own_words
-@with_groups
+@command("track", "Recordings", "run_up.csv --speed-channel tacho --bandwidth 3", RENAMED)
 def track_command(
+    progress: Progress,
     recording_file: Recording,
     *,
     bandwidth: Annotated[
         float, typer.Option(help="Full width at -3 dB of what passes around each order, Hz.")
     ],
     speed: SpeedOptions,
-    orders: Annotated[str, typer.Option(help="Orders to track, with commas.")] = "1,2,3,4",
+    orders: Orders = "1,2,3,4",
     poles: Annotated[int, typer.Option(help="1, 2 or 3: steepness of the filter.")] = 2,
     reading: Reading,
     out: FileOut = None,
     plugin: Plugins = None,
-) -> None:
+) -> Outcome:
     """Track orders over the time of a recording (Vold-Kalman): netCDF, figures and a table."""
     from .. import report
     from ..measured.recorded_orders import track_orders
@@ -101,16 +98,15 @@ def track_command(
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = reading.at_once(recording_file, plugin)
-    tracked = track_orders(recording, source, numbers, bandwidth, poles)
-    written = recorded_outputs.write_tracked(tracked, folder)
-    typer.echo(report.tracked_text(tracked))
-    typer.echo(f"tracked orders: {written}")
+    with stage(progress, "tracked orders"):
+        tracked = track_orders(recording, source, numbers, bandwidth, poles)
+        written = recorded_outputs.write_tracked(tracked, folder)
+    return Outcome(report.tracked_text(tracked), {"tracked orders": written})
 
 
-@commands.command("map")
-@in_own_words
-@with_groups
+@command("map", "Recordings", "run_up.csv --speed-channel tacho --resolution 4", RENAMED)
 def map_command(
+    progress: Progress,
     recording_file: Recording,
     *,
     speed: SpeedOptions,
@@ -121,7 +117,7 @@ def map_command(
     reading: Reading,
     out: FileOut = None,
     plugin: Plugins = None,
-) -> None:
+) -> Outcome:
     """Draw a recording over speed and frequency, its level over the speed: page, figures."""
     from ..measured.recorded_orders import speed_frequency_map
     from . import outputs, recorded_outputs
@@ -130,42 +126,51 @@ def map_command(
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = reading.at_once(recording_file, plugin)
-    mapped = speed_frequency_map(recording, source, resolution, maximum_frequency)
-    typer.echo(f"speed-frequency map: {recorded_outputs.write_speed_map(mapped, folder)}")
-    typer.echo(f"report: {folder / recorded_outputs.SPEED_MAP_REPORT_NAME}")
+    with stage(progress, "speed-frequency map"):
+        mapped = speed_frequency_map(recording, source, resolution, maximum_frequency)
+        written = recorded_outputs.write_speed_map(mapped, folder)
+    page = folder / recorded_outputs.SPEED_MAP_REPORT_NAME
+    return Outcome(files={"speed-frequency map": written, "report": page})
 
 
-@commands.command("export")
-@in_own_words
-@with_groups
+@command("tones", "Recordings", 'machine.wav --unit "channel 1=Pa"')
+def tones_command(
+    progress: Progress,
+    recording_file: Recording,
+    *,
+    reading: Reading,
+    out: FileOut = None,
+    plugin: Plugins = None,
+) -> Outcome:
+    """Find the tones of a steady recording, prominent or not, with loudness and sharpness."""
+    from ..measured.recorded_tones import recorded_tones
+    from . import outputs, recorded_outputs, tone_tables
+
+    folder = out or Path("reports") / recording_file.stem
+    outputs.check_folder(folder)
+    recording = reading.at_once(recording_file, plugin)
+    with outputs.naming(recording_file), stage(progress, "tones"):
+        found = recorded_tones(recording)
+    written = recorded_outputs.write_tones(found, folder)
+    page = folder / recorded_outputs.TONES_REPORT_NAME
+    return Outcome(
+        tone_tables.tones_text(found),
+        {"tones": written, "report": page},
+        numbers=tone_tables.tone_numbers(found),
+    )
+
+
+@command("export", "Recordings", "machine.uff --out machine.csv")
 def export_command(
     recording_file: Recording,
     *,
     out: Annotated[Path, typer.Option("--out", help="File that ends in .csv, .wav or .nc.")],
     reading: Reading,
     plugin: Plugins = None,
-) -> None:
+) -> Outcome:
     """Write a recording as CSV, WAV or netCDF in SI units."""
     from . import exporting, outputs
 
     outputs.check_folder(out.parent)
     recording = reading.at_once(recording_file, plugin)
-    typer.echo(f"recording: {exporting.export_recording(recording, out)}")
-
-
-@commands.command("tones")
-@in_own_words
-@with_groups
-def tones_command(
-    recording_file: Recording,
-    *,
-    reading: Reading,
-    plugin: Plugins = None,
-) -> None:
-    """Print the tones of a steady recording, prominent or not, with loudness and sharpness."""
-    from . import outputs
-    from .recorded_tones import tones_text
-
-    recording = reading.at_once(recording_file, plugin)
-    with outputs.naming(recording_file):
-        typer.echo(tones_text(recording))
+    return Outcome(files={"recording": exporting.export_recording(recording, out)})

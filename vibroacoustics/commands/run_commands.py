@@ -1,88 +1,75 @@
-"""Command that runs studies. Heavy imports wait until it runs."""
+"""Commands that run studies and check them. Heavy imports wait until they run."""
 
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..base.errors import ParameterError
+from ..base.fault import collected
 from ..base.progress import Progress
 from . import messages
-from .options import NoCache, Plugins, load_plugins, out_option, used_cache
-from .progress import progress_on_stderr
+from .command import command
+from .options import (
+    NoCache,
+    Paper,
+    Pdf,
+    Plugins,
+    ResultsFile,
+    StudyFile,
+    StudyOut,
+    load_plugins,
+    out_option,
+    used_cache,
+    with_pdf,
+)
+from .outcome import Outcome
 
 if TYPE_CHECKING:
     from ..study.study import Study
 
-commands = typer.Typer()
 
-StudyFiles = Annotated[
-    list[Path], typer.Argument(metavar="STUDY.toml...", help="The studies to run.")
-]
-Out = Annotated[
-    Path | None,
-    out_option(
-        "Folder of the results; of several studies one in it each; "
-        "default: reports/NAME OF THE STUDY."
-    ),
-]
-Coarse = Annotated[
-    bool,
-    typer.Option(
-        "--coarse",
-        help="A first look: fewer speeds and samples, coarser grids, with its error told.",
-    ),
-]
-AsJson = Annotated[
-    bool, typer.Option("--json", help="Print a summary as JSON on stdout, and no other words.")
-]
-Quiet = Annotated[
-    bool, typer.Option("--quiet", help="Print nothing but warnings and errors, and --json.")
-]
-Verbose = Annotated[
-    bool, typer.Option("--verbose", help="A line for every stage, however short, on stderr.")
-]
-Without = Annotated[
-    list[str] | None,
-    typer.Option(metavar="NAME", help="Source of the studies that is omitted; may be repeated."),
-]
-Log = Annotated[
-    Path | None,
-    typer.Option(metavar="FILE", help="Append stages, warnings and errors with their times."),
-]
-
-
-@commands.command("run")
+@command("run", "Studies", "pipelines/copeland_sources.toml")
 def run_command(
-    study_files: StudyFiles,
-    out: Out = None,
+    progress: Progress,
+    study_files: Annotated[list[Path], typer.Argument(metavar="STUDY", help="Study files, .toml.")],
+    out: Annotated[
+        Path | None,
+        out_option(
+            "Folder of the results; of several studies one in it each; "
+            "default: reports/NAME OF THE STUDY."
+        ),
+    ] = None,
     plugin: Plugins = None,
     no_cache: NoCache = False,
-    coarse: Coarse = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-    verbose: Verbose = False,
-    log: Log = None,
-    without: Without = None,
-) -> None:
+    coarse: Annotated[
+        bool,
+        typer.Option(
+            "--coarse",
+            help="Take fewer speeds and samples and coarser grids, and report the error.",
+        ),
+    ] = False,
+    without: Annotated[
+        list[str] | None,
+        typer.Option(help="Name of a source of the studies to omit; may be repeated."),
+    ] = None,
+) -> Outcome:
     """Run studies and write results.nc, report.html, tables and figures of each."""
-    with messages.logged(log):
-        load_plugins(plugin)
-        studies = _studies(study_files, out, coarse, without or ())
-        summaries = []
-        with used_cache(no_cache), progress_on_stderr(quiet, verbose) as progress:
-            for number, (study, folder) in enumerate(studies):
-                if len(studies) > 1:
-                    progress("all studies", number, len(studies))
-                summaries.append(_run(study, folder, progress, quiet or as_json))
-            if len(studies) > 1:
-                progress("all studies", len(studies), len(studies))
-    if as_json:
-        import json
+    from .summary import summary
 
-        typer.echo(json.dumps({"studies": summaries}, indent=1))
+    load_plugins(plugin)
+    studies = _studies(study_files, out, coarse, without or ())
+    outcomes = {}
+    with used_cache(no_cache):
+        for number, (study, folder) in enumerate(studies):
+            if len(studies) > 1:
+                progress("all studies", number, len(studies))
+            outcomes[folder.name] = _run(study, folder, progress)
+        if len(studies) > 1:
+            progress("all studies", len(studies), len(studies))
+    return summary(outcomes)
 
 
 def _studies(
@@ -109,26 +96,86 @@ def _studies(
     return studies
 
 
-def _run(study: "Study", folder: Path, progress: Progress, silent: bool) -> dict[str, Any]:
-    """Run one study and write its files; its summary."""
-    from .. import pipeline, report
+def _run(study: "Study", folder: Path, progress: Progress) -> Outcome:
+    """Run one study and write its files."""
+    from .. import pipeline
+    from ..base.progress import stage
     from . import outputs
-    from .summary import summary
+    from .summary import outcome
 
     start = time.monotonic()
     messages.note(f"run: {study.source_file}")
     results = pipeline.run(study, progress)
-    progress("report", 0, 1)
-    written = outputs.write_report(results, folder)
-    progress("report", 1, 1)
-    messages.note(f"report: {written}")
-    if not silent:
-        typer.echo(report.comparison_text(results))
-        typer.echo(report.kwave_text(results), nl=False)
-        for line in study.left_out:
-            typer.echo(line)
-        for words in study.coarsened:
-            typer.echo(f"coarse: {words}")
-        typer.echo(f"report: {written}")
+    with stage(progress, "report"):
+        outputs.write_report(results, folder)
     messages.warn(outputs.older_files(folder))
-    return summary(study, results, folder, time.monotonic() - start)
+    return outcome(study, results, folder, time.monotonic() - start)
+
+
+@command("check", "Studies", "pipelines/copeland_sources.toml")
+def check_command(
+    progress: Progress,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Study or machine file, .toml.")],
+    plugin: Plugins = None,
+) -> Outcome:
+    """List all errors of a study or a machine, and what a run of the study would cost."""
+    from ..pipeline.cost import run_cost
+    from ..study.loading import load_study_or_machine
+    from ..study.study import Study
+    from . import cost_lines
+
+    with collected() as left_out:
+        load_plugins(plugin)
+        checked = load_study_or_machine(file)
+        if isinstance(checked, Study):
+            lines = list(cost_lines.study_lines(checked))
+            lines += cost_lines.cost_lines(run_cost(checked, progress))
+        else:
+            lines = list(cost_lines.machine_lines(checked))
+    what = "nothing else is wrong" if left_out else "nothing is wrong"
+    return Outcome("\n".join([*lines, f"{file}: {what}"]))
+
+
+@command("radiation", "Studies", "pipelines/copeland_thesis.toml")
+def radiation_command(
+    progress: Progress,
+    study_file: StudyFile,
+    out: StudyOut = None,
+    plugin: Plugins = None,
+    no_cache: NoCache = False,
+) -> Outcome:
+    """Compute the housing's radiation alone: transfer vectors, map, directivity, sound power."""
+    from .. import pipeline, report
+    from ..study.loading import load_study
+    from . import outputs
+
+    load_plugins(plugin)
+    folder = out or Path("reports") / study_file.stem
+    study = load_study(study_file)
+    outputs.check_folder(folder)
+    with used_cache(no_cache):
+        radiated = pipeline.radiate(study, progress)
+    written = outputs.write_radiation(radiated, folder)
+    return Outcome(report.radiation_text(radiated), {"transfer vectors": written})
+
+
+@command("report", "Results", "reports/copeland_sources/results.nc --pdf")
+def report_command(
+    results_file: ResultsFile,
+    out: Annotated[
+        Path | None, out_option("Folder of the report; default: that of the file.")
+    ] = None,
+    plugin: Plugins = None,
+    pdf: Pdf = False,
+    paper: Paper = None,
+) -> Outcome:
+    """Write the report of results again, without computing anything; as PDF, too."""
+    from . import outputs
+    from .printing import printer
+
+    load_plugins(plugin)
+    prints = printer(pdf, paper)
+    folder = out or results_file.parent
+    written = outputs.write_report_again(results_file, folder, prints)
+    messages.warn(outputs.older_files(folder))
+    return Outcome(files=with_pdf({"report": written}, written, prints))

@@ -5,16 +5,16 @@ from typing import Annotated, Any
 
 import typer
 
+from .command import command
 from .options import Plugins, load_plugins, out_option
+from .outcome import SCHEMA, Outcome
 
-commands = typer.Typer()
 
-
-@commands.command("new")
+@command("new", "Studies", "oldham-scroll --out my_machine")
 def new_command(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="Of machine.")],
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="Kind of machine.")],
     out: Annotated[Path | None, out_option("Folder of the files; default: KIND.")] = None,
-) -> None:
+) -> Outcome:
     """Write a commented machine file and study to begin with, and their schemas."""
     from ..base.errors import StorageError
     from ..results.files import only_writer, replace_all, write
@@ -31,25 +31,40 @@ def new_command(
             write(staged, name, content)
         replace_all(staged)
     study = folder / starter.STUDY_NAME
-    for name in files:
-        typer.echo(f"written: {folder / name}")
-    typer.echo(f"next: vibroacoustics check {study}; vibroacoustics run {study}")
+    return Outcome(
+        f"next: vibroacoustics check {study}; vibroacoustics run {study}",
+        {f"written {name}": folder / name for name in files},
+    )
 
 
-@commands.command("schema")
+@command("schema", "Installation", "envelope")
 def schema_command(
-    out: Annotated[Path, typer.Option("--out", help="Folder of the files.")] = Path("schemas"),
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="NAME", help="Schema to print: study, machine, data_sheet or envelope."
+        ),
+    ] = None,
+    out: Annotated[Path, out_option("Folder of the files.")] = Path("schemas"),
     plugin: Plugins = None,
-) -> None:
-    """Write JSON schemas: of study and machine files, for editors, and of a data sheet."""
+) -> Outcome:
+    """Write JSON schemas of study, machine, data sheet and of the object of --json; or print one.
+
+    Editors take those of study and machine.
+    """
     from ..results.data_sheet import data_sheet_schema
     from ..results.files import write_together
+    from .arguments import chosen
 
     load_plugins(plugin)
     schemas = _schemas() | {"data_sheet.json": _text(data_sheet_schema())}
+    schemas["envelope.json"] = _text(SCHEMA)
+    if name is not None:
+        known = [file.removesuffix(".json") for file in schemas]
+        return Outcome(schemas[f"{chosen('NAME', name, known)}.json"].decode())
     write_together(out, schemas)
-    for name in ("study.json", "machine.json"):
-        typer.echo(f"#:schema {out / name}")
+    lines = (f"#:schema {out / file}" for file in ("study.json", "machine.json"))
+    return Outcome("\n".join(lines), {file: out / file for file in schemas})
 
 
 def _schemas() -> dict[str, bytes]:

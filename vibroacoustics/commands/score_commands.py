@@ -5,24 +5,26 @@ from typing import Annotated
 
 import typer
 
+from ..base.progress import Progress, stage
 from . import messages
+from .command import command
 from .options import Plugins, ResultsFile, load_plugins, out_option
+from .outcome import Outcome
 
-commands = typer.Typer()
 
-
-@commands.command("score")
+@command("score", "Results", "reports/mine/results.nc --scoring mine.toml")
 def score_command(
+    progress: Progress,
     results_file: ResultsFile,
     scoring_of: Annotated[
         Path | None,
-        typer.Option("--scoring", metavar="STUDY.toml", help="Take scales and weights from here."),
+        typer.Option("--scoring", help="Study file, .toml, with other scales and weights."),
     ] = None,
     out: Annotated[
         Path | None, out_option("Folder of what is written; default: scored, beside the file.")
     ] = None,
     plugin: Plugins = None,
-) -> None:
+) -> Outcome:
     """Score the options again: print the ranking, write results and report with it."""
     from .. import scoring
     from ..results import manifest
@@ -36,8 +38,8 @@ def score_command(
     results, _ = outputs.open_run(results_file)
     messages.warn(manifest.mixed(results_file.parent))
     settings = loading.load_study(scoring_of).scoring if scoring_of else None
-    with outputs.naming(scoring_of or results_file):
+    with outputs.naming(scoring_of or results_file), stage(progress, "scores"):
         scored = scored_again(results, settings)
-    written = outputs.write_report(scored, folder)
-    typer.echo(scoring.ranking_text(scored))
-    typer.echo(f"report: {written}")
+    with stage(progress, "report"):
+        written = outputs.write_report(scored, folder)
+    return Outcome(scoring.ranking_text(scored), {"report": written})

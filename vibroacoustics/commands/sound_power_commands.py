@@ -5,60 +5,65 @@ from typing import Annotated, Final
 
 import typer
 
-from .option_words import in_own_words
+from ..base.progress import Progress, stage
+from .command import command
 from .options import Plugins, out_option
+from .outcome import Outcome
 from .reading import Reading, SampleRate
 
 SOUND_POWER_NAME: Final = "sound_power.nc"
 
-commands = typer.Typer()
 
-
-@commands.command("sound-power")
-@in_own_words
+@command("sound-power", "Recordings", 'front.wav rear.wav --hemisphere 1.0 --unit "channel 1=Pa"')
 def sound_power_command(
+    progress: Progress,
     files: Annotated[
-        list[Path], typer.Argument(metavar="FILE...", help="Recordings of the microphones.")
+        list[Path],
+        typer.Argument(metavar="RECORDING", help="Files of the microphones' recordings."),
     ],
     hemisphere: Annotated[
-        float | None, typer.Option(metavar="RADIUS", help="They stand on a hemisphere, m.")
+        float | None, typer.Option(help="Radius of the hemisphere of the microphones, m.")
     ] = None,
     box: Annotated[
         tuple[float, float, float, float] | None,
         typer.Option(
-            metavar="LENGTH WIDTH HEIGHT DISTANCE",
-            help="They stand on a box: edges of the smallest around the machine, distance, m.",
+            help="Box of the microphones: length, width and height of the smallest box around the "
+            "machine, distance from it, m."
         ),
     ] = None,
     background: Annotated[
         list[Path] | None,
-        typer.Option(metavar="FILE", help="Recording while the machine stands still."),
+        typer.Option(help="Recording without the machine running; may be repeated."),
     ] = None,
     absorption_area: Annotated[
         str | None,
-        typer.Option(metavar="M2", help="Of the room, m², or CSV by band; default: free field."),
+        typer.Option(
+            help="Absorption area of the room, m², or CSV file by band; default: free field."
+        ),
     ] = None,
     reverberation_time: Annotated[
-        str | None, typer.Option(metavar="S", help="Of the room, s, or CSV by band.")
+        str | None, typer.Option(help="Reverberation time of the room, s, or CSV file by band.")
     ] = None,
     volume: Annotated[
-        float | None, typer.Option(metavar="M3", help="Of the room, m³, beside its reverberation.")
+        float | None, typer.Option(help="Volume of the room, m³, with its reverberation time.")
     ] = None,
     unit: Annotated[
         list[str] | None,
-        typer.Option("--unit", metavar="[FILE:]CHANNEL=UNIT", help="Where a file states none."),
+        typer.Option(help="CHANNEL=UNIT or FILE:CHANNEL=UNIT, where a file states none."),
     ] = None,
     calibration: Annotated[
         list[str] | None,
-        typer.Option(metavar="[FILE:]CHANNEL=FACTOR", help="Unit per unit stored in the file."),
+        typer.Option(
+            help="CHANNEL=FACTOR or FILE:CHANNEL=FACTOR: unit per unit stored in the file."
+        ),
     ] = None,
     sample_rate: SampleRate = None,
     out: Annotated[
         Path | None, out_option("Folder of the results; default: reports/NAME OF THE FIRST.")
     ] = None,
     plugin: Plugins = None,
-) -> None:
-    """Sound power of a machine from the microphones around it, with K1 and K2 (ISO 3744)."""
+) -> Outcome:
+    """Measure the sound power of a machine with the microphones around it, K1 and K2 (ISO 3744)."""
     from .. import report
     from ..measured.sound_power import sound_power
     from . import microphones, outputs
@@ -70,12 +75,22 @@ def sound_power_command(
     reading = Reading(unit, calibration, sample_rate=sample_rate)
     given = ([*files, *quiet], reading, plugin)
     running, still = (microphones.read_files(each, *given) for each in (files, quiet))
-    measured = sound_power(running, surface, still, absorption)
+    with stage(progress, "sound power"):
+        measured = sound_power(running, surface, still, absorption)
     tables = {
         "sound_power.csv": report.measured_power_csv(measured),
         "sound_power.html": report.measured_power_html(measured),
     }
     written = outputs.write_analysis(measured, folder, SOUND_POWER_NAME, tables, lambda _: [])
-    typer.echo(report.measured_power_text(measured))
-    typer.echo(f"sound power: {written}")
-    typer.echo(f"report: {folder / 'sound_power.html'}")
+    level = {
+        "value": measured["measured_power_level_a"].item(),
+        "unit": "dB(A)",
+        "variable": "measured_power_level_a",
+        "selection": {},
+        "statistic": "value",
+    }
+    return Outcome(
+        report.measured_power_text(measured),
+        {"sound power": written, "report": folder / "sound_power.html"},
+        numbers=[level],
+    )

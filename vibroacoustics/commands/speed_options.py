@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 class SpeedOptions:
     """Options of the speed, as the command line has them."""
 
-    speed: Annotated[
+    speed_channel: Annotated[
         str | None,
         typer.Option(
             help="Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal."
@@ -35,10 +35,12 @@ class SpeedOptions:
             "--edge", help="Edge of the tacho's pulses: rising or falling; default: auto."
         ),
     ] = None
-    rpm: Annotated[float | None, typer.Option(help="Nominal speed, instead of a channel.")] = None
+    rpm: Annotated[
+        float | None, typer.Option(help="Nominal shaft speed, rpm, instead of a channel.")
+    ] = None
     tacholess: Annotated[
         tuple[float, float] | None,
-        typer.Option(metavar="LOWEST HIGHEST", help="Find the speed in the signal, rpm."),
+        typer.Option(help="Find the speed in the signal: lowest and highest speed, rpm."),
     ] = None
     comb: Annotated[
         str | None,
@@ -49,7 +51,7 @@ class SpeedOptions:
     mains: Annotated[
         float | None,
         typer.Option(
-            help="With --tacholess: frequency of the mains, Hz; its multiples are left out."
+            help="With --tacholess: frequency of the mains, Hz; its multiples are neglected."
         ),
     ] = None
 
@@ -71,22 +73,23 @@ class SpeedOptions:
         )
         from .arguments import chosen, order_numbers
 
-        by_channel = self.speed is not None and self.tacholess is None
+        by_channel = self.speed_channel is not None and self.tacholess is None
         if sum([self.rpm is not None, self.tacholess is not None, by_channel]) != 1:
             raise ParameterError(
-                "speed: give one of --speed CHANNEL, --rpm NUMBER and --tacholess LOWEST HIGHEST"
+                "speed: give one of --speed-channel CHANNEL, --rpm NUMBER and "
+                "--tacholess LOWEST HIGHEST"
             )
         tacho = any(option is not None for option in (self.index, self.threshold, self.edge))
         if (tacho or self.pulses != 1) and not by_channel:
             raise ParameterError(
-                "--index, --pulses, --threshold, --edge: belong to a tacho, --speed CHANNEL"
+                "--index, --pulses, --threshold, --edge: belong to a tacho, --speed-channel CHANNEL"
             )
         if (self.comb is not None or self.mains is not None) and self.tacholess is None:
             raise ParameterError("--comb, --mains: belong to --tacholess LOWEST HIGHEST")
         if self.tacholess is not None:
             orders = DEFAULT_COMB if self.comb is None else order_numbers(self.comb, "--comb")
-            return TacholessSpeed(self.speed, *self.tacholess, orders, self.mains)
+            return TacholessSpeed(self.speed_channel, *self.tacholess, orders, self.mains)
         if self.rpm is not None:
             return NominalSpeed(self.rpm)
         edge = None if self.edge is None else chosen("--edge", self.edge, EDGES)
-        return SpeedChannel(str(self.speed), self.pulses, self.index, self.threshold, edge)
+        return SpeedChannel(str(self.speed_channel), self.pulses, self.index, self.threshold, edge)

@@ -1,25 +1,20 @@
-"""What a run says to other programs."""
+"""Outcome of `run`: text, files and tables of each study, and what the studies took."""
 
-import csv
-import io
-from math import isfinite
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final
 
 import xarray as xr
 
-from ..base.regular_file import read_text
+from .. import report
 from ..report.kwave_words import kwave_difference_db, receiver_methods
 from ..results.estimates import has_samples, sample_numbers
 from ..study.study import Study
+from .outcome import Outcome, columns
 from .outputs import REPORT_NAME, RESULTS_NAME
 
-_MAXIMUM_BYTES: Final = 100_000_000
-_ROWS: Final = ("comparison", "scores")
 
-
-def summary(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> dict[str, Any]:
-    """A run as plain JSON values: files, time, and the rows of its tables.
+def outcome(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> Outcome:
+    """Give the outcome of one study.
 
     Parameters
     ----------
@@ -28,35 +23,40 @@ def summary(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> 
     folder : where they are
     seconds : that it took
     """
-    return {
+    coarse = [f"coarse: {words}" for words in study.coarsened]
+    text = report.comparison_text(results) + "\n" + report.kwave_text(results)
+    row = {
         "study": study.source_file,
         "title": study.title,
         "machine": study.machine.name,
-        "results": str(folder / RESULTS_NAME),
-        "report": str(folder / REPORT_NAME),
         "seconds": round(seconds, 1),
         "samples": sample_numbers(results).computed if has_samples(results) else 0,
-        "coarsened": list(study.coarsened),
+        "coarsened": "; ".join(study.coarsened),
         "kwave_difference_db": kwave_difference_db(results),
-        "receivers": {
-            name: {"method": method, "reason": reason}
-            for name, (method, reason) in receiver_methods(results).items()
-        },
-        **{name: _rows(read_text(folder / f"{name}.csv", _MAXIMUM_BYTES)) for name in _ROWS},
     }
-
-
-def _rows(text: str) -> list[dict[str, Any]]:
-    """Rows of a table by head; numbers as numbers, empty cells as null."""
-    return [
-        {head: _value(cell) for head, cell in row.items()}
-        for row in csv.DictReader(io.StringIO(text))
+    microphones = [
+        {"study": study.source_file, "microphone": name, "method": method, "reason": reason}
+        for name, (method, reason) in receiver_methods(results).items()
     ]
+    return Outcome(
+        "\n".join([text.rstrip("\n"), *study.left_out, *coarse]),
+        {"results": folder / RESULTS_NAME, "report": folder / REPORT_NAME},
+        {"studies": columns([row]), "microphones": columns(microphones)},
+    )
 
 
-def _value(cell: str) -> str | float | None:
-    try:
-        number = float(cell)
-    except ValueError:
-        return cell or None
-    return number if isfinite(number) else None
+def summary(outcomes: Mapping[str, Outcome]) -> Outcome:
+    """Join the outcomes of studies; files and their tables of several begin with the folder."""
+    if len(outcomes) == 1:
+        return next(iter(outcomes.values()))
+    tables: dict[str, dict[str, list[object]]] = {"studies": {}, "microphones": {}}
+    for each in outcomes.values():
+        for name, table in tables.items():
+            for head, values in each.tables[name].items():
+                table.setdefault(head, []).extend(values)
+    files = {
+        f"{name}/{label}": path
+        for name, each in outcomes.items()
+        for label, path in each.files.items()
+    }
+    return Outcome("\n".join(each.text for each in outcomes.values()), files, tables)

@@ -25,21 +25,20 @@ class Workers:
     scheduler: Annotated[
         str | None,
         typer.Option(
-            metavar="tls://HOST:PORT",
-            help="Running scheduler of dask.distributed, for its workers.",
+            help="Address, tls://HOST:PORT, of a running scheduler of dask.distributed.",
         ),
     ] = None
     tls_ca: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.pem", help="Certificate of the scheduler's own authority."),
+        typer.Option(help="Certificate of the scheduler's own authority, .pem."),
     ] = None
     tls_cert: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.pem", help="Your certificate, signed by this authority."),
+        typer.Option(help="Your certificate, signed by this authority, .pem."),
     ] = None
-    tls_key: Annotated[
-        Path | None, typer.Option(metavar="FILE.pem", help="Private key of your certificate.")
-    ] = None
+    tls_key: Annotated[Path | None, typer.Option(help="Private key of your certificate, .pem.")] = (
+        None
+    )
     insecure: Annotated[
         bool,
         typer.Option(

@@ -19,15 +19,20 @@ from .lock import is_held, locked, taken
 DEFAULT_LIMIT_BYTES: Final = 2_000_000_000
 LIMIT_NAME: Final = "limit_bytes"
 _MAXIMUM_LIMIT_BYTES: Final = 100
-_LEFTOVERS: Final = ("*.nc.lock", ".*.nc*", "*.nc.sha256")
+_MAXIMUM_STUDY_BYTES: Final = 10_000
+_LEFTOVERS: Final = ("*.nc.lock", ".*.nc*", "*.nc.sha256", "*.nc.study")
 
 
 class Entry(NamedTuple):
-    """A cached result: file, size, and when it was last used, in seconds since 1970."""
+    """A cached result: file, size, when it was last used, s since 1970, and title of its study.
+
+    The title is empty where it is unknown.
+    """
 
     name: str
     size_bytes: int
     used_s: float
+    study: str = ""
 
 
 def folder() -> Path:
@@ -102,8 +107,20 @@ def entries(at: Folder) -> list[Entry]:
     for name in os.listdir(at.descriptor):
         status = at.status(name)  # none where another process takes it away
         if name.endswith(".nc") and status is not None and stat.S_ISREG(status.st_mode):
-            listed.append(Entry(name, status.st_size, status.st_mtime))
+            listed.append(Entry(name, status.st_size, status.st_mtime, _study(at, name)))
     return sorted(listed, key=lambda entry: entry.used_s)
+
+
+def study_of(name: str) -> str:
+    """File beside an entry that names its study."""
+    return f"{name}.study"
+
+
+def _study(at: Folder, name: str) -> str:
+    with suppress(OSError, StorageError):
+        content = at.read_bytes(study_of(name), _MAXIMUM_STUDY_BYTES)
+        return " ".join(content.decode(errors="replace").split())
+    return ""
 
 
 def limit_bytes(at: Folder) -> int:
@@ -150,6 +167,7 @@ def _shrink(at: Folder, limit: int) -> list[Entry]:
             break
         at.remove(entry.name)
         at.remove(_hash_of(entry.name))
+        at.remove(study_of(entry.name))
         size -= entry.size_bytes
         removed.append(entry)
     return removed
@@ -164,7 +182,7 @@ def _remove_leftovers(at: Folder) -> None:
         lock = lock_of(entry)
         if name == lock and is_held(at, lock):
             continue
-        if name == _hash_of(entry) and at.holds_file(entry):
+        if name in (_hash_of(entry), study_of(entry)) and at.holds_file(entry):
             continue
         with taken(at, lock) as held:
             if held and name != lock:

@@ -144,6 +144,19 @@ def listed(path: Path) -> set[str]:
     return {*manifest, *(name for entry in manifest.values() for name in entry.files)}
 
 
+def together(path: Path, name: str) -> set[str]:
+    """Names of a dataset and the files made of it, where `files.json` lists one of them."""
+    try:
+        with opened_folder(path) as folder:
+            manifest = _read(folder) or {}
+    except OSError:
+        return set()
+    for dataset, entry in manifest.items():
+        if name == dataset or name in entry.files:
+            return {*entry.files, *([dataset] if entry.beside else [])}
+    return set()
+
+
 def _mixed(folder: Folder, dataset: str, entry: Entry) -> Iterator[str]:
     path = folder.path / dataset
     is_there = folder.holds_file(dataset)

@@ -18,7 +18,7 @@ from ..base.errors import StorageError
 from ..base.folder import Folder
 from ..base.hashing import canonical_json, sha256
 from . import cache, hashed
-from .files import Staging, naming, only_writer, replace_all, staging
+from .files import Staging, naming, only_writer, replace_all, staging, write
 from .lock import locked
 from .netcdf import from_bytes, write_netcdf
 from .version_2 import of_this_version
@@ -107,7 +107,7 @@ def without_cache() -> Iterator[None]:
 
 
 def cached(
-    kind: str, material: Mapping[str, Any], compute: Callable[[], xr.Dataset]
+    kind: str, material: Mapping[str, Any], compute: Callable[[], xr.Dataset], study: str = ""
 ) -> tuple[xr.Dataset, bool]:
     """Result from the cache, or computed and put there.
 
@@ -119,6 +119,7 @@ def cached(
     kind : first part of the file name
     material : everything that shapes the result, as JSON values; its hash is the address
     compute : makes the result
+    study : title of the study that the result is computed for, which `vibroacoustics cache` lists
 
     Returns
     -------
@@ -140,7 +141,7 @@ def cached(
             return result, True
         result = compute()
         if can_be_written:
-            _keep(result, folder, name)
+            _keep(result, folder, name, study)
     return result, False
 
 
@@ -181,10 +182,12 @@ def _locked_entry(stack: ExitStack, folder: Folder, name: str) -> bool:
     return True
 
 
-def _keep(result: xr.Dataset, folder: Folder, name: str) -> None:
+def _keep(result: xr.Dataset, folder: Folder, name: str, study: str) -> None:
     try:
         with staging(folder, cache.staging_of(name)) as staged:
             stage_results(result, staged, name)
+            if study:
+                write(staged, cache.study_of(name), study.encode())
             replace_all(staged)
             folder.remove(hashed.hash_path(Path(name)).name)
         with naming(folder.path):

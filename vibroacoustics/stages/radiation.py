@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Final
 
 import xarray as xr
@@ -31,7 +32,8 @@ def transfer_vectors(
     """Compute pressure per velocity of housing and wall motions, or read it from the cache."""
     inputs = inputs_of(study, motions)
     key = radiation.cache_key_material(*inputs)
-    return cached(_CACHE, key, lambda: radiation.transfer_vectors(*inputs, progress))
+    computed = partial(radiation.transfer_vectors, *inputs, progress)
+    return cached(_CACHE, key, computed, study.title)
 
 
 @dataclass(frozen=True)

@@ -70,6 +70,7 @@ def vectors_of(
         _CACHE,
         rooms.room_key(study, settings, motions),
         lambda: rooms.vectors_in_room(study, settings, motions, progress),
+        study.title,
     )
 
 
@@ -99,6 +100,7 @@ def _map(study: Study, settings: StudyRoom, air: AirInRoom, progress: Progress) 
         "room-plane",
         rooms.plane_key(study, settings, bands),
         lambda: rooms.plane_in_room(study, settings, bands, progress),
+        study.title,
     )
     height_m = rooms.map_height_m(settings)
     return map_level(study, gains["room_map_gain"], air.power_band, height_m)

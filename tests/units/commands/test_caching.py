@@ -26,10 +26,11 @@ def results() -> xr.Dataset:
 
 def test_lists_limits_and_clears(folder, results):
     for n in range(3):
-        storage.cached("kind", {"a": n}, lambda: results)
+        storage.cached("kind", {"a": n}, lambda: results, "" if n else "First study")
     lines = command_here("cache").stdout.splitlines()
     assert len(lines) == 4
-    assert lines[0].endswith(".nc")
+    assert lines[0].endswith(".nc  First study")
+    assert lines[1].endswith(".nc  unknown study")
     assert f"{folder}: 3 results" in lines[3]
     assert "of at most 2000 MB" in lines[3]
     lines = command_here("cache", "--limit", "0.0008").stdout.splitlines()

@@ -65,7 +65,7 @@ def test_lines_of_a_command_where_stderr_is_no_terminal(monkeypatch: pytest.Monk
 
 
 def run_two_stages() -> None:
-    with cli.progress_on_stderr() as advance:
+    with progress.progress_on_stderr() as advance:
         for task in ("forces", "sources"):
             advance(task, 0, 1)
             advance(task, 1, 1)

@@ -33,7 +33,16 @@ def file(recording, tmp_path_factory):
 
 def test_track_gives_the_envelopes(file, tmp_path):
     outcome = command_here(
-        "track", file, "--speed", "speed", "--orders", "1,3", "--bandwidth", 2, "--out", tmp_path
+        "track",
+        file,
+        "--speed-channel",
+        "speed",
+        "--orders",
+        "1,3",
+        "--bandwidth",
+        2,
+        "--out",
+        tmp_path,
     )
     assert outcome.returncode == 0, outcome.stderr
     assert "bandwidth: 2 Hz, 2 poles" in outcome.stdout
@@ -52,7 +61,7 @@ def test_track_gives_the_envelopes(file, tmp_path):
 
 def test_map_shows_orders_and_levels(file, tmp_path):
     outcome = command_here(
-        "map", file, "--speed", "speed", "--resolution", 8, "--maximum-frequency", 300, "--out",
+        "map", file, "--speed-channel", "speed", "--resolution", 8, "--maximum-frequency", 300, "--out",
         tmp_path,
     )  # fmt: skip
     assert outcome.returncode == 0, outcome.stderr
@@ -108,15 +117,24 @@ def test_export_is_read_back(file, recording, tmp_path, name):
     ("words", "message"),
     [
         (("track", "--bandwidth", 2), "speed: give one of"),
-        (("track", "--bandwidth", 0, "--speed", "speed"), "--bandwidth = 0 Hz: must be above 0"),
+        (
+            ("track", "--bandwidth", 0, "--speed-channel", "speed"),
+            "--bandwidth = 0 Hz: must be above 0",
+        ),
         (("track", "--bandwidth", 2, "--rpm", 1200, "--orders", "1,x"), "'x' is no number"),
         (("track", "--bandwidth", 2, "--rpm", 1200, "--orders", "0"), "must be numbers above 0"),
         (
             ("track", "--bandwidth", 2, "--rpm", 1200, "--poles", 4),
             "--poles = 4: must be 1, 2 or 3",
         ),
-        (("map", "--speed", "speed", "--resolution", 0), "--resolution = 0: must be above 0"),
-        (("map", "--speed", "speed", "--maximum-frequency", 0), "--maximum-frequency = 0 Hz"),
+        (
+            ("map", "--speed-channel", "speed", "--resolution", 0),
+            "--resolution = 0: must be above 0",
+        ),
+        (
+            ("map", "--speed-channel", "speed", "--maximum-frequency", 0),
+            "--maximum-frequency = 0 Hz",
+        ),
         (("export", "--out", "x.mp3"), "x.mp3: ending '.mp3': must be .csv, .nc or .wav"),
     ],
 )

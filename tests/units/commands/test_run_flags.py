@@ -42,22 +42,25 @@ def test_several_studies_as_json(tmp_path: Path) -> None:
     files = [a_study(tmp_path, f"{name}.toml") for name in ("one", "two")]
     outcome = command_here("run", *files, "--out", tmp_path / "out", "--json")
     assert outcome.returncode == 0, outcome.stderr
-    summaries = json.loads(outcome.stdout)["studies"]
-    assert [one["study"] for one in summaries] == ["one.toml", "two.toml"]
-    for one, name in zip(summaries, ("one", "two"), strict=True):
-        assert one["report"] == str(tmp_path / "out" / name / "report.html")
-        assert Path(one["results"]).is_file()
-        by_option = {row["option"]: row for row in one["comparison"]}
-        assert by_option["none"]["change_1x_db"] == 0.0
-        assert by_option["counterweight-half"]["force_1x_n"] < by_option["none"]["force_1x_n"]
-        assert {row["rank_topsis"] for row in one["scores"]} == {1.0, 2.0}
-        assert one["kwave_difference_db"] is None
-        assert one["receivers"] == {
-            "front_1m": {
-                "method": "given transfer vectors",
-                "reason": "transfer vectors are given to the run",
-            }
-        }
+    envelope = json.loads(outcome.stdout)
+    tables, written = envelope["tables"], envelope["files"]
+    assert tables["studies"]["study"] == ["one.toml", "two.toml"]
+    assert tables["studies"]["kwave_difference_db"] == [None, None]
+    assert tables["microphones"] == {
+        "study": ["one.toml", "two.toml"],
+        "microphone": ["front_1m"] * 2,
+        "method": ["given transfer vectors"] * 2,
+        "reason": ["transfer vectors are given to the run"] * 2,
+    }
+    for name in ("one", "two"):
+        assert written[f"{name}/report"] == str(tmp_path / "out" / name / "report.html")
+        assert Path(written[f"{name}/results"]).is_file()
+        compared = tables[f"{name}/comparison"]
+        rows = {option: row for row, option in enumerate(compared["option"])}
+        none, half = rows["none"], rows["counterweight-half"]
+        assert compared["change_1x_db"][none] == 0.0
+        assert compared["force_1x_n"][half] < compared["force_1x_n"][none]
+        assert set(tables[f"{name}/scores"]["rank_topsis"]) == {1.0, 2.0}
 
 
 def test_all_studies_are_read_before_the_first_runs(tmp_path: Path) -> None:

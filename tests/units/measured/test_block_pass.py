@@ -112,12 +112,12 @@ def test_the_command_reads_a_large_file_in_blocks(run_up, tmp_path, monkeypatch)
     monkeypatch.setattr("vibroacoustics.recordings.read_recording", refuse)
     monkeypatch.setattr(recording_blocks, "READ_BYTES", 8 * 4 * 50_000)
     monkeypatch.setattr(recording_blocks, "BLOCK_BYTES", 8 * 4 * 6_000)
-    outcome = command_here("orders", path, "--speed", "tacho", "--out", tmp_path / "out")
+    outcome = command_here("orders", path, "--speed-channel", "tacho", "--out", tmp_path / "out")
     assert outcome.returncode == 0, outcome.stderr
     found = open_results(tmp_path / "out" / "orders.nc")
     assert_same(found[list(once.variables)], once)
     assert found.attrs["source_file"] == "run_up.nc"
-    refused = command_here("track", path, "--speed", "tacho", "--bandwidth", 2)
+    refused = command_here("track", path, "--speed-channel", "tacho", "--bandwidth", 2)
     assert refused.returncode == 2
     assert "too large" in refused.stderr
 

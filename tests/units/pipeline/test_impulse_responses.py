@@ -75,7 +75,7 @@ def test_files_state_their_gain_and_unit(tmp_path, responses):
 def test_the_command_writes_and_refuses_in_one_line(tmp_path, study, vectors, monkeypatch):
     monkeypatch.setattr("vibroacoustics.study.loading.load_study", lambda _: study)
     out = tmp_path / "responses"
-    asked = ("impulse-responses", TINY, "--out", out, "--listener")
+    asked = ("impulse-responses", TINY, "--out", out, "--microphone")
     monkeypatch.setattr(room, "vectors_of", lambda *_: pytest.fail("is computed"))
     assert_refused(command_here(*asked, "cook"), "listener = cook", "there are table, doorway")
     assert_refused(command_here(*asked, "doorway", "--full-scale", -1), "must be above 0")

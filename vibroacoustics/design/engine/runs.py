@@ -72,7 +72,7 @@ class CachedRuns:
         if not self._slow:
             return self._seen(study)
         material = _material(study, self.option, self.needs, way) | _of_sample(self.machine)
-        result, _ = storage.cached("design", material, lambda: self._timed(study))
+        result, _ = storage.cached("design", material, lambda: self._timed(study), study.title)
         self._slow = result.attrs["seconds"] >= SLOW_S
         return {need: result[str(number)].values for number, need in enumerate(self.needs)}
 

@@ -1,0 +1,168 @@
+"""Outcome of a command, and the envelope of JSON that it has for other programs."""
+
+import csv
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from math import isfinite
+from pathlib import Path
+from typing import Any, Final
+
+Table = Mapping[str, Sequence[Any]]
+"""Values by column."""
+
+_MAXIMUM_BYTES: Final = 500_000_000
+_NUMBER: Final = ("value", "unit", "variable", "selection", "statistic", "low", "high", "text")
+_CELL: Final = {"type": ["number", "string", "boolean", "null"]}
+_TEXT: Final = {"type": "string"}
+_LEVEL: Final = {"type": ["number", "null"]}
+
+
+def _object(required: Mapping[str, Any], optional: Mapping[str, Any] | None = None) -> Any:
+    return {
+        "type": "object",
+        "properties": {**required, **(optional or {})},
+        "required": list(required),
+        "additionalProperties": False,
+    }
+
+
+SCHEMA: Final[dict[str, Any]] = {
+    "$schema": "https://json-schema.org/draft/2020-12/schema",
+    "title": "Outcome of a command of vibroacoustics",
+    **_object({
+        "command": _TEXT,
+        "version": _TEXT,
+        "inputs": {"type": "object"},
+        "tables": {
+            "type": "object",
+            "additionalProperties": {
+                "type": "object",
+                "additionalProperties": {"type": "array", "items": _CELL},
+            },
+        },
+        "numbers": {
+            "type": "array",
+            "items": _object(
+                {
+                    "value": _LEVEL,
+                    "unit": _TEXT,
+                    "variable": _TEXT,
+                    "selection": {"type": "object", "additionalProperties": _CELL},
+                    "statistic": _TEXT,
+                },
+                {"low": _LEVEL, "high": _LEVEL, "text": _TEXT},
+            ),
+        },
+        "files": {"type": "object", "additionalProperties": _TEXT},
+        "warnings": {"type": "array", "items": _TEXT},
+    }),
+}  # fmt: skip
+"""JSON schema of the envelope."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a command gives: words for the terminal, files, and data for other programs.
+
+    Attributes
+    ----------
+    text : for the terminal
+    files : that were written, by label; the terminal shows both. Files that belong to them by
+        `files.json` are added to the envelope, and every CSV file is a table of it
+    tables : further tables, by name
+    numbers : that the text states, each a mapping or object with value, unit, variable, selection
+        and statistic
+    broken : a line for each limit that is broken; the exit code is then 1
+    """
+
+    text: str = ""
+    files: Mapping[str, Path] = field(default_factory=dict)
+    tables: Mapping[str, Table] = field(default_factory=dict)
+    numbers: Sequence[Any] = ()
+    broken: Sequence[str] = ()
+
+    def lines(self) -> Iterator[str]:
+        """Lines for the terminal."""
+        if self.text.strip("\n"):
+            yield self.text.rstrip("\n")
+        yield from (f"broken: {line}" for line in self.broken)
+        yield from (f"{label}: {path}" for label, path in self.files.items())
+
+    def envelope(self, name: str, inputs: Mapping[str, Any], warnings: Sequence[str]) -> Any:
+        """Return the outcome of a command as plain JSON values; see `SCHEMA`."""
+        from ..base.regular_file import read_text
+        from ..results.provenance import software_version
+
+        files = _with_further(self.files)
+        read = {
+            key.removesuffix(".csv"): _columns(read_text(path, _MAXIMUM_BYTES))
+            for key, path in files.items()
+            if key.endswith(".csv")
+        }
+        return _plain({
+            "command": name,
+            "version": software_version(),
+            "inputs": inputs,
+            "tables": {**read, **self.tables},
+            "numbers": [_number(each) for each in self.numbers],
+            "files": files,
+            "warnings": warnings,
+        })  # fmt: skip
+
+
+def columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, list[Any]]:
+    """Turn rows into columns; a value that a row lacks is null."""
+    heads = dict.fromkeys(head for row in rows for head in row)
+    return {head: [row.get(head) for row in rows] for head in heads}
+
+
+def _with_further(files: Mapping[str, Path]) -> dict[str, Path]:
+    """Files by label, then those that belong to them and CSV files, by name below the label."""
+    from ..results import manifest
+
+    further: dict[str, Path] = {}
+    for label, path in files.items():
+        prefix = label.rpartition("/")[0]
+        for name in manifest.together(path.parent, path.name) | {path.name}:
+            known = path.parent / name
+            if known not in files.values() or name.endswith(".csv"):
+                further[f"{prefix}/{name}".lstrip("/")] = known
+    return {**files, **dict(sorted(further.items()))}
+
+
+def _columns(text: str) -> dict[str, list[Any]]:
+    """Columns of a CSV file by head; numbers as numbers, empty cells as null."""
+    lines = csv.reader(io.StringIO(text))
+    heads = next(lines, [])
+    values: list[list[Any]] = [[] for _ in heads]
+    for cells in lines:
+        for column, cell in zip(values, cells, strict=False):
+            column.append(_cell(cell))
+    return dict(zip(heads, values, strict=True))
+
+
+def _cell(text: str) -> str | float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return text or None
+
+
+def _number(number: Any) -> dict[str, Any]:
+    if isinstance(number, Mapping):
+        return dict(number)
+    return {name: getattr(number, name) for name in _NUMBER if hasattr(number, name)}
+
+
+def _plain(value: Any) -> Any:
+    """Return a value as JSON has it: a number that is not finite is null."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    if hasattr(value, "item"):
+        value = value.item()
+    if isinstance(value, float):
+        return value if isfinite(value) else None
+    return value if isinstance(value, str | int | bool | None) else str(value)

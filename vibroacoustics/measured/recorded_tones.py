@@ -1,0 +1,94 @@
+"""Tones, loudness and sharpness of recorded sound."""
+
+from itertools import zip_longest
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.errors import ParameterError
+from ..base.vocabulary import label_coordinates, stamped
+from ..results import provenance
+from ..sound.loudness import available, recorded_loudness
+from ..sound.recorded import narrow_bands, recorded_spectrum
+from ..sound.tonality import Tone, tones
+
+FIELDS: Final = {
+    "recorded_tone_frequency": "frequency_hz",
+    "recorded_tone_level": "level_db",
+    "recorded_tone_to_noise": "noise_ratio_db",
+    "recorded_tone_prominence": "prominence_db",
+    "recorded_tone_share": "share",
+    "recorded_tone_swing": "swing_db",
+}
+"""Variable and attribute of a tone."""
+
+
+def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
+    """Find the tones of every channel in Pa, with loudness and sharpness if mosqito is installed.
+
+    Parameters
+    ----------
+    recording : from `read_recording` or `label_recording`
+
+    Returns
+    -------
+    variables `recorded_tone_*` (channel, recorded_tone), `recorded_loudness` and
+    `recorded_sharpness` (channel); tones above the noise of their critical band, the strongest
+    first
+
+    Raises
+    ------
+    ParameterError
+        No channel is in Pa, or the recording is too short.
+    """
+    signal = recording["signal"]
+    microphones = signal.isel(channel=signal["channel_unit"].values == "Pa")
+    if not microphones.sizes["channel"]:
+        units = ", ".join(sorted(set(map(str, signal["channel_unit"].values))))
+        raise ParameterError(f"channels: none is in Pa (available: {units}); see --unit")
+    rate_hz = float(recording.attrs["sample_rate_hz"])
+    found, loudness = [], []
+    for channel in microphones:
+        bands = narrow_bands(channel.values, rate_hz)
+        judged = tones(recorded_spectrum(bands))
+        found.append([tone for tone in judged if tone.noise_ratio_db > 0.0])
+        loud = recorded_loudness(bands) if available() else None
+        loudness.append((loud.loudness_sone, loud.sharpness_acum) if loud else (np.nan, np.nan))
+    coords = {
+        "channel": microphones["channel"].values,
+        "recorded_tone": np.arange(1.0, max(map(len, found)) + 1.0),
+    }
+    table = list(zip_longest(*found)) or []
+    values = {
+        name: np.array([[_value(tone, field) for tone in rank] for rank in table])
+        .reshape(len(table), len(found))
+        .T
+        for name, field in FIELDS.items()
+    }
+    loud_values = dict(
+        zip(("recorded_loudness", "recorded_sharpness"), np.transpose(loudness), strict=True)
+    )
+    results = stamped({**values, **loud_values}, coords)
+    results.attrs = provenance.of_recording(recording.attrs, "tones")
+    return label_coordinates(results)
+
+
+def tones_of(found: xr.Dataset, channel: str) -> list[Tone]:
+    """Tones of a channel, the strongest first.
+
+    Parameters
+    ----------
+    found : from `recorded_tones`
+    channel : name
+    """
+    columns = [found[name].sel(channel=channel).values.tolist() for name in FIELDS]
+    return [
+        Tone(f"{values[0]:.1f} Hz", *values)
+        for values in zip(*columns, strict=True)
+        if np.isfinite(values[0])
+    ]
+
+
+def _value(tone: Tone | None, field: str) -> float:
+    return np.nan if tone is None else float(getattr(tone, field))
