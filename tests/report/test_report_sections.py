@@ -10,6 +10,8 @@ from test_report import make_results
 from test_report_unknowns import with_unknowns
 
 from vibroacoustics.report import blocks, comparison_text, render
+from vibroacoustics.report.charts.marks import Axis, Chart, Line, Panel
+from vibroacoustics.report.charts.picture import picture
 from vibroacoustics.report.columns import COLUMNS
 from vibroacoustics.report.figures.style import Picture
 from vibroacoustics.report.html import html
@@ -98,6 +100,14 @@ def results() -> xr.Dataset:
     return made.assign_attrs(parameters=json.dumps(parameters))
 
 
+def test_charts_become_pictures() -> None:
+    line = Chart("line", "alt", "caption", (Panel(Axis(), Axis(), (Line([0, 1], [2, 3]),)),))
+    folded = (blocks.Details("Fold", (blocks.Charts((line,)),)),)
+    assert list(blocks.charts(folded)) == [line]
+    assert list(blocks.pictures(folded)) == [picture(line)]
+    assert blocks.from_json(blocks.to_json(folded)) == blocks.drawn(folded)
+
+
 def test_blocks_survive_json() -> None:
     assert blocks.from_json(blocks.to_json(EVERY_BLOCK)) == EVERY_BLOCK
     assert blocks.to_json(EVERY_BLOCK).isascii()
@@ -117,7 +127,7 @@ def test_every_block_is_in_both_forms() -> None:
     assert re.search(r'<div class="beside"><div>\s*<p>narrow</p>', in_html)
     assert 'aria-label="not sure"' in in_html
     assert 'class="bar not-sure"' in in_html
-    assert page.pictures()["figures/one.png"].png == PNG
+    assert page.pictures()["figures/one.png"].content == PNG
 
 
 def test_a_chart_of_intervals_is_drawn_to_its_scale() -> None:

@@ -1,0 +1,149 @@
+"""Whether every number of one report is in another, or in a CSV beside it.
+
+    python benchmarks/report_numbers.py BEFORE_FOLDER AFTER_FOLDER [--show 40]
+
+CSV files: each value of a column that both files have, row by row, to 1e-12 of its size. Tables of
+the page: each number of a row is searched for in the rows of the report after, of tables and CSV
+files, that have the same label among their cells: as it is printed, or as a value that rounds to it
+(or its hundredth, for per cent). Numbers in sentences are searched for in the whole page and all
+CSV files. As a control the same search is made for numbers that are 37 % larger: that share is
+found by chance.
+"""
+
+import argparse
+import csv
+import html
+import re
+import sys
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+NUMBER = re.compile(r"(?<![\w.])[−-]?\d+(?:\.\d+)?(?:e[−-]?\d+)?(?![\w])")
+HIDDEN = re.compile(r"<(script|style|svg)\b.*?</\1>", re.DOTALL)
+TABLE = re.compile(r"<table.*?</table>", re.DOTALL)
+CELL = re.compile(r"<t[hd][^>]*>(.*?)</t[hd]>", re.DOTALL)
+EQUAL = 1e-12
+CONTROL = 1.37
+
+
+class Printed(NamedTuple):
+    """A number as it is printed, half of its last digit, and the label of its row."""
+
+    text: str
+    value: float
+    half: float
+    label: str
+
+
+class Report(NamedTuple):
+    """A report: printed numbers and values of CSV files by the label of their row; "" for all."""
+
+    printed: list[Printed]
+    values: dict[str, set[float]]
+
+
+def report(folder: Path) -> Report:
+    """Read the page and the CSV files of a folder."""
+    page = HIDDEN.sub(" ", (folder / "report.html").read_text("utf-8"))
+    rows = [cells for table in TABLE.findall(page) for cells in rows_of(table)]
+    numbers = [number for cells in rows for text in cells[1:] for number in found(text, cells[0])]
+    numbers += found(words(TABLE.sub(" ", page)), "")
+    values: dict[str, set[float]] = defaultdict(set)
+    for file in folder.glob("*.csv"):
+        for cells in csv.reader(file.open(encoding="utf-8")):
+            parts = [number.value for text in cells for number in found(text, "")]
+            for label in {"", *map(plain, cells)}:
+                values[label].update(parts)
+    return Report(list(dict.fromkeys(numbers)), values)
+
+
+def rows_of(table: str) -> Iterator[list[str]]:
+    """Yield the cells of the rows of a table as text."""
+    for row in table.split("<tr")[1:]:
+        cells = [words(cell) for cell in CELL.findall(row)]
+        if cells:
+            yield cells
+
+
+def words(markup: str) -> str:
+    """Return the text of markup."""
+    return html.unescape(re.sub(r"<[^>]+>", " ", markup)).replace("\u200b", "")
+
+
+def plain(label: str) -> str:
+    """Return a label as it is compared."""
+    return re.sub(r"[\W_]+", " ", label).strip().lower()
+
+
+def found(text: str, label: str) -> Iterator[Printed]:
+    """Yield the numbers of a text."""
+    for word in NUMBER.findall(text):
+        number = word.replace("−", "-")
+        mantissa, _, exponent = number.partition("e")
+        half = 0.5 * 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+        yield Printed(number, float(number), half, plain(label))
+
+
+def is_in(number: Printed, after: Report, by: float = 1.0) -> bool:
+    """Return whether a number times a factor is in the rows of its label."""
+    value, half = by * number.value, number.half * (1.0 + 1e-9)
+    texts = {other.value for other in after.printed if number.label in {"", other.label}}
+    values = after.values.get(number.label, set()) | texts
+    return any(
+        abs(scale * other - value) <= half for other in values for scale in (1.0, -1.0, 100.0)
+    )
+
+
+def differing_files(before: Path, after: Path) -> Iterator[str]:
+    """Yield a line for each CSV file that is missing or holds another value."""
+    for old in sorted(before.glob("*.csv")):
+        new = after / old.name
+        if not new.exists():
+            yield f"{old.name}: missing"
+            continue
+        first, last = (list(csv.DictReader(file.open(encoding="utf-8"))) for file in (old, new))
+        shared = [name for name in first[0] if name in last[0]]
+        missing = [name for name in first[0] if name not in last[0]]
+        pairs = list(zip(first, last, strict=False))
+        unequal = sum(not same(row[name], other[name]) for row, other in pairs for name in shared)
+        if missing or unequal or len(first) != len(last):
+            counts = f"{unequal} values unequal, {len(first)} and {len(last)} rows"
+            yield f"{old.name}: columns missing {missing}, {counts}"
+
+
+def same(before: str, after: str) -> bool:
+    """Return whether two cells are equal, numbers to 1e-12 of their size."""
+    try:
+        first, last = float(before), float(after)
+    except ValueError:
+        return before == after
+    return before == after or abs(first - last) <= EQUAL * max(abs(first), abs(last))
+
+
+def main() -> int:
+    """Print what is missing; the exit code is 1 where something is."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("before", type=Path)
+    parser.add_argument("after", type=Path)
+    parser.add_argument("--show", type=int, default=40)
+    asked = parser.parse_args()
+    broken = list(differing_files(asked.before, asked.after))
+    print("\n".join(broken) or "CSV files: every value equal to 1e-12")
+    before, after = report(asked.before), report(asked.after)
+    missing = [number for number in before.printed if not is_in(number, after)]
+    for name, some in (
+        ("numbers of tables", [number for number in before.printed if number.label]),
+        ("numbers of sentences", [number for number in before.printed if not number.label]),
+    ):
+        hits = sum(is_in(number, after) for number in some)
+        chance = sum(is_in(number, after, CONTROL) for number in some)
+        print(f"{name}: {hits} of {len(some)} found; control: {chance} of {len(some)}")
+    for number in missing[: asked.show]:
+        print(f"  missing: {number.text} of {number.label or 'a sentence'}")
+    return int(bool(broken or missing))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
