@@ -1,6 +1,7 @@
 """Content of the cache, and its limit."""
 
 from datetime import datetime
+from typing import Any
 
 from ..results import cache
 from ..results.files import naming
@@ -23,7 +24,7 @@ def managed(clear: bool, limit_gb: float | None) -> Outcome:
                 cache.set_limit(folder, round(1e9 * limit_gb))
             removed = cache.clear(folder) if clear else cache.tidy(folder)
     entries, limit = cache.contents()
-    rows = [
+    rows: list[dict[str, Any]] = [
         {
             "used": datetime.fromtimestamp(entry.used_s).isoformat(" ", "minutes"),
             "size_mb": entry.size_bytes / 1e6,

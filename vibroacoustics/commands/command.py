@@ -34,21 +34,17 @@ class Speech:
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object instead of text.")
     ] = False
-    quiet: Annotated[
-        bool, typer.Option("--quiet", help="Print warnings and errors only, and --json.")
-    ] = False
+    quiet: Annotated[bool, "Print warnings and errors only, and --json."] = False
 
 
 @dataclass(frozen=True)
 class LongSpeech(Speech):
     """Options of commands that compute."""
 
-    verbose: Annotated[
-        bool, typer.Option("--verbose", help="Print a line for every stage on stderr.")
-    ] = False
+    verbose: Annotated[bool, "Print a line for every stage on stderr."] = False
     log: Annotated[
         Path | None,
-        typer.Option("--log", help="File: append stages, warnings and errors with their times."),
+        "File: append stages, warnings and errors with their times.",
     ] = None
 
 
@@ -114,7 +110,7 @@ class Command:
         else:
             speech = Parameter("speech", Parameter.KEYWORD_ONLY, annotation=LongSpeech)
         parameters["speech"] = speech
-        groups = {
+        groups: dict[str, Any] = {
             name: each.annotation
             for name, each in parameters.items()
             if is_dataclass(each.annotation)
@@ -158,16 +154,20 @@ def command(
 
 def _spread(parameter: Parameter) -> list[Parameter]:
     """Options of a parameter: the fields of a dataclass, else itself."""
-    group = parameter.annotation
+    group: Any = parameter.annotation
     if not is_dataclass(group):
-        return [parameter.replace(kind=Parameter.KEYWORD_ONLY)]
+        return [_option(parameter.name, group, parameter.default)]
     hints = get_type_hints(group, include_extras=True)
-    return [
-        Parameter(
-            each.name, Parameter.KEYWORD_ONLY, default=each.default, annotation=hints[each.name]
-        )
-        for each in fields(group)
-    ]
+    return [_option(each.name, hints[each.name], each.default) for each in fields(group)]
+
+
+def _option(name: str, annotation: Any, default: Any) -> Parameter:
+    """Option of typer; where it is annotated with a text, that is its help."""
+    about = getattr(annotation, "__metadata__", (None,))[0]
+    if isinstance(about, str):
+        words = typer.Option(f"--{name.replace('_', '-')}", help=about)
+        annotation = Annotated[annotation.__origin__, words]
+    return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
 
 class HelpedCommand(TyperCommand):

@@ -7,7 +7,7 @@ import typer
 
 from ..base.progress import Progress, stage
 from .command import command
-from .options import LimitsFile, Option, Paper, Pdf, out_option, with_pdf
+from .options import LimitsFile, Option, Paper, Pdf, with_pdf
 from .outcome import Outcome
 
 if TYPE_CHECKING:
@@ -26,22 +26,18 @@ def compare_command(
     ],
     pair: Annotated[
         list[str] | None,
-        typer.Option(
-            help="CHANNEL=CHANNEL, of A and of B; may be repeated; default: channels of one name."
-        ),
+        "CHANNEL=CHANNEL, of A and of B; may be repeated; default: channels of one name.",
     ] = None,
     option: Option = "none",
-    other_option: Annotated[
-        str | None, typer.Option(help="Balancing option of B; default: that of A.")
-    ] = None,
+    other_option: Annotated[str | None, "Balancing option of B; default: that of A."] = None,
     specimens: Annotated[
         str | None,
-        typer.Option(help="Specimen of each B, with commas; default: all are of one."),
+        "Specimen of each B, with commas; default: all are of one.",
     ] = None,
     tacho_angle: Annotated[
-        float, typer.Option(help="Crank angle of A where B's tacho gives its pulse, degrees.")
+        float, "Crank angle of A where B's tacho gives its pulse, degrees."
     ] = 0.0,
-    out: Annotated[Path | None, out_option("Folder of the results; default: that of B.")] = None,
+    out: Annotated[Path | None, "Folder of the results; default: that of B."] = None,
     limits: LimitsFile = None,
     pdf: Pdf = False,
     paper: Paper = None,

@@ -7,7 +7,7 @@ import typer
 
 from ..base.progress import Progress, stage
 from .command import command
-from .options import Option, Plugins, load_plugins, out_option
+from .options import Option, Plugins, load_plugins
 from .outcome import Outcome
 
 CURVES_NAME: Final = "curves.nc"
@@ -19,12 +19,10 @@ def curves_command(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Study or machine file, .toml.")],
     speed: Annotated[
         float | None,
-        typer.Option(help="Shaft speed, rpm; default: the study's first, or of the overall noise."),
+        "Shaft speed, rpm; default: the study's first, or of the overall noise.",
     ] = None,
     option: Option = "none",
-    out: Annotated[
-        Path | None, out_option("Folder; default: reports/NAME OF THE FILE/curves.")
-    ] = None,
+    out: Annotated[Path | None, "Folder; default: reports/NAME OF THE FILE/curves."] = None,
     plugin: Plugins = None,
 ) -> Outcome:
     """Show what goes on inside a machine: curves.nc, a table and a picture of each curve."""

@@ -3,11 +3,9 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from ..base.progress import Progress, stage
 from .command import command
-from .options import Option, Plugins, ResultsFile, Speed, load_plugins, out_option
+from .options import Option, Plugins, ResultsFile, Speed, load_plugins
 from .outcome import Outcome
 
 
@@ -24,21 +22,17 @@ def datasheet_command(
     speed: Speed = None,
     microphone: Annotated[
         list[str] | None,
-        typer.Option(help="Microphone of the sound power; may be repeated; default: all."),
+        "Microphone of the sound power; may be repeated; default: all.",
     ] = None,
     point: Annotated[
         list[str] | None,
-        typer.Option(
-            help="NAME=X,Y,HEIGHT: point of the housing, mm, from the axis and above the floor."
-        ),
+        "NAME=X,Y,HEIGHT: point of the housing, mm, from the axis and above the floor.",
     ] = None,
     batch: Annotated[
         float | None,
-        typer.Option(
-            help="Assumed standard deviation of the machines of a batch, dB; default: one machine."
-        ),
+        "Assumed standard deviation of the machines of a batch, dB; default: one machine.",
     ] = None,
-    out: Annotated[Path | None, out_option("Folder; default: that of the file.")] = None,
+    out: Annotated[Path | None, "Folder; default: that of the file."] = None,
     plugin: Plugins = None,
 ) -> Outcome:
     """Write the data sheet of an option, predicted: page, CSV and JSON (ISO 4871, EN 12102-1)."""

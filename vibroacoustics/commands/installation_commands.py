@@ -11,7 +11,7 @@ from .outcome import Outcome, columns
 
 @command("cache", "Installation", "--limit 5")
 def cache_command(
-    clear: Annotated[bool, typer.Option("--clear", help="Remove all of it.")] = False,
+    clear: Annotated[bool, "Remove all of it."] = False,
     limit: Annotated[
         float | None,
         typer.Option(

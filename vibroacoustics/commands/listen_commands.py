@@ -8,7 +8,7 @@ import typer
 
 from ..base.progress import Progress, stage
 from .command import command
-from .options import NoCache, Plugins, ResultsFile, StudyFile, load_plugins, out_option, used_cache
+from .options import NoCache, Plugins, ResultsFile, StudyFile, load_plugins, used_cache
 from .outcome import Outcome
 
 
@@ -16,35 +16,25 @@ from .outcome import Outcome
 def listen_command(
     progress: Progress,
     results_file: ResultsFile,
-    option: Annotated[
-        list[str] | None, typer.Option(help="Option to listen to; default: all.")
-    ] = None,
+    option: Annotated[list[str] | None, "Option to listen to; default: all."] = None,
     microphone: Annotated[
         list[str] | None,
-        typer.Option(help="Microphone, also in a room; may be repeated; default: the first."),
+        "Microphone, also in a room; may be repeated; default: the first.",
     ] = None,
     speed: Annotated[
         list[float] | None,
-        typer.Option(help="Shaft speed, rpm; may be repeated; default: the first."),
+        "Shaft speed, rpm; may be repeated; default: the first.",
     ] = None,
-    seconds: Annotated[
-        float, typer.Option(help="Duration, s, rounded to whole revolutions; 1 to 600.")
-    ] = 10.0,
+    seconds: Annotated[float, "Duration, s, rounded to whole revolutions; 1 to 600."] = 10.0,
     full_scale: Annotated[
         float | None,
-        typer.Option(
-            help="Pressure at full scale, Pa; default: one that all sounds of the results fit in."
-        ),
+        "Pressure at full scale, Pa; default: one that all sounds of the results fit in.",
     ] = None,
-    calibration: Annotated[
-        float | None, typer.Option(help="Level of a further tone of 1 kHz, dB re 20 µPa.")
-    ] = None,
+    calibration: Annotated[float | None, "Level of a further tone of 1 kHz, dB re 20 µPa."] = None,
     file_format: Annotated[
         str, typer.Option("--format", help="wav, or flac (extra `sound`).")
     ] = "wav",
-    out: Annotated[
-        Path | None, out_option("Folder of the sounds; default: sound, beside the file.")
-    ] = None,
+    out: Annotated[Path | None, "Folder of the sounds; default: sound, beside the file."] = None,
 ) -> Outcome:
     """Write the sound of options at microphones, all at one gain, which the names state."""
     from . import outputs
@@ -77,17 +67,15 @@ def impulse_responses_command(
     study_file: StudyFile,
     microphone: Annotated[
         list[str] | None,
-        typer.Option(help="Microphone in the room; may be repeated; default: all."),
+        "Microphone in the room; may be repeated; default: all.",
     ] = None,
     full_scale: Annotated[
         float | None,
-        typer.Option(
-            help="Pa per m/s² or rad/s² at full scale; default: one that all responses fit in."
-        ),
+        "Pa per m/s² or rad/s² at full scale; default: one that all responses fit in.",
     ] = None,
     out: Annotated[
         Path | None,
-        out_option("Folder of the files; default: reports/NAME OF THE STUDY/impulse_responses."),
+        "Folder of the files; default: reports/NAME OF THE STUDY/impulse_responses.",
     ] = None,
     plugin: Plugins = None,
     no_cache: NoCache = False,

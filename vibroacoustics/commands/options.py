@@ -2,58 +2,34 @@
 
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
-
-
-def out_option(words: str) -> Any:
-    """Return the option `--out` with its help."""
-    return typer.Option("--out", help=words)
-
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY", help="Study file, .toml.")]
 ResultsFile = Annotated[
     Path, typer.Argument(metavar="RESULTS", help="Results of a run, results.nc.")
 ]
 Recording = Annotated[Path, typer.Argument(metavar="RECORDING", help="File of the recording.")]
-FileOut = Annotated[
-    Path | None, out_option("Folder of the results; default: reports/NAME OF THE FILE.")
-]
-StudyOut = Annotated[
-    Path | None, out_option("Folder of the results; default: reports/NAME OF THE STUDY.")
-]
-Speed = Annotated[
-    float | None, typer.Option("--speed", help="Shaft speed, rpm; default: the first.")
-]
-Option = Annotated[str, typer.Option("--option", help="Balancing option of the study.")]
+FileOut = Annotated[Path | None, "Folder of the results; default: reports/NAME OF THE FILE."]
+StudyOut = Annotated[Path | None, "Folder of the results; default: reports/NAME OF THE STUDY."]
+Speed = Annotated[float | None, "Shaft speed, rpm; default: the first."]
+Option = Annotated[str, "Balancing option of the study."]
 Plugins = Annotated[
     list[Path] | None,
-    typer.Option(
-        "--plugin",
-        help="Python file, .py, with options, sources, machines, readers, … of yours; it is run.",
-    ),
+    "Python file, .py, with options, sources, machines, readers, … of yours; it is run.",
 ]
 LimitsFile = Annotated[
     Path | None,
-    typer.Option(
-        "--limits",
-        help="CSV file of limits: channel,order,limit,unit; `compare` takes those of bands, "
-        "totals and criteria, too. The exit code is 1 where a limit is broken.",
-    ),
+    "CSV file of limits: channel,order,limit,unit; `compare` takes those of bands, "
+    "totals and criteria, too. The exit code is 1 where a limit is broken.",
 ]
-NoCache = Annotated[
-    bool, typer.Option("--no-cache", help="Neither read nor write the cache of the radiation.")
-]
+NoCache = Annotated[bool, "Neither read nor write the cache of the radiation."]
 Pdf = Annotated[
     bool,
-    typer.Option(
-        "--pdf", help="Print the page as PDF, too; needs Chromium, Chrome or Edge on PATH."
-    ),
+    "Print the page as PDF, too; needs Chromium, Chrome or Edge on PATH.",
 ]
-Paper = Annotated[
-    str | None, typer.Option("--paper", help="Sheets of the PDF: a4 or letter; default: a4.")
-]
+Paper = Annotated[str | None, "Sheets of the PDF: a4 or letter; default: a4."]
 
 
 def used_cache(unused: bool) -> AbstractContextManager[None]:

@@ -13,9 +13,7 @@ if TYPE_CHECKING:
 
     from ..base.recording_blocks import RecordingBlocks
 
-SampleRate = Annotated[
-    float | None, typer.Option(help="Actual sample rate, Hz, instead of the file's.")
-]
+SampleRate = Annotated[float | None, "Actual sample rate, Hz, instead of the file's."]
 
 
 @dataclass(frozen=True)
@@ -32,13 +30,13 @@ class Reading:
 
     unit: Annotated[
         list[str] | None,
-        typer.Option(help="CHANNEL=UNIT, where the file states none; may be repeated."),
+        "CHANNEL=UNIT, where the file states none; may be repeated.",
     ] = None
     calibration: Annotated[
         list[str] | None,
-        typer.Option(help="CHANNEL=FACTOR: unit per unit stored in the file; may be repeated."),
+        "CHANNEL=FACTOR: unit per unit stored in the file; may be repeated.",
     ] = None
-    channels: Annotated[str | None, typer.Option(help="Channels to read, with commas.")] = None
+    channels: Annotated[str | None, "Channels to read, with commas."] = None
     sample_rate: SampleRate = None
     from_s: Annotated[
         float | None,

@@ -16,7 +16,7 @@ from .reading import Reading
 from .speed_options import SpeedOptions
 
 RENAMED: Final = {"--speed": "--speed-channel"}
-Orders = Annotated[str, typer.Option("--orders", help="Shaft orders, with commas.")]
+Orders = Annotated[str, "Shaft orders, with commas."]
 
 
 @command("orders", "Recordings", "machine.wav --speed-channel tacho --orders 1,2", RENAMED)
@@ -26,15 +26,11 @@ def orders_command(
     *,
     speed: SpeedOptions,
     orders: Orders = "1,2,3,4",
-    maximum_order: Annotated[float, typer.Option(help="Highest order of spectra and map.")] = 20.0,
-    resolution: Annotated[float, typer.Option(help="Coarsest resolution, orders.")] = 0.25,
-    speed_step: Annotated[
-        float, typer.Option(help="Step between operating points of a run-up, rpm.")
-    ] = 100.0,
+    maximum_order: Annotated[float, "Highest order of spectra and map."] = 20.0,
+    resolution: Annotated[float, "Coarsest resolution, orders."] = 0.25,
+    speed_step: Annotated[float, "Step between operating points of a run-up, rpm."] = 100.0,
     with_map: Annotated[bool, typer.Option("--map", help="Keep and draw the order map.")] = False,
-    bands: Annotated[
-        str, typer.Option(help="Third octaves: sums of lines, or filters of IEC 61260-1.")
-    ] = "sums",
+    bands: Annotated[str, "Third octaves: sums of lines, or filters of IEC 61260-1."] = "sums",
     reading: Reading,
     out: FileOut = None,
     limits: LimitsFile = None,
@@ -78,12 +74,10 @@ def track_command(
     progress: Progress,
     recording_file: Recording,
     *,
-    bandwidth: Annotated[
-        float, typer.Option(help="Full width at -3 dB of what passes around each order, Hz.")
-    ],
+    bandwidth: Annotated[float, "Full width at -3 dB of what passes around each order, Hz."],
     speed: SpeedOptions,
     orders: Orders = "1,2,3,4",
-    poles: Annotated[int, typer.Option(help="1, 2 or 3: steepness of the filter.")] = 2,
+    poles: Annotated[int, "1, 2 or 3: steepness of the filter."] = 2,
     reading: Reading,
     out: FileOut = None,
     plugin: Plugins = None,
@@ -110,10 +104,8 @@ def map_command(
     recording_file: Recording,
     *,
     speed: SpeedOptions,
-    resolution: Annotated[float, typer.Option(help="Coarsest resolution, Hz.")] = 5.0,
-    maximum_frequency: Annotated[
-        float | None, typer.Option(help="Highest frequency, Hz; default: all.")
-    ] = None,
+    resolution: Annotated[float, "Coarsest resolution, Hz."] = 5.0,
+    maximum_frequency: Annotated[float | None, "Highest frequency, Hz; default: all."] = None,
     reading: Reading,
     out: FileOut = None,
     plugin: Plugins = None,
@@ -164,7 +156,7 @@ def tones_command(
 def export_command(
     recording_file: Recording,
     *,
-    out: Annotated[Path, typer.Option("--out", help="File that ends in .csv, .wav or .nc.")],
+    out: Annotated[Path, "File that ends in .csv, .wav or .nc."],
     reading: Reading,
     plugin: Plugins = None,
 ) -> Outcome:

@@ -9,7 +9,7 @@ import typer
 
 from ..base.errors import ParameterError
 from ..base.fault import collected
-from ..base.progress import Progress
+from ..base.progress import Progress, stage
 from . import messages
 from .command import command
 from .options import (
@@ -21,11 +21,10 @@ from .options import (
     StudyFile,
     StudyOut,
     load_plugins,
-    out_option,
     used_cache,
     with_pdf,
 )
-from .outcome import Outcome
+from .outcome import Outcome, columns
 
 if TYPE_CHECKING:
     from ..study.study import Study
@@ -37,23 +36,18 @@ def run_command(
     study_files: Annotated[list[Path], typer.Argument(metavar="STUDY", help="Study files, .toml.")],
     out: Annotated[
         Path | None,
-        out_option(
-            "Folder of the results; of several studies one in it each; "
-            "default: reports/NAME OF THE STUDY."
-        ),
+        "Folder of the results; of several studies one in it each; "
+        "default: reports/NAME OF THE STUDY.",
     ] = None,
     plugin: Plugins = None,
     no_cache: NoCache = False,
     coarse: Annotated[
         bool,
-        typer.Option(
-            "--coarse",
-            help="Take fewer speeds and samples and coarser grids, and report the error.",
-        ),
+        "Take fewer speeds and samples and coarser grids, and report the error.",
     ] = False,
     without: Annotated[
         list[str] | None,
-        typer.Option(help="Name of a source of the studies to omit; may be repeated."),
+        "Name of a source of the studies to omit; may be repeated.",
     ] = None,
 ) -> Outcome:
     """Run studies and write results.nc, report.html, tables and figures of each."""
@@ -99,7 +93,6 @@ def _studies(
 def _run(study: "Study", folder: Path, progress: Progress) -> Outcome:
     """Run one study and write its files."""
     from .. import pipeline
-    from ..base.progress import stage
     from . import outputs
     from .summary import outcome
 
@@ -124,16 +117,17 @@ def check_command(
     from ..study.study import Study
     from . import cost_lines
 
-    with collected() as left_out:
+    with collected() as left_out, stage(progress, "check"):
         load_plugins(plugin)
         checked = load_study_or_machine(file)
         if isinstance(checked, Study):
-            lines = list(cost_lines.study_lines(checked))
-            lines += cost_lines.cost_lines(run_cost(checked, progress))
+            cost = run_cost(checked, progress)
+            lines = [*cost_lines.study_lines(checked), *cost_lines.cost_lines(cost)]
+            tables = {"cost": columns([vars(each) for each in cost.costs])}
         else:
-            lines = list(cost_lines.machine_lines(checked))
+            lines, tables = list(cost_lines.machine_lines(checked)), {}
     what = "nothing else is wrong" if left_out else "nothing is wrong"
-    return Outcome("\n".join([*lines, f"{file}: {what}"]))
+    return Outcome("\n".join([*lines, f"{file}: {what}"]), tables=tables)
 
 
 @command("radiation", "Studies", "pipelines/copeland_thesis.toml")
@@ -162,9 +156,7 @@ def radiation_command(
 @command("report", "Results", "reports/copeland_sources/results.nc --pdf")
 def report_command(
     results_file: ResultsFile,
-    out: Annotated[
-        Path | None, out_option("Folder of the report; default: that of the file.")
-    ] = None,
+    out: Annotated[Path | None, "Folder of the report; default: that of the file."] = None,
     plugin: Plugins = None,
     pdf: Pdf = False,
     paper: Paper = None,

@@ -6,14 +6,14 @@ from typing import Annotated, Any
 import typer
 
 from .command import command
-from .options import Plugins, load_plugins, out_option
+from .options import Plugins, load_plugins
 from .outcome import SCHEMA, Outcome
 
 
 @command("new", "Studies", "oldham-scroll --out my_machine")
 def new_command(
     kind: Annotated[str, typer.Argument(metavar="KIND", help="Kind of machine.")],
-    out: Annotated[Path | None, out_option("Folder of the files; default: KIND.")] = None,
+    out: Annotated[Path | None, "Folder of the files; default: KIND."] = None,
 ) -> Outcome:
     """Write a commented machine file and study to begin with, and their schemas."""
     from ..base.errors import StorageError
@@ -45,7 +45,7 @@ def schema_command(
             metavar="NAME", help="Schema to print: study, machine, data_sheet or envelope."
         ),
     ] = None,
-    out: Annotated[Path, out_option("Folder of the files.")] = Path("schemas"),
+    out: Annotated[Path, "Folder of the files."] = Path("schemas"),
     plugin: Plugins = None,
 ) -> Outcome:
     """Write JSON schemas of study, machine, data sheet and of the object of --json; or print one.

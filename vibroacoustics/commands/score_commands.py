@@ -8,7 +8,7 @@ import typer
 from ..base.progress import Progress, stage
 from . import messages
 from .command import command
-from .options import Plugins, ResultsFile, load_plugins, out_option
+from .options import Plugins, ResultsFile, load_plugins
 from .outcome import Outcome
 
 
@@ -21,7 +21,7 @@ def score_command(
         typer.Option("--scoring", help="Study file, .toml, with other scales and weights."),
     ] = None,
     out: Annotated[
-        Path | None, out_option("Folder of what is written; default: scored, beside the file.")
+        Path | None, "Folder of what is written; default: scored, beside the file."
     ] = None,
     plugin: Plugins = None,
 ) -> Outcome:

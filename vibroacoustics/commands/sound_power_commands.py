@@ -7,7 +7,7 @@ import typer
 
 from ..base.progress import Progress, stage
 from .command import command
-from .options import Plugins, out_option
+from .options import Plugins
 from .outcome import Outcome
 from .reading import Reading, SampleRate
 
@@ -21,45 +21,35 @@ def sound_power_command(
         list[Path],
         typer.Argument(metavar="RECORDING", help="Files of the microphones' recordings."),
     ],
-    hemisphere: Annotated[
-        float | None, typer.Option(help="Radius of the hemisphere of the microphones, m.")
-    ] = None,
+    hemisphere: Annotated[float | None, "Radius of the hemisphere of the microphones, m."] = None,
     box: Annotated[
         tuple[float, float, float, float] | None,
-        typer.Option(
-            help="Box of the microphones: length, width and height of the smallest box around the "
-            "machine, distance from it, m."
-        ),
+        "Box of the microphones: length, width and height of the smallest box around the "
+        "machine, distance from it, m.",
     ] = None,
     background: Annotated[
         list[Path] | None,
-        typer.Option(help="Recording without the machine running; may be repeated."),
+        "Recording without the machine running; may be repeated.",
     ] = None,
     absorption_area: Annotated[
         str | None,
-        typer.Option(
-            help="Absorption area of the room, m², or CSV file by band; default: free field."
-        ),
+        "Absorption area of the room, m², or CSV file by band; default: free field.",
     ] = None,
     reverberation_time: Annotated[
-        str | None, typer.Option(help="Reverberation time of the room, s, or CSV file by band.")
+        str | None, "Reverberation time of the room, s, or CSV file by band."
     ] = None,
-    volume: Annotated[
-        float | None, typer.Option(help="Volume of the room, m³, with its reverberation time.")
-    ] = None,
+    volume: Annotated[float | None, "Volume of the room, m³, with its reverberation time."] = None,
     unit: Annotated[
         list[str] | None,
-        typer.Option(help="CHANNEL=UNIT or FILE:CHANNEL=UNIT, where a file states none."),
+        "CHANNEL=UNIT or FILE:CHANNEL=UNIT, where a file states none.",
     ] = None,
     calibration: Annotated[
         list[str] | None,
-        typer.Option(
-            help="CHANNEL=FACTOR or FILE:CHANNEL=FACTOR: unit per unit stored in the file."
-        ),
+        "CHANNEL=FACTOR or FILE:CHANNEL=FACTOR: unit per unit stored in the file.",
     ] = None,
     sample_rate: SampleRate = None,
     out: Annotated[
-        Path | None, out_option("Folder of the results; default: reports/NAME OF THE FIRST.")
+        Path | None, "Folder of the results; default: reports/NAME OF THE FIRST."
     ] = None,
     plugin: Plugins = None,
 ) -> Outcome:

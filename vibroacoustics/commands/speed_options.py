@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 if TYPE_CHECKING:
     from ..study.order_analysis import SpeedSource
 
@@ -15,44 +13,30 @@ class SpeedOptions:
 
     speed_channel: Annotated[
         str | None,
-        typer.Option(
-            help="Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal."
-        ),
+        "Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal.",
     ] = None
-    pulses: Annotated[int, typer.Option(help="Pulses of the tacho per revolution.")] = 1
-    index: Annotated[
-        str | None, typer.Option(help="Channel with one pulse a revolution: crank angle zero.")
-    ] = None
+    pulses: Annotated[int, "Pulses of the tacho per revolution."] = 1
+    index: Annotated[str | None, "Channel with one pulse a revolution: crank angle zero."] = None
     threshold: Annotated[
         float | None,
-        typer.Option(
-            help="Level of the tacho that marks the angle, in its unit; default: follows it."
-        ),
+        "Level of the tacho that marks the angle, in its unit; default: follows it.",
     ] = None
     edge: Annotated[
         str | None,
-        typer.Option(
-            "--edge", help="Edge of the tacho's pulses: rising or falling; default: auto."
-        ),
+        "Edge of the tacho's pulses: rising or falling; default: auto.",
     ] = None
-    rpm: Annotated[
-        float | None, typer.Option(help="Nominal shaft speed, rpm, instead of a channel.")
-    ] = None
+    rpm: Annotated[float | None, "Nominal shaft speed, rpm, instead of a channel."] = None
     tacholess: Annotated[
         tuple[float, float] | None,
-        typer.Option(help="Find the speed in the signal: lowest and highest speed, rpm."),
+        "Find the speed in the signal: lowest and highest speed, rpm.",
     ] = None
     comb: Annotated[
         str | None,
-        typer.Option(
-            help="With --tacholess: orders that the machine has, with commas; default: 1 to 10."
-        ),
+        "With --tacholess: orders that the machine has, with commas; default: 1 to 10.",
     ] = None
     mains: Annotated[
         float | None,
-        typer.Option(
-            help="With --tacholess: frequency of the mains, Hz; its multiples are neglected."
-        ),
+        "With --tacholess: frequency of the mains, Hz; its multiples are neglected.",
     ] = None
 
     def source(self) -> "SpeedSource":

@@ -24,27 +24,20 @@ class Workers:
     ] = 0
     scheduler: Annotated[
         str | None,
-        typer.Option(
-            help="Address, tls://HOST:PORT, of a running scheduler of dask.distributed.",
-        ),
+        "Address, tls://HOST:PORT, of a running scheduler of dask.distributed.",
     ] = None
     tls_ca: Annotated[
         Path | None,
-        typer.Option(help="Certificate of the scheduler's own authority, .pem."),
+        "Certificate of the scheduler's own authority, .pem.",
     ] = None
     tls_cert: Annotated[
         Path | None,
-        typer.Option(help="Your certificate, signed by this authority, .pem."),
+        "Your certificate, signed by this authority, .pem.",
     ] = None
-    tls_key: Annotated[Path | None, typer.Option(help="Private key of your certificate, .pem.")] = (
-        None
-    )
+    tls_key: Annotated[Path | None, "Private key of your certificate, .pem."] = None
     insecure: Annotated[
         bool,
-        typer.Option(
-            "--insecure",
-            help="Use a scheduler without TLS: whoever reaches it may run code as its users.",
-        ),
+        "Use a scheduler without TLS: whoever reaches it may run code as its users.",
     ] = False
 
     def opener(self) -> "Opener | None":
