@@ -42,10 +42,10 @@ va.export_recording(recording, folder / "stand.csv")
 # On the command line
 # -------------------
 # A limit is an RMS: 0.4 mm/s of the second order are 0.28 mm/s, 3 dB too much. Every margin is in
-# ``orders_limits.csv``, too.
+# ``orders_limits.csv``, too; the exit code is 1 where a limit is broken.
 command = [sys.executable, "-m", "vibroacoustics", "orders", "stand.csv", "--rpm", "2900"]
 command += ["--orders", "1,2", "--maximum-order", "4", "--limits", "limits.csv", "--out", "."]
-done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=folder)
+done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
 print(done.stdout)
 
 # %%

@@ -44,7 +44,8 @@ np.savetxt(
 )
 
 # %%
-# Its orders: on the command line ``vibroacoustics orders stand.csv --speed-channel tacho --orders 1,2,3``.
+# Its orders: on the command line
+# ``vibroacoustics orders stand.csv --speed-channel tacho --orders 1,2,3``.
 command = [sys.executable, "-m", "vibroacoustics", "orders", str(folder / "stand.csv")]
 command += ["--speed-channel", "tacho", "--orders", "1,2,3", "--out", str(folder)]
 done = subprocess.run(command, capture_output=True, text=True, check=True)

@@ -10,7 +10,7 @@ from .tables import code, table
 
 HEAD: Final = """# Command line
 
-`vibroacoustics COMMAND --help` prints the same. Bad input is one line on the terminal that names
+`vibroacoustics COMMAND -h` prints the same, with an example. Bad input is one line on the terminal that names
 file, field, value, unit and allowed range, with exit code 2 ([errors](errors.md)). Nothing uses the
 network.
 """
@@ -28,7 +28,7 @@ def section(name: str, command) -> str:
     """Usage and parameters of one command."""
     context = command.make_context(name, [], resilient_parsing=True)
     usage = " ".join(command.collect_usage_pieces(context))
-    records = [one.get_help_record(context) for one in command.params if one.name != "help"]
-    rows = [(code(names), meaning) for names, meaning in filter(None, records)]
-    shown = table(("argument or option", "meaning"), rows) if rows else ""
-    return "\n\n".join([f"## `{name}`", command.help, f"    vibroacoustics {name} {usage}", shown])
+    rows = [(code(names), meaning) for _, (names, meaning) in command.records(context)]
+    shown = table(("argument or option", "meaning"), rows)
+    used = f"    vibroacoustics {name} {usage}\n    {command.example}"
+    return "\n\n".join([f"## `{name}`", command.help, used, shown])

@@ -7,6 +7,7 @@ import pytest
 from support import ROOT
 from toml_language_server import SCHEMAS, marked_lines
 
+from vibroacoustics.commands.outcome import SCHEMA
 from vibroacoustics.report import data_sheet_schema
 from vibroacoustics.study.schema.files import machine_schema, study_schema
 
@@ -34,3 +35,7 @@ def test_every_file_names_its_schema() -> None:
 @pytest.mark.parametrize("kind", OF_KIND)
 def test_schema_accepts_every_file(kind: str) -> None:
     assert marked_lines(kind, [file for file, of in FILES if of == kind]) == {}
+
+
+def test_shipped_schema_of_the_envelope_is_current() -> None:
+    assert json.loads((SCHEMAS / "envelope.json").read_text()) == SCHEMA

@@ -11,6 +11,7 @@ from pydantic import (
     GetJsonSchemaHandler,
     SerializerFunctionWrapHandler,
     ValidationInfo,
+    create_model,
     model_serializer,
     model_validator,
 )
@@ -22,6 +23,7 @@ from .registry import Registry
 
 FURTHER: Final = "others by --plugin"
 Contradictions = Iterable[str]
+_OF_PYDANTIC: Final = set(dir(create_model("Plain"))) - set(dir(object))
 
 
 class Parameters(BaseModel):
@@ -43,6 +45,9 @@ class Parameters(BaseModel):
     )
     lines_to_add: ClassVar[str] = ""
     """What a refusal says of a missing table, where its required keys alone do not say enough."""
+
+    def __dir__(self) -> list[str]:
+        return [name for name in super().__dir__() if name not in _OF_PYDANTIC]
 
     def contradictions(self) -> Contradictions:
         """Give what is wrong between values each of which is allowed; the first is reported.

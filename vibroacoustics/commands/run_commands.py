@@ -115,6 +115,7 @@ def check_command(
     from ..pipeline.cost import run_cost
     from ..study.loading import load_study_or_machine
     from ..study.study import Study
+    from ..study.summary import study_lines
     from . import cost_lines
 
     with collected() as left_out, stage(progress, "check"):
@@ -122,8 +123,8 @@ def check_command(
         checked = load_study_or_machine(file)
         if isinstance(checked, Study):
             cost = run_cost(checked, progress)
-            lines = [*cost_lines.study_lines(checked), *cost_lines.cost_lines(cost)]
-            tables = {"cost": columns([vars(each) for each in cost.costs])}
+            lines = [*study_lines(checked), *cost_lines.cost_lines(cost)]
+            tables = {"cost": columns([each._asdict() for each in cost.costs])}
         else:
             lines, tables = list(cost_lines.machine_lines(checked)), {}
     what = "nothing else is wrong" if left_out else "nothing is wrong"

@@ -3,6 +3,7 @@
 Heights are those of the machine's frame: z up, zero at the centre of mass at rest.
 """
 
+import re
 from collections.abc import Iterable, Mapping
 from typing import Annotated, ClassVar, Final, Self, TypeVar
 
@@ -233,7 +234,8 @@ class Machine(KindOfParameters):
         """
         table = self._table(wanted)
         if table is None:
-            raise ParameterError(f"machine {self.name}: has no table of {wanted.__name__}")
+            name = re.sub("(?<!^)(?=[A-Z])", " ", wanted.__name__).lower()
+            raise ParameterError(f"machine {self.name}: has no table of {name}")
         return table
 
     def has_table(self, wanted: type[Parameters]) -> bool:

@@ -57,7 +57,7 @@ def answer(
     except ModuleNotFoundError as error:
         return _refusal(needed(_reader(request), str(error.name))), ()
     except Exception as error:  # on a damaged file a parser may raise anything
-        return _refusal(f"is damaged or not of this format: {type(error).__name__}: {error}"), ()
+        return _refusal(f"is damaged or not of this format: {error or 'unreadable'}"), ()
     return {**header, "sha256": digest}, rows
 
 

@@ -13,6 +13,7 @@ from ..machine.source import CaseKey
 from .baseline import Baseline
 from .consistency import check_consistent
 from .replacing import replaced
+from .summary import html_of, study_lines
 from .tables import StudyTables
 from .toml_files import Written
 
@@ -53,6 +54,14 @@ class Study(StudyTables):
     def _consistent(self) -> "Study":
         check_consistent(self)
         return self
+
+    def __repr__(self) -> str:
+        return "\n".join(study_lines(self))
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        return html_of(study_lines(self))
 
     @property
     def catalogue_case(self) -> CaseKey:

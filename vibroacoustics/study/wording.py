@@ -1,5 +1,6 @@
 """The wording of refusals: pydantic's findings, a line each, in the file's own keys and units."""
 
+import re
 from functools import partial
 from typing import Any, Final, Protocol, TypeVar, get_args
 
@@ -184,6 +185,15 @@ _PLAIN: Final = {
     "extra_forbidden": "unknown key",
     "union_tag_not_found": "kind is missing",
 }
+_KINDS: Final = {
+    "list": "a list",
+    "tuple": "a list",
+    "string": "a text",
+    "integer": "a whole number",
+    "number": "a number",
+    "boolean": "true or false",
+}
+"""Words for the types of Python that pydantic names."""
 _LIMITS: Final = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}
 
 
@@ -196,7 +206,10 @@ def _without_tags(location: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _reason(message: str) -> str:
-    """Pydantic's words, with a TOML list called a list."""
+    """Pydantic's words without types of Python."""
+    message = re.sub(r"a valid (?:dictionary|.*instance of ).*", "a table", message)
+    for python, words in _KINDS.items():
+        message = message.replace(f"a valid {python}", words)
     return message.replace("Input should be", "must be").replace("tuple", "list")
 
 

@@ -42,7 +42,7 @@ def test_track_gives_the_envelopes(file, tmp_path):
         "--bandwidth",
         2,
         "--out",
-        tmp_path,
+        "--out", tmp_path,
     )
     assert outcome.returncode == 0, outcome.stderr
     assert "bandwidth: 2 Hz, 2 poles" in outcome.stdout
@@ -61,8 +61,8 @@ def test_track_gives_the_envelopes(file, tmp_path):
 
 def test_map_shows_orders_and_levels(file, tmp_path):
     outcome = command_here(
-        "map", file, "--speed-channel", "speed", "--resolution", 8, "--maximum-frequency", 300, "--out",
-        tmp_path,
+        "map", file, "--speed-channel", "speed", "--resolution", 8, "--maximum-frequency", 300,
+        "--out", tmp_path,
     )  # fmt: skip
     assert outcome.returncode == 0, outcome.stderr
     mapped = va.open_results(tmp_path / "speed_map.nc")

@@ -77,7 +77,7 @@ def test_the_command_writes_and_refuses_in_one_line(tmp_path, study, vectors, mo
     out = tmp_path / "responses"
     asked = ("impulse-responses", TINY, "--out", out, "--microphone")
     monkeypatch.setattr(room, "vectors_of", lambda *_: pytest.fail("is computed"))
-    assert_refused(command_here(*asked, "cook"), "listener = cook", "there are table, doorway")
+    assert_refused(command_here(*asked, "cook"), "microphone = cook", "available: table, doorway")
     assert_refused(command_here(*asked, "doorway", "--full-scale", -1), "must be above 0")
     monkeypatch.setattr(room, "vectors_of", lambda *_: (vectors, False))
     outcome = command_here(*asked, "doorway", "--full-scale", 1)

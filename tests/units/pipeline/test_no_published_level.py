@@ -8,11 +8,11 @@ from support import TINY, made_up_radiation
 from vibroacoustics import pipeline, report
 from vibroacoustics.base.decibel import SILENCE_DB
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.commands.cost_lines import samples_text, study_lines
 from vibroacoustics.declaration.sheet import data_sheet
 from vibroacoustics.report.data_sheet import headline
 from vibroacoustics.report.evidence import rungs
 from vibroacoustics.study.loading import load_study
+from vibroacoustics.study.summary import samples_text, study_lines
 
 NO_LEVEL = {"machine.without": ["frame", "overall_noise"], "catalogue_receiver": None}
 GAS_ALONE = {
