@@ -79,7 +79,7 @@ def test_folded_sections_have_their_name_within_what_is_folded() -> None:
     [
         (("--pdf",), "--pdf: needs a browser that prints"),
         (("--pdf", "--paper", "b5"), "--paper b5: must be a4 or letter"),
-        (("--paper", "a4"), "--paper a4: is of the PDF; give --pdf as well"),
+        (("--paper", "a4"), "--paper: is an option of the PDF; give --pdf as well"),
     ],
 )
 def test_without_browser_or_paper_one_line_and_nothing_written(
@@ -170,3 +170,13 @@ def _rows(blocks: Sequence[Block]) -> Iterator[tuple[str, ...]]:
             yield from _rows(block.blocks)
         elif isinstance(block, Beside):
             yield from _rows((block.narrow, block.wide))
+
+
+def test_a_brief_page_omits_what_is_folded() -> None:
+    page = folded_page().decode()
+    brief = for_paper(folded_page(), "a4", brief=True).decode()
+    assert "Inner" in page
+    assert "Inner" not in brief
+    assert "<details" not in brief
+    assert brief.count("the end") == page.count("the end") - 1  # of the folded part
+    assert "<h2>First</h2>" in brief

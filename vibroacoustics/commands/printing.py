@@ -19,15 +19,17 @@ _LONGEST_S: Final = 300.0
 _OPTIONS: Final = (
     "--headless", "--disable-gpu", "--disable-dev-shm-usage", "--disable-extensions",
     "--disable-background-networking", "--no-first-run", "--no-pdf-header-footer",
+    "--generate-pdf-document-outline",
     "--host-resolver-rules=MAP * ~NOTFOUND",
 )  # fmt: skip
 
 
 class Printer(NamedTuple):
-    """A browser and the size of the sheets."""
+    """A browser, the size of the sheets, and whether what is folded is omitted."""
 
     browser: str
     paper: str
+    brief: bool = False
 
     def pages(self, files: Mapping[str, bytes]) -> dict[str, bytes]:
         """A PDF for each HTML page among files, named like it.
@@ -49,7 +51,7 @@ class Printer(NamedTuple):
 
         with TemporaryDirectory(prefix="vibroacoustics_", ignore_cleanup_errors=True) as folder:
             source, target = Path(folder) / "page.html", Path(folder) / "page.pdf"
-            source.write_bytes(for_paper(page, self.paper))
+            source.write_bytes(for_paper(page, self.paper, self.brief))
             message = self._print(source, target)
             if not target.is_file() or not target.read_bytes().startswith(b"%PDF"):
                 raise StorageError(f"--pdf: {self.browser} printed nothing{message}")
@@ -81,7 +83,7 @@ class Printer(NamedTuple):
         return f": {lines[-1]}" if lines else ""
 
 
-def printer(wanted: bool, paper: str | None) -> Printer | None:
+def printer(wanted: bool, paper: str | None, brief: bool = False) -> Printer | None:
     """What prints, sought before anything is computed or written; None where no PDF is wanted.
 
     Raises
@@ -92,8 +94,9 @@ def printer(wanted: bool, paper: str | None) -> Printer | None:
     from ..report.paper import PAPERS
 
     if not wanted:
-        if paper is not None:
-            raise ParameterError(f"--paper {paper}: is of the PDF; give --pdf as well")
+        for option, is_given in (("--paper", paper is not None), ("--brief", brief)):
+            if is_given:
+                raise ParameterError(f"{option}: is an option of the PDF; give --pdf as well")
         return None
     name = (paper or "a4").lower()
     if name not in PAPERS:
@@ -104,4 +107,4 @@ def printer(wanted: bool, paper: str | None) -> Printer | None:
             "--pdf: needs a browser that prints without a window; on PATH is none of "
             f"{', '.join(BROWSERS)}"
         )
-    return Printer(browser, name)
+    return Printer(browser, name, brief)

@@ -42,7 +42,8 @@ def test_track_gives_the_envelopes(file, tmp_path):
         "--bandwidth",
         2,
         "--out",
-        "--out", tmp_path,
+        "--out",
+        tmp_path,
     )
     assert outcome.returncode == 0, outcome.stderr
     assert "bandwidth: 2 Hz, 2 poles" in outcome.stdout
