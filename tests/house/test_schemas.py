@@ -8,7 +8,7 @@ from support import ROOT
 from toml_language_server import SCHEMAS, marked_lines
 
 from vibroacoustics.commands.outcome import SCHEMA
-from vibroacoustics.report import data_sheet_schema
+from vibroacoustics.results.data_sheet import data_sheet_schema
 from vibroacoustics.study.schema.files import machine_schema, study_schema
 
 OF_KIND = {"study": study_schema, "machine": machine_schema}

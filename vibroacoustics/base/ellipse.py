@@ -1,4 +1,4 @@
-"""The ellipse that the tip of a vector draws at one order."""
+"""Ellipse that the tip of a vector follows at an order."""
 
 import numpy as np
 

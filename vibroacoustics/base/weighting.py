@@ -62,8 +62,8 @@ def weighted_signal(signal: Array, sample_rate_hz: float, weighting: str) -> Arr
     The level of every tone is right at its exact frequency up to half the sample rate, where a
     bilinear filter is not. The price is that each sound also rings before it starts, by at most a
     few milliseconds of the size that a meter rings after it. The recording counts as silence
-    before its start and after its end, so an offset leaves a click there: leave out the first and
-    last 0.1 s where that matters.
+    before its start and after its end, so an offset leaves a click there: skip the first and last
+    0.1 s where that matters.
 
     Parameters
     ----------

@@ -12,7 +12,7 @@ from ..results.data_sheet import Vibration
 from ..results.stored_study import parameters
 
 _ANGLES_PER_ORDER: Final = 32
-"""Of the highest order: a peak is then seen within half a percent."""
+"""Number for the highest order: a peak is then found within half a percent."""
 WORDS: Final = (
     "rigid-body motion of the housing on its mounts at shaft orders, all sources together, with "
     "the nominal values; it neglects bending of the wall, lines of the motor and noise"
@@ -46,7 +46,7 @@ def peak_to_peak(peaks: ComplexArray, orders: Array) -> Array:
 
 
 def vibration(case: xr.Dataset, points_m: Mapping[str, Array]) -> tuple[Vibration, ...]:
-    """Of every foot and point in every direction.
+    """Return the motion of every foot and point in every direction.
 
     Parameters
     ----------
@@ -61,9 +61,9 @@ def vibration(case: xr.Dataset, points_m: Mapping[str, Array]) -> tuple[Vibratio
     feet = dict(zip(map(str, case["foot"].values), case["foot_position"].values, strict=True))
     motions = []
     for name, offset in {**feet, **points_m}.items():
-        at = point_velocity(peaks, offset)
-        displacement = peak_to_peak(at / (1j * omega), orders)
-        speed, acceleration = _rms(at), _rms(at * omega)
+        motion = point_velocity(peaks, offset)
+        displacement = peak_to_peak(motion / (1j * omega), orders)
+        speed, acceleration = _rms(motion), _rms(motion * omega)
         motions += [
             Vibration(
                 point=name,

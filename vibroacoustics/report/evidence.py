@@ -21,11 +21,11 @@ from ..results.estimates import nominal, prior_ensemble
 from ..results.stored_study import (
     at_catalogue,
     catalogue_receiver,
-    elsewhere,
     has_sources,
     overall_noise,
     parameters,
 )
+from .source_words import elsewhere
 from .tables import Table
 
 COVERAGE: Final = 2.0

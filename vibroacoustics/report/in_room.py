@@ -33,9 +33,9 @@ def sones(results: xr.Dataset, listener: str) -> list[str]:
     results : of a run
     listener : one of its room
     """
-    if "room_loudness" not in results:
+    if "loudness_in_room" not in results:
         return []
-    here = results["room_loudness"].sel(speed=nearest_speed(results), listener=listener)
+    here = results["loudness_in_room"].sel(speed=nearest_speed(results), listener=listener)
     return [rounding.fixed(one) for one in here.values.tolist()] if here.notnull().all() else []
 
 
@@ -43,7 +43,7 @@ def loudness_words(results: xr.Dataset) -> str:
     """How the loudness is computed, or what it needs."""
     if not has_sound_in_room(results):
         return ""
-    return _HOW if "room_loudness" in results else NO_LOUDNESS
+    return _HOW if "loudness_in_room" in results else NO_LOUDNESS
 
 
 SEAM_DB: Final = 2.0

@@ -10,11 +10,12 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.remembered import remembered
 from ..results.estimates import has_samples
-from ..results.stored_study import at_catalogue, balancers, options, speeds, total_of
+from ..results.stored_study import at_catalogue, balancers, options, speeds
 from .bands import INTERVAL, Band, bands_by_speed, hull
 from .quantities import TOLERANCE_DB, TOTAL
 from .shifts import shift
 from .shown_speeds import many_speeds
+from .source_words import total_of
 
 
 class SourceChange(NamedTuple):

@@ -10,15 +10,14 @@ from ..results.estimates import has_samples, prior_ensemble, sample_numbers
 from ..results.stored_study import (
     at_catalogue,
     catalogue_receiver,
-    elsewhere,
     first_order_hz,
     nearest_speed,
+    operating_points,
     overall_noise,
     parameters,
     quoted_dba,
     source_name,
     speeds,
-    total_of,
 )
 from .bands import INTERVAL, Band, band, percent
 from .sampled_words import sampled_sentences
@@ -26,6 +25,17 @@ from .shown_speeds import many_speeds
 
 LINE_FIGURE: Final = "foot_force_2x_line_n"
 UNMODELLED: Final = "unmodelled noise"
+
+
+def elsewhere(results: xr.Dataset) -> str:
+    """Words for the operating point of the overall noise, where the machine runs at another one."""
+    runs_at, point = operating_points(results)
+    return "" if point == runs_at else f" at the operating point {point}"
+
+
+def total_of(results: xr.Dataset) -> str:
+    """What the total level is the level of."""
+    return "all that is modelled" if overall_noise(results) is None else "the whole machine"
 
 
 def source_share(results: xr.Dataset, source: str, speed: float) -> Band:

@@ -52,7 +52,7 @@ def options(results: xr.Dataset) -> list[str]:
 
 
 def balancers(results: xr.Dataset) -> list[str]:
-    """Names of the options that are told against the reference."""
+    """Names of the options that are compared to the reference."""
     return [option for option in options(results) if option != REFERENCE_OPTION]
 
 
@@ -72,14 +72,8 @@ def operating_points(results: xr.Dataset) -> tuple[str | None, str | None]:
     return runs_at, study.get("catalogue_point") or runs_at
 
 
-def elsewhere(results: xr.Dataset) -> str:
-    """Words for the operating point of the overall noise, where the machine runs at another one."""
-    runs_at, point = operating_points(results)
-    return "" if point == runs_at else f" at the operating point {point}"
-
-
 def overall_noise(results: xr.Dataset) -> dict[str, float] | None:
-    """Published level of the whole machine with its speed and distance; none without one."""
+    """Published level of the machine with its speed and distance; none without one."""
     noise: dict[str, float] | None = parameters(results)["machine"].get("overall_noise")
     return noise
 
@@ -101,8 +95,8 @@ def quoted_dba(results: xr.Dataset) -> float:
     noise = overall_noise(results)
     if noise is not None:
         return noise["level_dba"]
-    at = at_catalogue(results, speed=quoted_speed(results))
-    return float(results["level_total"].sel(at).round(1))
+    level = results["level_total"].sel(at_catalogue(results, speed=quoted_speed(results)))
+    return float(level.round(1))
 
 
 def at_catalogue(results: xr.Dataset, **more: Any) -> dict[str, Any]:
@@ -119,11 +113,6 @@ def at_catalogue(results: xr.Dataset, **more: Any) -> dict[str, Any]:
 def a_weighted(level: Labelled) -> Labelled:
     """Return the A-weighted of levels by weighting; other levels are A-weighted already."""
     return level.sel(weighting="A", drop=True) if "weighting" in level.dims else level
-
-
-def total_of(results: xr.Dataset) -> str:
-    """What the total level is the level of."""
-    return "all that is modelled" if overall_noise(results) is None else "the whole machine"
 
 
 def has_sources(results: xr.Dataset) -> bool:

@@ -40,7 +40,7 @@ def hearing_variables(results: xr.Dataset) -> xr.Dataset:
         labelled = _stamped(results, "receiver", {"loudness": loud, "sharpness": sharp})
     if set(_IN_ROOM) <= set(results):
         loud, _ = _of_every_case(results, "listener", "diffuse")
-        labelled = labelled.merge(_stamped(results, "listener", {"room_loudness": loud}))
+        labelled = labelled.merge(_stamped(results, "listener", {"loudness_in_room": loud}))
     return labelled
 
 
@@ -60,11 +60,11 @@ def _of_every_case(results: xr.Dataset, where: str, field: SoundField) -> Array:
     values = np.full((2, len(speeds), len(options), len(positions)), np.nan)
     for (s, speed), (p, position) in product(enumerate(speeds), enumerate(positions)):
         with suppress(ParameterError):  # louder than the standard goes
-            values[:, s, :, p] = _heard(results, options, position, speed, field)
+            values[:, s, :, p] = _of_options(results, options, position, speed, field)
     return values
 
 
-def _heard(
+def _of_options(
     results: xr.Dataset, options: Iterable[str], position: str, speed: float, field: SoundField
 ) -> Array:
     """Loudness and sharpness of the options at a position and speed, shape (2, option)."""

@@ -15,7 +15,7 @@ class Loudness(Stage):
 
     name = "loudness"
     reads = (*AT_MICROPHONE, *IN_ROOM, "representative_value")
-    gives = ("loudness", "sharpness", "room_loudness")
+    gives = ("loudness", "sharpness", "loudness_in_room")
 
     def applies(self, study: Study) -> bool:
         return available()

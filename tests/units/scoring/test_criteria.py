@@ -113,8 +113,8 @@ def test_strangers_criterion_of_a_built_in_name_is_refused(stranger: Path) -> No
         ),
         (
             "force_amplitude",
-            "loudness",
-            r"is omitted: .*, line \d+: KeyError: .*loudness",
+            "warmth",
+            r"is omitted: .*, line \d+: KeyError: .*warmth",
         ),
         ('.max("speed")', '.max("speed") * float("nan")', "no finite value for the option none"),
     ],

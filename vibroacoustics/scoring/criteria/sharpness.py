@@ -21,6 +21,6 @@ class Sharpness(Criterion):
 
     def value(self, results: xr.Dataset) -> xr.DataArray:
         """Value of each option, acum."""
-        heard = with_hearing(results)
-        sharpness = heard["sharpness"].fillna(0.0).where(heard["loudness"].notnull())
+        judged = with_hearing(results)
+        sharpness = judged["sharpness"].fillna(0.0).where(judged["loudness"].notnull())
         return sharpness.mean("receiver", skipna=False).max("speed", skipna=False)
