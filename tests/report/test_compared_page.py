@@ -17,7 +17,7 @@ from vibroacoustics import (
 from vibroacoustics.report import compared_order_figures, comparison_html
 from vibroacoustics.report.compared.levels import levels_tables
 from vibroacoustics.report.compared.studies import inputs_table, key_figures
-from vibroacoustics.report.compared.validation import rungs_of
+from vibroacoustics.report.compared.validation import validations_of
 from vibroacoustics.results.figure_limits import Compared
 from vibroacoustics.results.mean_of_runs import with_scatter
 from vibroacoustics.results.storage import write_results
@@ -81,11 +81,11 @@ def test_recordings_beside_a_study(study):
     """Two specimens, 6 dB apart, twice each: E and u_D are known."""
     runs = [recording(study, gain) for gain in (1.0, 1.0, 2.0, 2.0)]
     compared = validated(study, runs, ["a", "a", "b", "b"])
-    rung = next(one for one in rungs_of(compared) if one.quantity.startswith("Order 1 of"))
+    order = next(one for one in validations_of(compared) if one.quantity.startswith("Order 1 of"))
     mean_db = 10.0 * np.log10(2.5)
-    assert rung.error == pytest.approx(-mean_db, abs=0.02)
-    assert rung.published == pytest.approx(TWICE_DB / 2.0, abs=0.01)
-    assert rung.numerical == pytest.approx(20.0 * np.log10(1.01), abs=0.01)
+    assert order.error == pytest.approx(-mean_db, abs=0.02)
+    assert order.published == pytest.approx(TWICE_DB / 2.0, abs=0.01)
+    assert order.numerical == pytest.approx(20.0 * np.log10(1.01), abs=0.01)
     scatter = compared.orders.sel(order=1).squeeze(["channel", "speed"])
     assert scatter["order_run_deviation"].item() == pytest.approx(0.0, abs=1e-6)
     assert scatter["order_specimen_deviation"].item() == pytest.approx(4.257, abs=0.01)
@@ -97,8 +97,8 @@ def test_recordings_beside_a_study(study):
 def test_study_may_be_the_second(study):
     run = recording(study, 2.0)
     orders = compare(run, study, {"front": MICROPHONE})
-    rungs = rungs_of(Compared(orders, run, study))
-    first = next(one for one in rungs if one.quantity.startswith("Order 1 of"))
+    validations = validations_of(Compared(orders, run, study))
+    first = next(one for one in validations if one.quantity.startswith("Order 1 of"))
     assert first.error == pytest.approx(-TWICE_DB, abs=0.02)
 
 

@@ -119,6 +119,11 @@ def _mounts() -> xr.Dataset:
                 shapes[:, None, :],
                 {**modes, "body": ["machine"], "dof": list(RIGID_BODY_DOFS)},
             ),
+            "mode_energy": stamp(
+                "mode_energy",
+                shapes[:, None, :] ** 2,
+                {**modes, "body": ["machine"], "dof": list(RIGID_BODY_DOFS)},
+            ),
             "mount_transmissibility": stamp("mount_transmissibility", response, axes),
         }
     )

@@ -10,15 +10,15 @@ from test_report_sources import PUBLISHED_DBA, energy, with_parameters, with_sou
 
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.report import render
-from vibroacoustics.report.evidence import (
+from vibroacoustics.report.evidence import agreement_sentence, evidence_table
+from vibroacoustics.results.validation import (
     AGREES,
     DIFFERS,
     UNDECIDED,
-    Rung,
-    agreement_sentence,
-    evidence_table,
-    rungs,
+    Validation,
+    validations,
 )
+from vibroacoustics.uncertainty.validation import validation_variables
 
 SOURCE = "Thesis, page 1"
 FORCE = {"part": "oldham", "proportional_to": "ring.mass_kg ring.stroke_mm", "source": SOURCE}
@@ -60,13 +60,14 @@ def results() -> xr.Dataset:
     results = results.assign(
         force_order=stamp("force_order", phasor, coords), prior_sample_level=level
     )
-    return with_evidence(results, forces)
+    results = with_evidence(results, forces)
+    return results.merge(validation_variables(results))
 
 
 def test_the_level_is_that_of_the_sources_with_the_spread_before_any_data(
     results: xr.Dataset,
 ) -> None:
-    level = rungs(results)[0]
+    level = validations(results)[0]
     assert level.simulation == pytest.approx(energy(7.0, 50.0, 40.0))
     assert level.data == PUBLISHED_DBA
     sampled = results["prior_sample_level"].values
@@ -78,7 +79,11 @@ def test_the_level_is_that_of_the_sources_with_the_spread_before_any_data(
 
 def test_no_row_tests_a_range_against_the_data_that_made_it(results: xr.Dataset) -> None:
     """The range of the growth with speed comes from other makers' levels at two speeds."""
-    assert [rung.quantity.split()[0] for rung in rungs(results)] == ["Level", "Force", "Force"]
+    assert [each.quantity.split()[0] for each in validations(results)] == [
+        "Level",
+        "Force",
+        "Force",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -97,12 +102,12 @@ def test_no_row_tests_a_range_against_the_data_that_made_it(results: xr.Dataset)
 def test_levels_agree_within_five_decibels_differ_or_are_undecided(
     error: float, uncertainty: float, verdict: str
 ) -> None:
-    rung = Rung("Level", "dB(A)", 56.0 + error, 56.0, 0.0, uncertainty, 0.0, "maker")
-    assert rung.verdict == verdict
+    each = Validation("Level", "dB(A)", 56.0 + error, 56.0, 0.0, uncertainty, 0.0, "maker")
+    assert each.verdict == verdict
 
 
 def test_a_force_follows_the_ranges_that_it_is_proportional_to(results: xr.Dataset) -> None:
-    near, far = rungs(results)[1:]  # that at 1000 rpm has no result
+    near, far = validations(results)[1:]  # that at 1000 rpm has no result
     assert near.simulation == pytest.approx(45.0)
     assert near.inputs == pytest.approx(45.0 * (2.0 / np.sqrt(12.0)) / 2.0)
     assert near.uncertainty == pytest.approx(np.hypot(near.inputs, 5.0))
@@ -121,7 +126,9 @@ def test_the_page_shows_the_table_of_evidence(results: xr.Dataset) -> None:
 
 
 def test_without_any_more_the_catalogue_level_stands_alone() -> None:
-    (level,) = rungs(make_results({"none": 1.0, "halved": 0.5}))
+    results = make_results({"none": 1.0, "halved": 0.5})
+    assert validations(results) == []
+    (level,) = validations(results.merge(validation_variables(results)))
     assert "moving parts" in level.quantity
     assert level.inputs == 0.0
     assert level.verdict == DIFFERS  # the rigid machine's orders are no machine's level
@@ -130,5 +137,5 @@ def test_without_any_more_the_catalogue_level_stands_alone() -> None:
 def test_the_sentence_says_how_far_the_level_is_from_the_published_one(results: xr.Dataset) -> None:
     text = agreement_sentence(results)
     assert "is too uncertain to be compared with the published 56.0 dB(A)" in text
-    level = rungs(results)[0]
+    level = validations(results)[0]
     assert f"u = {level.uncertainty:.1f} dB" in text

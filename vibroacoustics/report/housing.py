@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
-from ..base.decibel import level_of_amplitude
+from ..results.grid_error import loud_errors_db
 from ..results.stored_study import first_order_hz, options, parameters, speeds
 from . import labels
 from .kwave_words import receiver_methods
@@ -21,8 +21,6 @@ _HOW_ERROR: Final = {
     False: "Two grids estimate the error of what is extrapolated from them",
     True: "Two meshes of boundary elements estimate the error of the finer one",
 }
-STEPS: Final = 360
-"""Instants of a revolution at which a displacement is looked at."""
 
 
 def modes_table(results: xr.Dataset) -> Table:
@@ -68,10 +66,10 @@ def attached_table(results: xr.Dataset) -> Table | None:
 
 def shape_words(results: xr.Dataset, mode: str) -> str:
     """The dominant motions of a mode, by their share of its kinetic energy."""
-    shape = results["mode_shape"].sel(mode=mode)
-    energy = np.array([_inertia(results, str(body)) for body in shape["body"].values])
-    shares = energy * shape.values**2 / np.sum(energy * shape.values**2)
-    return _energy_words(shares, shape)
+    if "mode_energy" not in results:
+        return rounding.NOTHING
+    energy = results["mode_energy"].sel(mode=mode)
+    return _energy_words(energy.values, energy)
 
 
 def _energy_words(shares: Array, shape: xr.DataArray) -> str:
@@ -87,48 +85,20 @@ def _energy_words(shares: Array, shape: xr.DataArray) -> str:
     return ", ".join(words)
 
 
-def _inertia(results: xr.Dataset, body: str) -> list[float]:
-    """Mass three times and principal moments of inertia of a body."""
-    machine = parameters(results)["machine"]
-    of = machine["suspension"]["block"] if body == "block" else machine["housing"]
-    return [of["mass_kg"]] * 3 + [of[f"inertia_{axes}_kg_m2"] for axes in ("xx", "yy", "zz")]
-
-
 def block_table(results: xr.Dataset) -> Table | None:
     """Largest displacement of a suspended block at its springs; None where it has none."""
-    if "block_velocity_order" not in results:
+    if "spring_displacement" not in results:
         return None
-    largest = {option: _spring_displacement_mm(results, option) for option in options(results)}
+    largest_mm = 1e3 * results["spring_displacement"].transpose("option", "speed")
     rows = tuple(
-        (option, *(rounding.significant(value) for value in values))
-        for option, values in largest.items()
+        (option, *map(rounding.significant, values))
+        for option, values in zip(options(results), largest_mm.values.tolist(), strict=True)
     )
     caption = (
         "Displacement of the block against the shell at its springs, mm: largest of the four "
         "springs and of a revolution, without the sag; start and stop are not modelled"
     )
     return Table(caption, ("Option", *(f"At {speed:g} rpm" for speed in speeds(results))), rows)
-
-
-def _spring_displacement_mm(results: xr.Dataset, option: str) -> Array:
-    """At the spring that moves most, peak over a revolution, shape (speed,)."""
-    study = parameters(results)
-    machine = study["options"][option].get("machine") or study["machine"]
-    suspension = machine["suspension"]
-    half, low = 0.5 * suspension["springs"]["pitch_m"], suspension["springs_height_m"]
-    moved = {}
-    for body, height in (("block", low), ("shell", low + suspension["height_m"])):
-        name = "block_velocity_order" if body == "block" else "velocity_order"
-        velocity = results[name].sel(option=option).sum("source").isel(order=slice(1, None))
-        omega = 2.0 * np.pi * velocity["order_frequency"].transpose("speed", "order").values
-        motion = velocity.transpose("speed", "order", "dof").values / (1j * omega[..., None])
-        corners = np.array([(x, y, height) for x in (half, -half) for y in (half, -half)])
-        turned = np.cross(motion[..., None, 3:], corners)
-        moved[body] = motion[..., None, :3] + turned  # speed, order, spring, axis
-    order = results["order"].values[1:]
-    turn = np.exp(2j * np.pi * np.arange(STEPS)[:, None] * order / STEPS)
-    over_time = np.einsum("to,sofa->stfa", turn, moved["block"] - moved["shell"]).real
-    return np.asarray(1e3 * np.linalg.norm(over_time, axis=-1).max(axis=(1, 2)))
 
 
 def isolation_sentence(results: xr.Dataset) -> str:
@@ -174,12 +144,10 @@ def grid_error_sentence(results: xr.Dataset) -> str:
     """Estimated error of the transfer vectors where they are loud."""
     if "transfer_vector_error" not in results:
         return "The transfer vectors are given, without an estimate of their error."
-    size = np.abs(results["transfer_vector"].values)
-    loud = size > 0.1 * size.max(axis=0)
-    if not loud.any():
+    error = loud_errors_db(results)
+    if not error.size:
         return "The transfer vectors are silent."
-    error = level_of_amplitude(1.0 + results["transfer_vector_error"].values[loud] / size[loud])
-    half, most = (_hundredth_above(np.quantile(error, share)) for share in (0.5, 0.95))
+    half, most = (_hundredth_above(float(np.quantile(error, share))) for share in (0.5, 0.95))
     return (
         f"{_HOW_ERROR[_by_elements(results)]}: below {half} dB in half, below {most} dB in "
         "95 % of the microphones, motions and frequencies within 20 dB of the loudest microphone."

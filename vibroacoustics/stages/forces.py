@@ -37,7 +37,8 @@ class Forces(Stage):
         Cases, PublishedCases, "force", "force_order", "force_amplitude", "moment", "moment_order",
         "moment_amplitude", "shaft_*", "supply_frequency", "velocity_order", "block_velocity_order",
         "foot_force_order", "foot_force_amplitude", "largest_foot_force", "natural_frequency",
-        "mode_shape", "mount_transmissibility", "reported_figure", "option_*",
+        "mode_shape", "mode_energy", "spring_displacement",
+        "mount_transmissibility", "reported_figure", "option_*",
     )  # fmt: skip
 
     def run(self, chain: Chain) -> Given:

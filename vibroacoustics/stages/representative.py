@@ -71,7 +71,8 @@ class RepresentativeSample(Stage):
     gives = (Representative, "representative_*")
     estimates = (
         "pressure_line", "force", "moment", "force_order", "moment_order", "velocity_order",
-        "block_velocity_order", "foot_force_order", "shaft_speed", "shaft_acceleration",
+        "block_velocity_order", "spring_displacement", "foot_force_order", "shaft_speed",
+        "shaft_acceleration",
     )  # fmt: skip
 
     def applies(self, study: Study) -> bool:

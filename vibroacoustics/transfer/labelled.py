@@ -16,6 +16,7 @@ from ..base.vocabulary import (
 )
 from ..study.study import Study
 from .machine import MachineOnMounts, Response, on_mounts
+from .springs import spring_displacement
 
 MOUNT_FREQUENCY_HZ: Final[Array] = np.asarray(np.geomspace(1.0, 200.0, 400), dtype=np.float64)
 
@@ -43,7 +44,7 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
     velocities = {"velocity_order": [response.velocity for response in responses]}
     if reference.suspension is not None:
         velocities["block_velocity_order"] = [response.block_velocity for response in responses]
-    arrays: Labelled = {
+    arrays: Labelled = _at_springs(machines, responses, results) | {
         name: (np.moveaxis(np.stack(velocity, axis=1), -1, -2), {**coords, **_DOFS})
         for name, velocity in velocities.items()
     }
@@ -58,6 +59,27 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
             coords={"foot_position": (("foot", "axis"), reference.foot_position)},
         )
     )
+
+
+def _at_springs(
+    machines: dict[str, MachineOnMounts], responses: list[Response], results: xr.Dataset
+) -> Labelled:
+    """Displacement of a suspended block at its springs; nothing without a suspension."""
+    frequency = results["order_frequency"].transpose("speed", "order").values
+    displacement = [
+        spring_displacement(
+            machine.suspension,
+            response.velocity.sum(axis=1),
+            response.block_velocity.sum(axis=1),
+            frequency,
+        )
+        for machine, response in zip(machines.values(), responses, strict=True)
+        if machine.suspension is not None
+    ]
+    if len(displacement) < len(machines):
+        return {}
+    coords = {"speed": results["speed"], "option": list(machines)}
+    return {"spring_displacement": (np.stack(displacement, axis=1), coords)}
 
 
 def _responses(machines: list[MachineOnMounts], results: xr.Dataset) -> list[Response]:
@@ -82,6 +104,7 @@ def _of_mounts(machine: MachineOnMounts) -> Labelled:
     return {
         "natural_frequency": (frequencies, mode),
         "mode_shape": (shapes, {**mode, "body": machine.labels, **_DOFS}),
+        "mode_energy": (_energy(machine, shapes), {**mode, "body": machine.labels, **_DOFS}),
         "mount_transmissibility": (
             _transmissibility(machine),
             {"axis": list(AXES), "mount_frequency": MOUNT_FREQUENCY_HZ},
@@ -92,8 +115,7 @@ def _of_mounts(machine: MachineOnMounts) -> Labelled:
 def _with_bodies(machines: dict[str, MachineOnMounts]) -> Labelled:
     """Natural modes of options that attach bodies, by option; nothing where none does.
 
-    Kinetic energy of a motion is φ (Mφ), whose sum over a mode is one. What a machine does not
-    have is NaN.
+    What a machine does not have is NaN.
     """
     attaching = {name: body for name, body in machines.items() if body.attached.bodies}
     if not attaching:
@@ -107,11 +129,9 @@ def _with_bodies(machines: dict[str, MachineOnMounts]) -> Labelled:
         if machine.attached.bodies:
             passed_on[row] = _transmissibility(machine)
             frequencies, shapes = machine.natural_modes()
-            flat = shapes.reshape(len(shapes), -1)
-            shares = (flat * (flat @ machine.isolation.mass_matrix)).reshape(shapes.shape)
             hertz[row, : len(frequencies)] = frequencies
             columns = [bodies.index(label) for label in machine.labels]
-            energy[row, : len(frequencies), columns] = np.moveaxis(shares, 1, 0)
+            energy[row, : len(frequencies), columns] = np.moveaxis(_energy(machine, shapes), 1, 0)
     mode = {"option_mode": [f"mode_{number}" for number in range(1, modes + 1)]}
     coords = {"option": list(machines), **mode}
     at_mounts = {"axis": list(AXES), "mount_frequency": MOUNT_FREQUENCY_HZ}
@@ -120,6 +140,12 @@ def _with_bodies(machines: dict[str, MachineOnMounts]) -> Labelled:
         "option_mount_transmissibility": (passed_on, {"option": list(machines), **at_mounts}),
         "option_mode_energy": (energy, {**coords, "option_body": bodies, **_DOFS}),
     }
+
+
+def _energy(machine: MachineOnMounts, shapes: Array) -> Array:
+    """Share of each motion in the kinetic energy φ (Mφ) of a mode, whose sum is one."""
+    flat = shapes.reshape(len(shapes), -1)
+    return (flat * (flat @ machine.isolation.mass_matrix)).reshape(shapes.shape)
 
 
 def _transmissibility(machine: MachineOnMounts) -> ComplexArray:

@@ -65,6 +65,8 @@ OF_SOURCES = {
 }
 NOT_MADE_HERE = {
     "block_velocity_order",
+    "spring_displacement",
+    "loudness_in_room",
     "green_difference",
     "pattern_transfer_vector",
     "pattern_transfer_vector_error",

@@ -478,7 +478,7 @@ def test_sources_do_not_change_the_moving_parts(results, without):
     heard |= {"source_level", "source_share", "source_band_level", "reported_figure"}
     heard |= {"change_1x", "change_modelled", "change_total", "criterion_value", "score", "rank"}
     heard |= {"first_place_share", "noise_band_level", "unmodelled_band_level", "residual_level"}
-    heard |= {"total_band_level", "unmodelled_share"}
+    heard |= {"total_band_level", "unmodelled_share", "loudness", "sharpness"}
     heard |= {"increase_probability", "decrease_probability", "sources_band_level"}
     heard |= {name for name in map(str, without.data_vars) if "tone_" in name}
     heard |= {name for name, array in without.data_vars.items() if "path_speed" in array.dims}

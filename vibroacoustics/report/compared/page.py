@@ -7,17 +7,17 @@ import xarray as xr
 
 from ...results.figure_limits import CheckedFigure, Compared
 from ...results.mean_of_runs import runs_of
-from ..bands import percent
-from ..blocks import Block, Details, Pictures, Text
-from ..evidence import (
+from ...results.validation import (
     AGREES,
     COVERAGE,
     DIFFERS,
     FORCE_TOLERANCE,
     LEVEL_TOLERANCE_DB,
-    Rung,
-    rungs_table,
+    Validation,
 )
+from ..bands import percent
+from ..blocks import Block, Details, Pictures, Text
+from ..evidence import validation_table
 from ..figures.compared_orders import difference_picture
 from ..figures.style import Picture
 from ..html import html
@@ -28,7 +28,7 @@ from .limits import limit_blocks, limits_sentence
 from .orders import is_pressure, known_channels, orders_table, summary
 from .over_speed import channel_pictures, over_speed_parts
 from .studies import inputs_table, key_figures
-from .validation import is_study, rungs_of
+from .validation import is_study, validations_of
 
 MOST_ROWS: Final = 40
 """Of a table that is not folded."""
@@ -69,15 +69,17 @@ def _verdict(compared: Compared, figures: Sequence[CheckedFigure]) -> list[Block
     if figures or "order_limit" in compared.orders:
         blocks.append(Text(limits_sentence(compared.orders, figures), "headline"))
     blocks.append(Text(summary(compared.orders), "strong"))
-    rungs = rungs_of(compared)
-    return [*blocks, Text(_agreement(rungs))] if rungs else blocks
+    validations = validations_of(compared)
+    return [*blocks, Text(_agreement(validations))] if validations else blocks
 
 
-def _agreement(rungs: Sequence[Rung]) -> str:
-    agree, differ = (sum(rung.verdict == word for rung in rungs) for word in (AGREES, DIFFERS))
-    known = sum(rung.uncertainty > 0.0 for rung in rungs)
+def _agreement(validations: Sequence[Validation]) -> str:
+    agree, differ = (
+        sum(each.verdict == word for each in validations) for word in (AGREES, DIFFERS)
+    )
+    known = sum(each.uncertainty > 0.0 for each in validations)
     return (
-        f"Of {len(rungs)} figures of the study beside the recordings {agree} agree within "
+        f"Of {len(validations)} figures of the study beside the recordings {agree} agree within "
         f"{LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)} and {differ} differ by more than "
         f"{COVERAGE:g} times the validation uncertainty; it is known, in part at least, of {known}."
     )
@@ -96,17 +98,17 @@ def _figures_of_studies(compared: Compared) -> list[Part]:
 
 
 def _validation(compared: Compared) -> list[Part]:
-    rungs = rungs_of(compared)
-    if not rungs:
+    validations = validations_of(compared)
+    if not validations:
         return []
     note = (
         "E = S − D; u is the root of the sum of squares of u_num (grids of the radiation), u_input "
         "(spread of the samples; of levels in all) and u_D (scatter of the runs and specimens), in "
         "the form of ASME V&V 20. What is not known counts as zero, so u is a lower limit."
     )
-    table: Block = rungs_table("The study beside the recordings", rungs)
-    if len(rungs) > MOST_ROWS:
-        table = Details(f"All {len(rungs)} figures", (table,))
+    table: Block = validation_table("The study beside the recordings", validations)
+    if len(validations) > MOST_ROWS:
+        table = Details(f"All {len(validations)} figures", (table,))
     return [Part("validation", "Validation", (Text(note, "note"), table))]
 
 

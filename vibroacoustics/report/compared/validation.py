@@ -10,7 +10,8 @@ from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_amplitude
 from ...results.estimates import has_samples, in_samples
 from ...results.figure_limits import PRESSURE, Compared
-from ..evidence import Rung, grid_error_db
+from ...results.grid_error import grid_error_db
+from ...results.validation import Validation
 from ..order_tables import shown_speeds
 from .levels import levels_at
 from .orders import known_channels, loud_orders
@@ -23,7 +24,7 @@ def is_study(result: xr.Dataset) -> bool:
     return "force_order" in result
 
 
-def rungs_of(compared: Compared) -> list[Rung]:
+def validations_of(compared: Compared) -> list[Validation]:
     """Orders and totals of a study beside those of recordings; none of two of a kind."""
     kinds = [is_study(compared.first), is_study(compared.second)]
     if sum(kinds) != 1:
@@ -31,7 +32,7 @@ def rungs_of(compared: Compared) -> list[Rung]:
     return [*_totals(compared, kinds[0]), *_orders(compared, kinds[0])]
 
 
-def _orders(compared: Compared, study_first: bool) -> Iterator[Rung]:
+def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
     orders = compared.orders
     study = compared.first if study_first else compared.second
     for channel in known_channels(orders):
@@ -47,7 +48,7 @@ def _orders(compared: Compared, study_first: bool) -> Iterator[Rung]:
                 ]
                 simulation, data = levels if study_first else levels[::-1]
                 spread = float(one.get("order_mean_uncertainty", np.nan))
-                yield Rung(
+                yield Validation(
                     f"Order {order:g} of {channel}, {speed:.0f} rpm",
                     "dB" if unit == "Pa" else f"dB re 1 {unit}",
                     simulation,
@@ -59,7 +60,7 @@ def _orders(compared: Compared, study_first: bool) -> Iterator[Rung]:
                 )
 
 
-def _totals(compared: Compared, study_first: bool) -> Iterator[Rung]:
+def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
     orders = compared.orders
     study = compared.first if study_first else compared.second
     _, _, option, _ = list(compared.sides())[0 if study_first else 1]
@@ -75,7 +76,7 @@ def _totals(compared: Compared, study_first: bool) -> Iterator[Rung]:
             simulated, data = both if study_first else both[::-1]
             at = float(speed if study_first else there["compared_speed"].sel(speed=speed))
             spread = data.total_uncertainty_db
-            yield Rung(
+            yield Validation(
                 f"Level in all at {channel}, {speed:.0f} rpm",
                 "dB(A)",
                 simulated.total_dba,

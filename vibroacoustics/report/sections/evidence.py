@@ -3,17 +3,17 @@
 import xarray as xr
 
 from ...base.registry import register
-from .. import conflict
-from ..bands import percent
-from ..blocks import Block, Text
-from ..evidence import (
+from ...results.validation import (
     COVERAGE,
     FORCE_TOLERANCE,
     LEVEL_TOLERANCE_DB,
     ONE_SIDED,
-    evidence_table,
-    rungs,
+    validations,
 )
+from .. import conflict
+from ..bands import percent
+from ..blocks import Block, Text
+from ..evidence import evidence_table
 from . import Section
 
 
@@ -41,7 +41,7 @@ def _conflict(results: xr.Dataset) -> list[Block]:
 
 
 def _applies(results: xr.Dataset) -> bool:
-    return bool(rungs(results))
+    return bool(validations(results))
 
 
 register(Section("evidence", "Evidence", _blocks, _applies, 95.0))

@@ -1,0 +1,93 @@
+"""Results beside data: error and its uncertainty, in the form of ASME V&V 20.
+
+Simulation S, data D, error E = S - D; validation uncertainty u = √(u_num² + u_input² + u_D²), all
+standard uncertainties (ASME V&V 20-2009, sections 1 and 6). With a tolerance T stated before, S
+agrees with D within T where |E| + 1.64 u <= T (equivalence test: Schuirmann 1987, J.
+Pharmacokinetics and Biopharmaceutics 15, 657); it differs where |E| > 2 u; else that is undecided.
+"""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+COVERAGE: Final = 2.0
+"""About 95 % of a normal distribution."""
+ONE_SIDED: Final = 1.64
+"""95 % of a normal distribution lie below it."""
+LEVEL_TOLERANCE_DB: Final = 5.0
+FORCE_TOLERANCE: Final = 0.1
+"""Relative to the published force."""
+AGREES: Final = "agrees"
+DIFFERS: Final = "differs"
+UNDECIDED: Final = "undecided"
+PARTS: Final = {
+    "simulation": "evidence_simulation",
+    "data": "evidence_data",
+    "numerical": "evidence_numerical_uncertainty",
+    "inputs": "evidence_input_uncertainty",
+    "published": "evidence_data_uncertainty",
+}
+"""Variables of the numbers."""
+TEXTS: Final = {
+    "quantity": "evidence_quantity", "unit": "evidence_unit", "source": "evidence_source",
+}  # fmt: skip
+"""Coordinates of the texts."""
+
+
+@dataclass(frozen=True)
+class Validation:
+    """Simulation beside data, with standard uncertainties, all in one unit.
+
+    Attributes
+    ----------
+    quantity : in words
+    unit : of all numbers
+    simulation, data : S and D
+    numerical, inputs, published : uncertainties of numerics, of inputs and of the data
+    source : of the data
+    """
+
+    quantity: str
+    unit: str
+    simulation: float
+    data: float
+    numerical: float
+    inputs: float
+    published: float
+    source: str
+
+    @property
+    def error(self) -> float:
+        """E = S - D."""
+        return self.simulation - self.data
+
+    @property
+    def uncertainty(self) -> float:
+        """Validation uncertainty u."""
+        return float(np.hypot(np.hypot(self.numerical, self.inputs), self.published))
+
+    @property
+    def tolerance(self) -> float:
+        """Tolerance T of the agreement."""
+        is_level = self.unit.startswith("dB")
+        return LEVEL_TOLERANCE_DB if is_level else FORCE_TOLERANCE * abs(self.data)
+
+    @property
+    def verdict(self) -> str:
+        """`AGREES`, `DIFFERS` or `UNDECIDED`."""
+        if abs(self.error) + ONE_SIDED * self.uncertainty <= self.tolerance:
+            return AGREES
+        return DIFFERS if abs(self.error) > COVERAGE * self.uncertainty else UNDECIDED
+
+
+def validations(results: xr.Dataset) -> list[Validation]:
+    """Return all that is published of what the results hold; none in those of earlier versions."""
+    if PARTS["data"] not in results:
+        return []
+    columns = {part: results[name].values.tolist() for part, name in {**PARTS, **TEXTS}.items()}
+    return [
+        Validation(**dict(zip(columns, row, strict=True)))
+        for row in zip(*columns.values(), strict=True)
+    ]
