@@ -11,7 +11,7 @@ from .tables import Table
 
 def agreement_sentence(results: xr.Dataset) -> str:
     """Whether the modelled level agrees with the published one; empty where none is published."""
-    levels = [one for one in validations(results) if one.unit == "dB(A)"]
+    levels = [each for each in validations(results) if each.unit == "dB(A)"]
     if not levels:
         return ""
     level = levels[0]

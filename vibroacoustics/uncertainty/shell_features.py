@@ -1,4 +1,4 @@
-"""What tells shells apart in their mobilities: level by band, clear peaks and their loss factors.
+"""Features of mobilities in which shells differ: level by band, clear peaks and their loss factors.
 
 Levels of neighbouring lines go up and down together, so that lines are no measurements of their
 own. Measured and computed mobilities are taken by the same steps at the same lines: what these
@@ -18,12 +18,12 @@ from ..mechanics.added import third_octave_number
 CLEAR_DB: Final = 6.0
 """What a clear peak stands out of the valleys beside it."""
 LEAST_LINES: Final = 3
-"""Of a band."""
+"""Least number of lines in a band."""
 
 
 @dataclass(frozen=True)
 class Features:
-    """Of all mobilities of a shell.
+    """Features of all mobilities of a shell.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ def clear_peaks(power: Array, frequency_hz: Array) -> tuple[Array, Array]:
 
 
 def _top(level: Array, frequency_hz: Array, peak: int) -> float:
-    """Of the parabola through a peak and the lines beside it."""
+    """Return the top of the parabola through a peak and the lines beside it."""
     before, at, after = level[peak - 1 : peak + 2]
     bend = before - 2.0 * at + after
     offset = 0.5 * (before - after) / bend if bend < 0.0 else 0.0

@@ -37,8 +37,8 @@ def validation_variables(results: xr.Dataset) -> xr.Dataset:
     every = [*_catalogue_level(results), *_forces(results, evidence.get("forces", ()))]
     if not every:
         return xr.Dataset()
-    numbers = {name: [getattr(one, part) for one in every] for part, name in PARTS.items()}
-    texts = {name: [getattr(one, part) for one in every] for part, name in TEXTS.items()}
+    numbers = {name: [getattr(each, part) for each in every] for part, name in PARTS.items()}
+    texts = {name: [getattr(each, part) for each in every] for part, name in TEXTS.items()}
     labelled = stamped(numbers, {"evidence": np.arange(1.0, 1.0 + len(every))})
     return labelled.assign_coords({name: ("evidence", text) for name, text in texts.items()})
 
