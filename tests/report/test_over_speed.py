@@ -12,28 +12,28 @@ from support import TINY, made_up_radiation
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
+from vibroacoustics.report.avoid import avoid_csv
 from vibroacoustics.report.blocks import from_json, pictures, to_json
 from vibroacoustics.report.compared.over_speed import channel_pictures, over_speed_parts
 from vibroacoustics.report.figures.over_speed import over_speed_figures
 from vibroacoustics.report.figures.style import WIDTH_INCH, Picture, png
 from vibroacoustics.report.html import html
-from vibroacoustics.report.over_speed.avoid import (
+from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.results.figure_limits import Compared
+from vibroacoustics.results.over_speed.avoid import (
     FOOT_FORCE,
     LEVEL,
     STANDS_OUT_DB,
-    avoid_csv,
     avoided,
     ranges_to_avoid,
     recorded_speeds_to_avoid,
     speeds_to_avoid,
 )
-from vibroacoustics.report.over_speed.modes import crossing_speeds, crossings, modes_of
-from vibroacoustics.report.over_speed.order_cuts import order_cuts
-from vibroacoustics.report.over_speed.plane import MOST_COLUMNS, MOST_ROWS, plane_of
-from vibroacoustics.report.over_speed.sound_lines import loudest_lines, sound_lines
-from vibroacoustics.report.page import Page, Part
-from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.results.figure_limits import Compared
+from vibroacoustics.results.over_speed.modes import crossing_speeds, crossings, modes_of
+from vibroacoustics.results.over_speed.order_cuts import order_cuts
+from vibroacoustics.results.over_speed.plane import MOST_COLUMNS, MOST_ROWS, plane_of
+from vibroacoustics.results.over_speed.sound_lines import loudest_lines, sound_lines
 
 pytestmark = pytest.mark.usefixtures("real_pictures")
 TUNED_RPM = 3500.0

@@ -11,7 +11,7 @@ from vibroacoustics.report import comparison_csv
 from vibroacoustics.report.page import page_of
 from vibroacoustics.report.scores import criteria_table, scores_csv
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.titles import chosen, option_titles, titled
+from vibroacoustics.results.titles import chosen, option_titles, titled
 
 TITLE = "Half of the counterweight"
 MACHINE = "Our scroll"

@@ -8,7 +8,9 @@ from ..base.fault import collected
 from ..base.hashing import canonical_json
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.registry import plugins
+from ..results.over_speed.avoid import avoided
 from ..results.stored_study import has_sources
+from .avoid import avoid_csv
 from .blocked_forces import (
     blocked_csv,
     blocked_markdown,
@@ -51,7 +53,6 @@ from .order_tables import (
     tracked_csv,
     tracked_text,
 )
-from .over_speed.avoid import avoid_csv, avoided
 from .page import page_of
 from .paths import has_paths, paths_csv
 from .prediction import prediction_csv, prediction_markdown, prediction_text

@@ -8,9 +8,9 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.arrays import Array
+from ..results import labels
 from ..results.grid_error import loud_errors_db
 from ..results.stored_study import first_order_hz, options, parameters, speeds
-from . import labels
 from .kwave_words import receiver_methods
 from .tables import Table
 

@@ -5,8 +5,8 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results import labels
 from ..results.stored_study import balancers, speeds, words
-from . import labels
 from .tables import Table
 
 

@@ -7,6 +7,7 @@ import xarray as xr
 from ..base.fault import collected
 from ..base.processes import side_by_side
 from ..results.stored_study import parameters
+from ..results.titles import titled
 from .blocks import Block, pictures
 from .columns import COLUMNS
 from .figures.style import Picture, file_name
@@ -14,7 +15,6 @@ from .kept_columns import columns_of
 from .kept_sections import sections_of
 from .left_out import with_lines
 from .sections import SECTIONS
-from .titles import titled
 
 
 class Part(NamedTuple):

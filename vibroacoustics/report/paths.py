@@ -11,9 +11,9 @@ from ..base.arrays import Array, ComplexArray
 from ..base.decibel import amplitude_of_level, power_of_level, sound_pressure_level
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results.labels import DOF_WORDS
 from ..results.stored_study import options, quoted_speed, source_name
 from .bands import percent
-from .labels import DOF_WORDS
 from .tables import Table, dataset_csv
 
 LEADING: Final = 10

@@ -6,7 +6,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
-from . import labels
+from ..results import labels
 from .option_verdict import BETTER, OptionVerdict
 from .scores import acceptability_words, criteria_of_advantage, scope_words
 

@@ -5,13 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from ..results.over_speed.avoid import recorded_speeds_to_avoid
+from ..results.over_speed.level_curves import is_run_up, recorded_curves
+from .avoid import RECORDED_RULE, recorded_avoid_table
 from .blocks import Block, Bullets, Pictures, Text
 from .figures.style import Picture
 from .html import html
 from .limit_tables import order_limits_table
 from .order_tables import orders_facts, orders_tables
-from .over_speed.avoid import RECORDED_RULE, recorded_avoid_table, recorded_speeds_to_avoid
-from .over_speed.level_curves import is_run_up, recorded_curves
 from .page import Page, Part
 
 

@@ -7,8 +7,8 @@ import numpy as np
 import xarray as xr
 
 from ..base.units import split_key
+from ..results import labels
 from ..results.stored_study import parameters
-from . import labels
 from .bands import percent
 
 _TABLES: Final = {"variation": "path through the shell", "structure": "shell"}

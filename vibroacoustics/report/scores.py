@@ -8,11 +8,11 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results import labels
 from ..results.estimates import has_samples
 from ..results.run_variables import ANY_WEIGHTS, OF_THE_STUDY
 from ..results.stored_study import has_sources, options, parameters
 from ..results.utility import utilities
-from . import labels
 from .bands import percent
 from .option_verdict import NO_CHANGE, option_verdicts
 from .tables import Table, to_csv

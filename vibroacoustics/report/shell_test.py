@@ -16,9 +16,9 @@ from ..results.estimates import (
     sample_numbers,
     weighted_estimate,
 )
+from ..results.labels import unit
 from ..results.stored_study import catalogue_receiver
 from .bands import INTERVAL, written
-from .labels import unit
 from .sampled_words import named
 from .tables import Table
 

@@ -7,6 +7,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION, SUFFIXES
+from ..results import labels
 from ..results.estimates import has_samples, is_sampled
 from ..results.stored_study import (
     at_catalogue,
@@ -18,7 +19,6 @@ from ..results.stored_study import (
     speeds,
     words,
 )
-from . import labels
 from .bands import INTERVAL, band
 from .column_values import column
 from .remainder import remainder_band

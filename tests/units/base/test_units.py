@@ -13,7 +13,7 @@ from vibroacoustics.base.units import (
     si_key,
     split_key,
 )
-from vibroacoustics.report import labels
+from vibroacoustics.results import labels
 
 
 @pytest.mark.parametrize(

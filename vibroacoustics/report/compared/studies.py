@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 
 from ...base import rounding
+from ...results import labels
 from ...results.figure_limits import Compared
 from ...results.stored_study import parameters
-from .. import labels
 from ..order_tables import shown_speeds
 from ..tables import Table
 

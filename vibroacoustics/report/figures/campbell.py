@@ -11,11 +11,11 @@ from matplotlib.lines import Line2D
 
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.over_speed.avoid import LEVEL, speeds_to_avoid
+from ...results.over_speed.modes import KINDS, Crossing, Mode, crossings, modes_of
+from ...results.over_speed.sound_lines import SoundLine, loudest_lines
 from ...results.stored_study import catalogue_receiver
 from ..charts.needs import needs
-from ..over_speed.avoid import LEVEL, speeds_to_avoid
-from ..over_speed.modes import KINDS, Crossing, Mode, crossings, modes_of
-from ..over_speed.sound_lines import SoundLine, loudest_lines
 from ..titles import chosen
 from .style import COLOURS, WIDTH_INCH, draw, shade, shortened
 

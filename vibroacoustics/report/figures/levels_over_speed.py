@@ -10,16 +10,16 @@ from matplotlib.figure import Figure
 
 from ...base.rounding import LEVEL_FLOOR_DB
 from ...base.vocabulary import REFERENCE_OPTION
-from ...results.stored_study import catalogue_receiver
-from ..charts.needs import needs
-from ..over_speed.avoid import LEVEL, Range, recorded_speeds_to_avoid, speeds_to_avoid
-from ..over_speed.level_curves import (
+from ...results.over_speed.avoid import LEVEL, Range, recorded_speeds_to_avoid, speeds_to_avoid
+from ...results.over_speed.level_curves import (
     LevelCurve,
     is_run_up,
     option_curves,
     recorded_curves,
     source_curves,
 )
+from ...results.stored_study import catalogue_receiver
+from ..charts.needs import needs
 from ..titles import chosen, titled
 from .panels import each_panel, one_panel
 from .style import WIDTH_INCH, line_looks, shade, shortened, wrap

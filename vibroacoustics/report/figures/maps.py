@@ -15,8 +15,8 @@ from ...base.arrays import Array, ComplexArray
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import amplitude_of_level, level_of_amplitude
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.labels import DOF_WORDS
 from ..charts.needs import needs
-from ..labels import DOF_WORDS
 from ..shown_speeds import few_speeds
 from .style import Picture, plain, png, render
 

@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.over_speed.order_cuts import OrderCuts, order_cuts
 from ..charts.needs import needs
-from ..over_speed.order_cuts import OrderCuts, order_cuts
 from .panels import logarithmic, one_panel
 from .style import WIDTH_INCH, Picture, in_both_widths, line_looks, shortened
 

@@ -7,13 +7,13 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from ...results.map_levels import map_level
+from ...results.over_speed.level_curves import is_run_up
 from ..charts.layout import shortened
 from ..charts.marks import Axis, Chart, Image, Panel, Segments, lines
 from ..charts.marks import Line as Curve
 from ..charts.needs import needs
 from ..charts.picture import Picture, picture
-from ..map_levels import map_level
-from ..over_speed.level_curves import is_run_up
 from ..titles import chosen
 from .levels_over_speed import levels_over_speed
 from .orders_over_speed import over_speed_picture

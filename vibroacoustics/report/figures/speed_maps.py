@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.over_speed.plane import Plane, plane_of
 from ..charts.needs import needs
-from ..over_speed.plane import Plane, plane_of
 from .panels import level_map, one_panel
 from .style import WIDTH_INCH, shortened
 

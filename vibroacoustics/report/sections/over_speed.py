@@ -3,9 +3,10 @@
 import xarray as xr
 
 from ...base.registry import register
+from ...results.over_speed.avoid import avoided
+from ..avoid import avoid_table, reference_words, rule_words
 from ..blocks import Block, Pictures, Text
 from ..figures.over_speed import over_speed_figures
-from ..over_speed.avoid import avoid_table, avoided, reference_words, rule_words
 from ..shown_speeds import over_speed
 from . import Section
 

@@ -7,8 +7,8 @@ import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array
-from ...results.stored_study import words
 from .. import labels
+from ..stored_study import words
 from .sound_lines import SoundLine
 
 KINDS: Final = ("mounts", "shell", "gas")

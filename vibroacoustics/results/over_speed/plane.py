@@ -8,8 +8,8 @@ import xarray as xr
 from ...base.arrays import Array
 from ...base.decibel import level_of_power, power_of_level, sound_pressure_level
 from ...base.vocabulary import REFERENCE_OPTION
-from ...results.stored_study import catalogue_receiver
 from ..map_levels import map_level
+from ..stored_study import catalogue_receiver
 from ..titles import chosen
 from .level_curves import is_run_up
 

@@ -10,8 +10,8 @@ from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import amplitude_of_level, level_of_amplitude
 from ...base.vocabulary import REFERENCE_OPTION
 from ...base.weighting import WEIGHTING
-from ...results.order_comparison import channel_orders
-from ...results.stored_study import catalogue_receiver
+from ..order_comparison import channel_orders
+from ..stored_study import catalogue_receiver
 from ..titles import chosen
 
 MOST_ORDERS: Final = 8

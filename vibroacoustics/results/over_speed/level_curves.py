@@ -8,8 +8,8 @@ import xarray as xr
 
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
-from ...results.estimates import interval, is_sampled
-from ...results.stored_study import a_weighted, catalogue_receiver, options, source_name
+from ..estimates import interval, is_sampled
+from ..stored_study import a_weighted, catalogue_receiver, options, source_name
 from ..titles import chosen
 
 MOST_CURVES: Final = 8

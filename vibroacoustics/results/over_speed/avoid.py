@@ -1,20 +1,17 @@
-"""Speeds to avoid: where level or foot force stands out, what makes it so, as table and file."""
+"""Speeds to avoid: where level or foot force stands out, and the line and mode there."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
 import xarray as xr
 from scipy.signal import find_peaks
 
-from ...base import rounding
 from ...base.arrays import Array
 from ...base.decibel import level_of_amplitude, level_of_power, power_of_level
 from ...base.rounding import FORCE_FLOOR, LEVEL_FLOOR_DB
 from ...base.vocabulary import REFERENCE_OPTION
-from ...results.stored_study import catalogue_receiver, options
-from ..bands import energy_share, percent
-from ..tables import Table, to_csv
+from ..stored_study import catalogue_receiver, options
 from .modes import Mode, modes_of
 from .sound_lines import sound_lines
 
@@ -169,131 +166,7 @@ def _curves(
     return speed, np.asarray(level_of_power(np.sum(force**2, axis=0))), names, hertz, levels
 
 
-MOST_ROWS: Final = 20
-MOST_NAMED: Final = 5
-RECORDED_RULE: Final = (
-    "Speeds to avoid are maxima of the A-weighted level over the speed, in energy means over "
-    f"{BINS} equal steps of it, that stand at least {STANDS_OUT_DB:g} dB above the higher of the "
-    f"two valleys beside them, with all speeds around them within {WITHIN_DB:g} dB of the maximum."
-)
-_HEAD: Final = ("option", "quantity", "from_rpm", "to_rpm", "peak_rpm", "above_db", "line",
-                "line_hz", "mode", "mode_hz")  # fmt: skip
-
-
 def avoided(results: xr.Dataset) -> list[Avoided]:
-    """Of all options at the catalogue's microphone, those that stand out most first."""
+    """Return those of all options at the published microphone, the most prominent first."""
     every = speeds_to_avoid(results, catalogue_receiver(results), options(results))
     return sorted(every, key=lambda one: -one.range.above_db)
-
-
-def avoid_table(results: xr.Dataset, every: Sequence[Avoided]) -> Table | None:
-    """Those that stand out most, by option and speed; none for none."""
-    if not every:
-        return None
-    rows = tuple(_row(results, same) for same in _alike(results, every[:MOST_ROWS]))
-    more = f"; {MOST_ROWS} of {len(every)}, all are in speeds.csv" if len(every) > MOST_ROWS else ""
-    head = ("Option", "What stands out", "Avoid, rpm", "Largest at, rpm", "By, dB",
-            "Of the total there", "Strongest line", "Natural frequency")  # fmt: skip
-    at = catalogue_receiver(results)
-    return Table(f"Speeds to avoid, levels at {at}{more}", head, rows, frozenset({0, 1, 6, 7}))
-
-
-def _alike(results: xr.Dataset, every: Sequence[Avoided]) -> list[list[Avoided]]:
-    """Those that read the same with several options, together; by speed, levels first."""
-    names = options(results)
-    ranked = sorted(
-        every, key=lambda one: (one.quantity != LEVEL, one.range.peak_rpm, names.index(one.option))
-    )
-    groups: dict[tuple[object, ...], list[Avoided]] = {}
-    for one in ranked:
-        key = (one.quantity, *_words(one), rounding.fixed(one.range.above_db, 0))
-        groups.setdefault(key, []).append(one)
-    return list(groups.values())
-
-
-def _row(results: xr.Dataset, same: Sequence[Avoided]) -> tuple[str, ...]:
-    one, count = same[0], len(options(results))
-    ends, peak, line, mode = _words(one)
-    return (
-        "all" if len(same) == count > 1 else ", ".join(other.option for other in same),
-        one.quantity,
-        ends,
-        peak,
-        rounding.fixed(one.range.above_db, 0),
-        _share(results, one),
-        line,
-        mode,
-    )
-
-
-def _words(one: Avoided) -> tuple[str, str, str, str]:
-    """Range, maximum, line and mode."""
-    mode = rounding.NOTHING if one.mode is None else one.mode.words
-    line = f"{one.line}, {one.line_hz:.0f} Hz"
-    return _ends(one.range), f"{one.range.peak_rpm:.0f}", line, mode
-
-
-def recorded_avoid_table(channel: str, ranges: Sequence[Range]) -> Table | None:
-    """Of a recording; none for none."""
-    if not ranges:
-        return None
-    rows = tuple(
-        (_ends(one), f"{one.peak_rpm:.0f}", rounding.level(one.peak_db),
-         rounding.fixed(one.above_db, 0))
-        for one in ranges
-    )  # fmt: skip
-    head = ("Avoid, rpm", "Largest at, rpm", "Level, dB(A)", "By, dB")
-    return Table(f"Speeds to avoid: {channel}", head, rows)
-
-
-def rule_words(results: xr.Dataset) -> str:
-    """How speeds to avoid were chosen, and what the rule cannot see."""
-    speed = np.sort(results["speed"].values)
-    step = float(np.diff(speed).max())
-    return (
-        "Speeds to avoid are maxima over the speed, of the modelled A-weighted level or of the "
-        "force into a foot (root of the sum of squares of the orders), that stand at least "
-        f"{STANDS_OUT_DB:g} dB above the higher of the two valleys beside them, with all speeds "
-        f"around them within {WITHIN_DB:g} dB of the maximum. Strongest line: the loudest order or "
-        "tone there; natural frequency: the nearest, where it lies within "
-        f"{100.0 * NEAR_RATIO:g} % of that line. Natural frequencies are nominal. Speeds lie up to "
-        f"{step:g} rpm apart: a narrower maximum between them is not seen, nor one at an end."
-    )
-
-
-def reference_words(every: Sequence[Avoided]) -> str:
-    """Ranges to avoid without a balancer."""
-    spans = [one.range for one in every if one.option == REFERENCE_OPTION]
-    if not spans:
-        return "Without a balancer no speed is to be avoided by the rule below."
-    named = [f"{_ends(span)} rpm" for span in sorted(spans[:MOST_NAMED])]
-    more = f" and {len(spans) - MOST_NAMED} more" if len(spans) > MOST_NAMED else ""
-    return f"Speeds to avoid without a balancer: {', '.join(named)}{more}."
-
-
-def avoid_csv(every: Sequence[Avoided]) -> bytes:
-    """All of them; mode and its frequency are empty where none is near."""
-    return to_csv(_HEAD, _csv_rows(every))
-
-
-def _csv_rows(every: Sequence[Avoided]) -> Iterator[list[str | float]]:
-    for one in every:
-        mode: tuple[str | float, ...] = ("", "")
-        if one.mode is not None:
-            mode = (f"{one.mode.kind} {one.mode.name}", one.mode.frequency_hz)
-        span = one.range
-        yield [one.option, one.quantity, span.from_rpm, span.to_rpm, span.peak_rpm,
-               span.above_db, one.line, one.line_hz, *mode]  # fmt: skip
-
-
-def _ends(span: Range) -> str:
-    return f"{span.from_rpm:.0f} to {span.to_rpm:.0f}"
-
-
-def _share(results: xr.Dataset, one: Avoided) -> str:
-    """Of the modelled energy in the total's; none of a force."""
-    if one.quantity != LEVEL:
-        return rounding.NOTHING
-    at = {"option": one.option, "receiver": catalogue_receiver(results),
-          "speed": one.range.peak_rpm}  # fmt: skip
-    return percent(energy_share(one.range.peak_db, float(results["level_total"].sel(at))))

@@ -11,7 +11,7 @@ from ...base.decibel import sound_pressure_level
 from ...base.rounding import LEVEL_FLOOR_DB
 from ...base.vocabulary import REFERENCE_OPTION
 from ...base.weighting import WEIGHTING
-from ...results.stored_study import catalogue_receiver
+from ..stored_study import catalogue_receiver
 
 MOST_ORDERS: Final = 8
 MOST_TONES: Final = 4

@@ -1,0 +1,65 @@
+"""Titles in place of the names of machine and options, for what people read."""
+
+import json
+from typing import Any
+
+import xarray as xr
+
+from ..base.errors import ParameterError
+from ..base.hashing import canonical_json
+
+
+def option_titles(results: xr.Dataset) -> dict[str, str]:
+    """Titles of options by their names; none of results without."""
+    return dict(_titles(results).get("options", {}))
+
+
+def titled(results: xr.Dataset) -> xr.Dataset:
+    """The results with titles for names; themselves where there are none, or where they are in.
+
+    CSV files are made of results without.
+    """
+    titles, options = _titles(results), option_titles(results)
+    names = [str(name) for name in results["option"].values] if "option" in results.coords else []
+    renamed = [options.get(name, name) for name in names]
+    if renamed == names and not titles.get("machine"):
+        return results
+    parameters = json.loads(results.attrs["parameters"])
+    parameters["machine"]["name"] = titles.get("machine") or parameters["machine"]["name"]
+    parameters["options"] = _by_title(parameters["options"], options)
+    attrs = {"parameters": canonical_json(parameters)}
+    if "words" in results.attrs:
+        words = json.loads(results.attrs["words"])
+        words["sentences"] = _by_title(words["sentences"], options)
+        attrs["words"] = canonical_json(words)
+    return results.assign_coords(option=renamed).assign_attrs(attrs)
+
+
+def chosen(results: xr.Dataset, dimension: str, value: Any) -> Any:
+    """A label of a dimension; where none is given, the first; of an option with a title that.
+
+    Raises
+    ------
+    ParameterError
+        The results have no such label.
+    """
+    labels = results[dimension].values.tolist()
+    if dimension == "option" and value not in labels:
+        value = option_titles(results).get(value, value)
+    if value is None:
+        return labels[0]
+    if value not in labels:
+        raise ParameterError(
+            f"{dimension} = {value}: not in these results; there are {', '.join(map(str, labels))}"
+        )
+    return value
+
+
+def _by_title(table: dict[str, Any], options: dict[str, str]) -> dict[str, Any]:
+    return {options.get(name, name): value for name, value in table.items()}
+
+
+def _titles(results: xr.Dataset) -> dict[str, Any]:
+    """Of the study; results of recordings have none."""
+    known = json.loads(results.attrs.get("parameters", "{}"))
+    return dict(known.get("titles", {})) if isinstance(known, dict) else {}
