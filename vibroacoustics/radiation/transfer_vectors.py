@@ -81,7 +81,7 @@ def transfer_vectors(
     parts = field_parts(method.clear, surroundings, shell.floor_z_m, sound_field, task.tabulated)
     vectors, elsewhere = method.pressures([part.microphones for part in parts], progress)
     names = [pattern.name for pattern in task.patterns[len(RIGID_BODY_DOFS) :]]
-    dataset = _labelled(vectors, task.positions, task.table_hz, names)
+    dataset = labelled(vectors, task.positions, task.table_hz, names)
     dataset = dataset.merge(labelled_fields(parts, elsewhere, frequency_hz, surroundings))
     dataset = with_methods(dataset, receiver_methods(receivers, settings, task.kwave))
     return check(dataset).assign_attrs(
@@ -218,12 +218,22 @@ def frequencies_hz(settings: RadiationSettings) -> Array:
     return np.asarray(step * np.arange(1.0, count + 1.0))
 
 
-def _labelled(
+def labelled(
     vectors: Mapping[str, Array | ComplexArray],
     positions: Mapping[str, Array],
     frequency: Array,
-    patterns: list[str],
+    patterns: Sequence[str],
 ) -> xr.Dataset:
+    """Label transfer vectors of rigid motions and of patterns.
+
+    Parameters
+    ----------
+    vectors : by name of the rigid motions' variable, shape (receiver, pattern, frequency), rigid
+        motions first; `green_difference` without patterns
+    positions : of the receivers by name, shape (3,), m
+    frequency : shape (frequency,), Hz
+    patterns : names of those besides the rigid motions
+    """
     distances = [float(np.linalg.norm(position)) for position in positions.values()]
     by_receiver = {"receiver": list(positions), "frequency": frequency}
     number = len(RIGID_BODY_DOFS)
@@ -235,8 +245,8 @@ def _labelled(
         for name, values in vectors.items()
     }
     if patterns:
-        by_pattern = {**by_receiver, "pattern": patterns}
-        for name in ("transfer_vector", "transfer_vector_error"):
+        by_pattern = {**by_receiver, "pattern": list(patterns)}
+        for name in {"transfer_vector", "transfer_vector_error"} & vectors.keys():
             full = f"pattern_{name}"
             arrays[full] = stamp(full, vectors[name][:, number:], by_pattern)
     return xr.Dataset(arrays, coords={"distance": ("receiver", distances)})

@@ -51,7 +51,7 @@ class Transmission:
         known, sound = Shared(), {}
         for key, case in cases.cases.items():
             path = self.path(known, case.machine, cases.loads[key])
-            received = self._of_case(self._lines(key, cases), cases.loads[key], path)
+            received = self._of_case(self.lines(key, cases), cases.loads[key], path)
             sound[key] = received.behind(self.study.option_of(key).insertion_loss())
         return sound
 
@@ -65,7 +65,7 @@ class Transmission:
         known = Shared()
         for key, case in cases.cases.items():
             path = self.path(known, case.machine, cases.loads[key])
-            lines = self._lines(key, cases)
+            lines = self.lines(key, cases)
             split = contributions(path, self.microphones, lines, cases.loads[key])
             yield key, split.behind(self.study.option_of(key).insertion_loss())
 
@@ -100,8 +100,16 @@ class Transmission:
         ]
         return ReceivedSound(lines, pressure, tuple(noise))
 
-    def _lines(self, key: CaseKey, cases: Cases) -> Lines:
-        """With as many orders as the wrenches have; on a shell up to the highest frequency."""
+    def lines(self, key: CaseKey, cases: Cases) -> Lines:
+        """Lay the loads of a case on lines: as many orders as the wrenches have, more on a shell.
+
+        On an elastic shell the orders reach up to the highest frequency.
+
+        Parameters
+        ----------
+        key : speed and option
+        cases : with their loads
+        """
         case = cases.cases[key]
         highest = self.study.highest_order(case.speed_rpm)
         if self.study.drives_shell:

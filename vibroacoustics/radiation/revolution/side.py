@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from threading import Lock
 from typing import Final
 
@@ -69,17 +69,20 @@ class RevolutionSide:
         length = float(mesh(meridian, 1e3, 0).lengths.sum())
         wave = SPEED_OF_SOUND_M_PER_S / maximum_frequency_hz
         longest = min(length / _ELEMENTS, wave / _ELEMENTS_PER_WAVE)
-        meshes = [
-            mesh(meridian, longest, _GRADINGS),
-            mesh(meridian, _COARSENING * longest, _GRADINGS - 1),
-        ]
         self.longest_m = longest
         self.floor_z_m = floor_z_m
-        self.radiators = [Radiator(one, patterns, floor_z_m) for one in meshes]
-        _check_memory(self.radiators[0])
-        heights = meshes[0].points[:, 1]
+        self.finer = Radiator(mesh(meridian, longest, _GRADINGS), patterns, floor_z_m)
+        self._coarser = mesh(meridian, _COARSENING * longest, _GRADINGS - 1)
+        self._patterns = patterns
+        _check_memory(self.finer)
+        heights = self.finer.mesh.points[:, 1]
         self._middle_z_m = float(heights.min() + heights.max()) / 2.0
         self._solved: dict[float, list[WallPressure]] = {}
+
+    @cached_property
+    def radiators(self) -> list[Radiator]:
+        """On the finer mesh and on the coarser one."""
+        return [self.finer, Radiator(self._coarser, self._patterns, self.floor_z_m)]
 
     @property
     def solved_frequencies(self) -> int:
@@ -89,7 +92,7 @@ class RevolutionSide:
     def clear(self, points: Array) -> NDArray[np.bool_]:
         """Whether points (point, 3) lie off the body and above the floor."""
         meridian = np.stack([np.hypot(points[:, 0], points[:, 1]), points[:, 2]], axis=1)
-        free = self.radiators[0].mesh.depth_m(meridian) < -_CLOSEST_M
+        free = self.finer.mesh.depth_m(meridian) < -_CLOSEST_M
         if self.floor_z_m is not None:
             free &= points[:, 2] > self.floor_z_m - 1e-9
         return free

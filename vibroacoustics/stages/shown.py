@@ -1,0 +1,78 @@
+"""The cases that pictures show: without an option, and with the one that ranks first."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+from ..base.arrays import Array
+from ..base.vocabulary import REFERENCE_OPTION
+from ..levels.contribution_choice import chosen_speeds
+from ..levels.sample_levels import with_discrepancy
+from ..machine.cases import Cases
+from ..machine.machine import Machine
+from ..machine.source import CaseKey
+from ..mechanics.received_sound import ReceivedSound
+from ..transfer.received import Transmission
+from .chain import Chain
+from .representative import Representative
+
+SHOWN: Final[tuple[str | type, ...]] = (Cases, Transmission, Representative, "rank")
+"""What a stage reads that asks for the cases; with the ranks it comes after the scores."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """Cases at the speed of the published level, of the representative sample if there is one.
+
+    Attributes
+    ----------
+    speed_rpm : the nearest to that of the published level
+    options : none, and the one that ranks first
+    receiver : number of the microphone of the published level
+    machine : without an option
+    cases : of these options
+    gain : factors of the discrepancy on the power of sources, shape (source, receiver, gain band);
+        empty without samples
+    """
+
+    speed_rpm: float
+    options: tuple[str, ...]
+    receiver: int
+    machine: Machine
+    cases: Cases
+    gain: Mapping[CaseKey, Array]
+
+    @classmethod
+    def of(cls, chain: Chain) -> "Shown":
+        """Choose the cases of a study."""
+        study, chosen = chain.study, chain.get(Representative)
+        published = study.catalogue_speed_rpm
+        speed = min(chosen_speeds(study), key=lambda speed: abs(speed - published))
+        rank = chain.results["rank"].isel(scoring_method=0)
+        first = str(rank["option"].values[rank.argmin("option").item()])
+        options = tuple(dict.fromkeys([REFERENCE_OPTION, first]))
+        every = chain[Cases] if chosen is None else chosen.cases
+        return cls(
+            speed,
+            options,
+            list(study.receivers).index(study.catalogue_receiver),
+            study.machine if chosen is None else chosen.machine,
+            every.some((speed, option) for option in options),
+            {} if chosen is None else chosen.gain,
+        )
+
+    def received(self, path: Transmission, receiver: int | None = None) -> list[ReceivedSound]:
+        """Compute the sound of each case, with the discrepancy of the sample.
+
+        Parameters
+        ----------
+        path : to receivers
+        receiver : number of the microphone whose discrepancy all receivers have; each its own
+            without it
+        """
+        rows = slice(None) if receiver is None else [receiver]
+        sound = path.received(self.cases)
+        return [
+            with_discrepancy(one, self.gain[key][:, rows]) if self.gain else one
+            for key, one in sound.items()
+        ]

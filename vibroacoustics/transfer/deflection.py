@@ -1,0 +1,146 @@
+"""Deflection of the housing at one frequency: as a rigid body, and by the modes of its shell."""
+
+from collections.abc import Mapping, Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array, ComplexArray
+from ..base.vocabulary import AXES, RIGID_BODY_DOFS, stamped
+from ..machine.shell import Shell
+from ..mechanics.loads import Lines, PortLoads, summed
+from .load_path import LoadPath
+from .observers import motions
+from .shell_modes import SampledMode, ShellMode
+
+_ANGLES: Final[Array] = 2.0 * np.pi * np.arange(48) / 48
+"""Of the points on a ring."""
+_ON_WALL: Final = 13
+"""Rings on the wall, its ends among them."""
+_ON_CAP: Final = 6
+"""Rings on a cap, its middle among them."""
+
+
+def rings(shell: Shell) -> tuple[Array, Array]:
+    """Radius and height of rings around the shell, from the middle of its bottom up.
+
+    Parameters
+    ----------
+    shell : outside
+
+    Returns
+    -------
+    radius, and height above the centre of mass, shape (station,), m
+    """
+    turn = np.linspace(0.0, 0.5 * np.pi, _ON_CAP + 1)[:-1]
+    lower, upper = shell.dome_height_m, shell.height_m - shell.dome_height_m
+    on_cap, rise = shell.radius_m * np.sin(turn), shell.dome_height_m * np.cos(turn)
+    radius = np.concatenate([on_cap, np.full(_ON_WALL, shell.radius_m), on_cap[::-1]])
+    wall = np.linspace(lower, upper, _ON_WALL)
+    height = np.concatenate([lower - rise, wall, upper + rise[::-1]])
+    return radius, height - shell.centre_of_mass_height_m
+
+
+def ring_points(radius_m: Array, height_m: Array) -> Array:
+    """Points of the rings, shape (station, angle, 3), m.
+
+    Parameters
+    ----------
+    radius_m, height_m : shape (station,)
+    """
+    across = radius_m[:, None, None] * np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1)
+    up = np.broadcast_to(height_m[:, None, None], (*across.shape[:2], 1))
+    return np.concatenate([across, up], axis=-1)
+
+
+class MovingCase(NamedTuple):
+    """A case at one line.
+
+    Attributes
+    ----------
+    path : from its loads
+    lines : loads of all sources
+    line : name of a line above 0 Hz
+    """
+
+    path: LoadPath
+    lines: Lines
+    line: str
+
+
+def deflection_variables(cases: Mapping[str, MovingCase], shell: Shell) -> xr.Dataset:
+    """Label the displacements at a line of each case by all sources together.
+
+    Parameters
+    ----------
+    cases : by option
+    shell : outside
+    """
+    radius, height = rings(shell)
+    points = ring_points(radius, height)
+    each = [_deflection(case, points) for case in cases.values()]
+    coords = {
+        "shown_option": list(cases),
+        "station": np.arange(1.0, radius.size + 1.0),
+        "station_angle": _ANGLES,
+        "axis": list(AXES),
+        "dof": list(RIGID_BODY_DOFS),
+        "foot": list(next(iter(cases.values())).path.body.stand.names),
+    }
+    labelled = stamped({name: [one[name] for one in each] for name in each[0]}, coords)
+    return labelled.assign_coords(
+        deflection_line=("shown_option", [case.line for case in cases.values()]),
+        station_radius=("station", radius),
+        station_height=("station", height),
+    )
+
+
+def _deflection(case: MovingCase, points: Array) -> dict[str, ComplexArray | float]:
+    """Displacements at points of the shell, shape (..., 3), by variable of the vocabulary."""
+    column = case.lines.names.index(case.line)
+    acting = summed(
+        {port: load[:, [column]] for port, load in loads.items()}
+        for loads in case.lines.loads.values()
+    )
+    frequency = float(case.lines.frequency_hz[column])
+    moving = amplitudes(case.path, acting, frequency)
+    rigid, feet = moving[-6:], case.path.body.foot_position
+    return {
+        "deflection": displacement(case.path, moving, points),
+        "deflection_rigid": rigid,
+        "deflection_foot": rigid[:3] + np.cross(rigid[3:], feet),
+        "deflection_frequency": frequency,
+    }
+
+
+def amplitudes(path: LoadPath, loads: PortLoads, frequency_hz: float) -> ComplexArray:
+    """Displacements of the shell's modes and then of its six rigid motions, m and rad.
+
+    Parameters
+    ----------
+    path : of the case
+    loads : of all sources together, shape (component, 1)
+    frequency_hz : above zero
+    """
+    count = 0 if path.shell is None else len(path.shell.path.modes)
+    velocity = path.observed(motions(count), loads, np.array([frequency_hz]))[:, 0]
+    return np.broadcast_to(velocity / (2j * np.pi * frequency_hz), count + 6)
+
+
+def displacement(path: LoadPath, moving: ComplexArray, points: Array) -> ComplexArray:
+    """Displacement of points of the shell, shape (..., 3), m.
+
+    Parameters
+    ----------
+    path : of the case
+    moving : of `amplitudes`
+    points : about the centre of mass, shape (..., 3), m
+    """
+    total = moving[-6:-3] + np.cross(moving[-3:], points)
+    if path.shell is not None:
+        flat = points.reshape(-1, 3)
+        modes: Sequence[ShellMode | SampledMode] = path.shell.path.modes
+        for number, mode in enumerate(modes):
+            total += moving[number] * mode.velocity(flat).reshape(points.shape)
+    return np.asarray(total)
