@@ -12,8 +12,8 @@ from ..base.vocabulary import stamped
 from ..mechanics.received_sound import ReceivedSound
 from .bands import Band
 from .by_source import filled_thirds, membership, weighting_power
+from .energy import energy_of_lines
 from .labelled import level
-from .line_energy import energy_of_lines
 
 _MOST_BANDS: Final = 3
 _QUIETER_DB: Final = 40.0

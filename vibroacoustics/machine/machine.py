@@ -101,7 +101,8 @@ class Machine(KindOfParameters):
     """Plain words for its reported figures, where the name does not say it."""
     derived: ClassVar[tuple[Derived, ...]] = INERTIAS
     """Values that follow from others, where they are not sampled themselves."""
-
+    runs_up: ClassVar[bool] = True
+    """Whether a revolution is quick enough for the many speeds of a run-up."""
     speed_growth: ClassVar[Growth | None] = None
     """Growth of the level of such machines with speed, where a file gives none; none where
     nothing is known of the kind."""

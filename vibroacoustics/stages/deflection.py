@@ -2,7 +2,7 @@
 
 from ..base.registry import register
 from ..base.vocabulary import stamp
-from ..levels.line_energy import loudest_line
+from ..levels.energy import loudest_line
 from ..machine.source import Shared
 from ..transfer.deflection import MovingCase, deflection_variables
 from ..transfer.received import Transmission

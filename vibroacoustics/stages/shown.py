@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
+import xarray as xr
+
 from ..base.arrays import Array
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.contribution_choice import chosen_speeds
@@ -16,7 +18,11 @@ from ..transfer.received import Transmission
 from .chain import Chain
 from .representative import Representative
 
-SHOWN: Final[tuple[str | type, ...]] = (Cases, Transmission, Representative, "rank")
+UNMODELLED_NOISE: Final = ("representative_unmodelled_band_level", "unmodelled_band_level")
+"""Of the representative sample, else nominal."""
+SHOWN: Final[tuple[str | type, ...]] = (
+    Cases, Transmission, Representative, "rank", *UNMODELLED_NOISE
+)  # fmt: skip
 """What a stage reads that asks for the cases; with the ranks it comes after the scores."""
 
 
@@ -33,6 +39,7 @@ class Shown:
     cases : of these options
     gain : factors of the discrepancy on the power of sources, shape (source, receiver, gain band);
         empty without samples
+    unmodelled : level of unmodelled noise, (option, noise_band), dB
     """
 
     speed_rpm: float
@@ -41,6 +48,7 @@ class Shown:
     machine: Machine
     cases: Cases
     gain: Mapping[CaseKey, Array]
+    unmodelled: xr.DataArray
 
     @classmethod
     def of(cls, chain: Chain) -> "Shown":
@@ -59,6 +67,7 @@ class Shown:
             study.machine if chosen is None else chosen.machine,
             every.some((speed, option) for option in options),
             {} if chosen is None else chosen.gain,
+            chain.results[UNMODELLED_NOISE[chosen is None]].sel(speed=speed, option=list(options)),
         )
 
     def received(self, path: Transmission, receiver: int | None = None) -> list[ReceivedSound]:

@@ -13,6 +13,7 @@ from ..base.decibel import level_of_power, power_of_level
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import stamped
 from ..levels.agreement import Datum, Prior, effective_samples
+from ..levels.energy import UNMODELLED
 from ..levels.nominal import Sound
 from ..machine.machine import Machine
 from ..results.estimates import QUANTILES
@@ -20,7 +21,6 @@ from .evidence import PAIRS, Evidence
 
 LEVEL_ALONE: Final = "level alone"
 OTHER_PRIOR: Final = "other prior"
-UNMODELLED: Final = "unmodelled"
 _LEAST_WEIGHT: Final = 1e-4
 """Relative to the largest one: samples of less weight do not change a share."""
 

@@ -1,10 +1,10 @@
-"""Deflection and directivity against modes and transfer vectors evaluated on their own."""
+"""What pictures show, against modes, transfer vectors and levels evaluated on their own."""
 
 from unittest.mock import patch
 
 import numpy as np
 import pytest
-from sources_study import SOURCES_STUDY, made_up_modes
+from sources_study import SOURCES_STUDY, made_up_modes, run_made_up
 from support import ROOT
 
 from vibroacoustics.levels import a_weighting
@@ -20,6 +20,8 @@ from vibroacoustics.results.storage import without_cache
 from vibroacoustics.stages.chain import Chain
 from vibroacoustics.stages.deflection import Deflection
 from vibroacoustics.stages.directivity import Directivity
+from vibroacoustics.stages.energies import Energies
+from vibroacoustics.stages.run_up import RunUp
 from vibroacoustics.stages.samples import Samples
 from vibroacoustics.stages.stage import Given, advanced, applying
 from vibroacoustics.study.loading import load_study
@@ -38,7 +40,7 @@ def chain(tmp_path_factory):
     chain = Chain(study, lambda study, *_: (made_up_modes(study), False))
     with patch.object(Samples, "run", lambda *_: Given()):
         for stage in applying(study):
-            if stage.name not in ("deflection", "directivity", "stopping"):
+            if stage.name not in ("deflection", "directivity", "energies", "run-up", "stopping"):
                 chain = advanced(chain, stage)
     return chain
 
@@ -162,3 +164,91 @@ def test_directions_under_the_floor_have_no_level(chain):
 
 def test_given_radiation_has_no_directivity(chain):
     assert "polar_level" not in advanced(chain, Directivity()).results
+
+
+def test_energies_of_the_sources_add_to_the_total(chain):
+    """Of third octaves with unmodelled noise to the level of the machine, of lines to theirs."""
+    results = advanced(chain, Energies()).results
+    at = {"speed": 2900.0, "option": results["shown_option"].values}
+    total = results["band_energy"].sum(("energy_part", "noise_band")).values
+    level = results["level_total"].sel(at).values
+    assert level_of(total) == pytest.approx(level, abs=1e-9)
+    modelled = results["band_energy"].drop_sel(energy_part="unmodelled")
+    expected = results["level_modelled"].sel(at).sel(weighting="A").values
+    assert level_of(modelled.sum(("energy_part", "noise_band")).values) == pytest.approx(
+        expected, abs=1e-9
+    )
+    orders = results["line_order"].values >= 1.0
+    lines = results["line_energy"].sum("sound_source").values[..., orders]
+    expected = results["order_level"].sel(at).sel(weighting="A").sel(order=slice(1, None)).values
+    heard = expected > -100.0
+    assert heard.any()
+    assert level_of(lines[heard]) == pytest.approx(expected[heard], abs=1e-9)
+
+
+def level_of(square):
+    return 10.0 * np.log10(square / 4e-10)
+
+
+def test_energies_of_a_source_have_its_interference(chain):
+    """Half of what two sources add to each other belongs to either."""
+    results = advanced(chain, Energies()).results
+    at = {"speed": 2900.0, "option": "none"}
+    alone = 10.0 ** (results["source_level"].sel(at) / 10.0) * 4e-10
+    shares = results["source_share"].sel(at)
+    total = 10.0 ** (results["level_total"].sel(at) / 10.0) * 4e-10
+    parts = results["band_energy"].sel(shown_option="none").sum("noise_band")
+    parts = parts.drop_sel(energy_part="unmodelled")
+    expected = (shares * total).transpose("sound_source", "receiver").values
+    assert parts.values == pytest.approx(expected, rel=1e-9, abs=1e-20)
+    assert abs(parts.values - alone.transpose("sound_source", "receiver").values).max() > 0.0
+
+
+def test_run_up_at_the_speed_of_the_study_is_its_level(chain):
+    results = advanced(chain, RunUp()).results
+    speeds = results["run_up_speed"].values
+    assert speeds[[0, -1]] == pytest.approx([0.8 * 2900.0, 1.2 * 2900.0])
+    at, own = {"run_up_speed": 2900.0}, {"speed": 2900.0, "option": "none"}
+    for name, study_name in (
+        ("run_up_source_level", "source_level"),
+        ("run_up_level", "level_total"),
+        ("run_up_unmodelled_level", "level_unmodelled"),
+    ):
+        expected = results[study_name]
+        expected = expected.sel(own) if "speed" in expected.dims else expected
+        assert results[name].sel(at).values == pytest.approx(expected.values, abs=1e-9)
+    orders = results["run_up_order_level"].sel(at)
+    expected = results["order_level"].sel(own).sel(weighting="A")
+    held = orders["run_up_order"].values[orders["run_up_order"].values <= 16.0]
+    assert held.size > 5
+    expected = expected.sel(order=held).transpose("receiver", "order").values
+    shown = orders.sel(run_up_order=held).transpose("receiver", "run_up_order").values
+    assert shown == pytest.approx(expected, abs=1e-9)
+
+
+def test_run_up_at_another_speed_is_the_level_of_a_study_at_that_speed(chain):
+    """Its supply is in proportion to the speed."""
+    results = advanced(chain, RunUp()).results
+    speed = float(results["run_up_speed"][3])
+    study = chain.study.replace(
+        {
+            "operation.speed_rpm": [2900.0, speed],
+            "operation.supply_frequency_hz": [50.0, 50.0 * speed / 2900.0],
+        }
+    )
+    with patch.object(Samples, "run", lambda *_: Given()):
+        other = run_made_up(study)
+    own = {"speed": speed, "option": "none"}
+    shown = results.sel(run_up_speed=speed)
+    expected = other["source_level"].sel(own).values
+    assert shown["run_up_source_level"].values == pytest.approx(expected, abs=1e-6)
+    assert shown["run_up_level"].values == pytest.approx(other["level_total"].sel(own).values)
+
+
+def test_a_study_of_many_speeds_or_of_a_slow_machine_has_no_run_up(chain):
+    study, speeds = chain.study, [2900.0 + 10.0 * number for number in range(6)]
+    many = {"operation.speed_rpm": speeds, "operation.supply_frequency_hz": [50.0] * 6}
+    assert RunUp().applies(study)
+    assert not RunUp().applies(study.replace(many))
+    slow = load_study(ROOT / "pipelines" / "estupinan_hermetic.toml")
+    assert not RunUp().applies(slow)

@@ -17,6 +17,7 @@ class HermeticCompressor(HermeticTables):
     """The cylinder lies along x, the shaft stands upright with the motor below the crank."""
 
     kind: ClassVar[str] = "hermetic-reciprocating"
+    runs_up: ClassVar[bool] = False
     speed_growth: ClassVar[Growth] = RECIPROCATING
 
     @property

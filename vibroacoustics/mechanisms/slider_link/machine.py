@@ -42,6 +42,7 @@ class SliderLinkMachine(SliderLinkTables):
     """
 
     kind: ClassVar[str] = "slider-link"
+    runs_up: ClassVar[bool] = False
     speed_growth: ClassVar[Growth] = RECIPROCATING
     axes: ClassVar[str] = "along the cylinder (x), across (y) and along the shaft (z)"
     orders: ClassVar[str] = (

@@ -1,0 +1,80 @@
+"""Levels over speed, between the speeds of a study."""
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array
+from ..base.decibel import level_of_power
+from ..base.vocabulary import stamped
+from ..machine.remainder import Remainder
+from ..mechanics.received_sound import ReceivedSound
+from .axes import LevelAxes
+from .by_source import sound_by_source
+from .energy import energy_of_lines, unmodelled_energy
+from .labelled import level
+from .lines import order_columns
+
+_QUIETER_DB: Final = 40.0
+"""Orders so far below the loudest at all speeds do not matter."""
+
+
+def unmodelled_over_speed(
+    band_level: xr.DataArray, remainder: Remainder, speed_rpm: float, speeds_rpm: Sequence[float]
+) -> Array:
+    """Compute the A-weighted mean square of unmodelled noise over speed, shape (speed,), Pa².
+
+    Parameters
+    ----------
+    band_level : of the noise at one speed, (noise_band), dB
+    remainder : growth of the noise with speed
+    speed_rpm : of that level
+    speeds_rpm : of the run-up
+    """
+    growth = remainder.speed_factor(np.array(speeds_rpm), speed_rpm)
+    return np.asarray(growth * unmodelled_energy(band_level).sum())
+
+
+def run_up_variables(
+    axes: LevelAxes, sound: Mapping[float, ReceivedSound], unmodelled_pa2: Array
+) -> xr.Dataset:
+    """Label the A-weighted levels of sources, unmodelled noise, all sound and shaft orders.
+
+    Parameters
+    ----------
+    axes : of sources and receivers
+    sound : without an option at the receivers, by speed
+    unmodelled_pa2 : mean square of unmodelled noise, shape (speed,)
+    """
+    parts = [sound_by_source(one, axes.bands) for one in sound.values()]
+    total = np.array([one.total[0] for one in parts]) + unmodelled_pa2[:, None]
+    order, energy = _orders(sound)
+    values = {
+        "run_up_source_level": level(np.array([one.alone for one in parts])),
+        "run_up_unmodelled_level": level(unmodelled_pa2),
+        "run_up_level": level(total),
+        "run_up_order_level": level(energy),
+    }
+    coords = {
+        "run_up_speed": list(sound),
+        "sound_source": list(axes.sources),
+        "receiver": list(axes.receivers),
+        "run_up_order": order,
+    }
+    return stamped(values, coords)
+
+
+def _orders(sound: Mapping[float, ReceivedSound]) -> tuple[Array, Array]:
+    """Orders up to the highest that matters; their mean squares, (speed, receiver, order), Pa²."""
+    received = list(sound.values())
+    highest = max(len(one.lines.names) for one in received)
+    energy = np.zeros((len(received), received[0].pressure.shape[1], highest))
+    for row, one in enumerate(received):
+        order, columns = order_columns(one, highest)
+        of_lines = energy_of_lines(one.pressure, one.lines.frequency_hz).sum(axis=0)
+        energy[row][:, order] = of_lines[:, columns]
+    loudest = level_of_power(energy.max(axis=(0, 1)))
+    last = int(np.flatnonzero(loudest >= loudest.max() - _QUIETER_DB)[-1])
+    return np.asarray(np.linspace(1.0, last, last), dtype=np.float64), energy[..., 1 : last + 1]
