@@ -10,9 +10,9 @@ from .tables import code, table
 
 HEAD: Final = """# Command line
 
-`vibroacoustics COMMAND -h` prints the same, with an example. Bad input is one line on the terminal that names
-file, field, value, unit and allowed range, with exit code 2 ([errors](errors.md)). Nothing uses the
-network.
+`vibroacoustics COMMAND -h` prints the same, with an example. Bad input is one line on the terminal
+that names file, field, value, unit and allowed range, with exit code 2 ([errors](errors.md)).
+Nothing uses the network.
 """
 
 

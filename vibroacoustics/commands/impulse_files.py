@@ -73,7 +73,7 @@ def check_asked(
     for name in listeners or ():
         if name not in known:
             raise ParameterError(
-                f"microphone = {name}: the room has none of this name; has: {', '.join(known)}"
+                f"microphone = {name}: unknown in this room; available: {', '.join(known)}"
             )
     if full_scale is not None and not full_scale > 0.0:
         raise ParameterError(f"full scale = {full_scale:g} Pa: must be above 0")
