@@ -1,4 +1,4 @@
-"""Deflection of the housing at the loudest line."""
+"""Deflection of the housing at the loudest line, and the forces that act on the machine."""
 
 from ..base.registry import register
 from ..base.vocabulary import stamp
@@ -6,6 +6,7 @@ from ..levels.energy import loudest_line
 from ..machine.source import Shared
 from ..transfer.deflection import MovingCase, deflection_variables
 from ..transfer.received import Transmission
+from ..transfer.section import section_variables
 from .chain import Chain
 from .shown import SHOWN, Shown
 from .stage import Given, Stage
@@ -13,11 +14,11 @@ from .stage import Given, Stage
 
 @register
 class Deflection(Stage):
-    """Displacement of rings around the shell, of the feet and of the rigid body."""
+    """Displacement of rings around the shell, of the feet and of the rigid body; forces."""
 
     name = "deflection"
     reads = (*SHOWN, "pressure_line")
-    gives = ("shown_speed", "deflection*")
+    gives = ("shown_speed", "deflection*", "section_force")
 
     def run(self, chain: Chain) -> Given:
         shown, transmission, cases = Shown.of(chain), chain[Transmission], {}
@@ -30,4 +31,5 @@ class Deflection(Stage):
                 loudest_line(pressure.sel(speed=speed, option=option)),
             )
         results = deflection_variables(cases, shown.machine.shell)
+        results = results.merge(section_variables(cases, shown.machine))
         return Given(results.assign(shown_speed=stamp("shown_speed", shown.speed_rpm)))
