@@ -12,7 +12,7 @@ NO_LEVELS = {
     "levels/bands.py": "ratios and numbers of octaves of base ten",
     "mechanics/added.py": "number of a third octave",
     "radiation/rooms/diffuse.py": "a standard's formula for the air",
-    "report/figures/style.py": "ticks of an axis",
+    "report/charts/layout.py": "ticks of an axis",
     "sound/critical_bands.py": "powers and logarithms of a frequency",
     "study/operation.py": "rounding of a step",
 }

@@ -243,5 +243,5 @@ def _in_one_line(help_words: str) -> Iterator[None]:
 
 
 def _type_words(match: re.Match[str]) -> str:
-    found = re.findall(r"\w+", match[1].lower())
-    return " ".join(_TYPES[word] for word in found if word in _TYPES)
+    type_words = re.findall(r"\w+", match[1].lower())
+    return " ".join(_TYPES[word] for word in type_words if word in _TYPES)

@@ -117,15 +117,15 @@ def optimise_command(
 
 def _best(designs: str) -> dict[str, Table]:
     """Tables of the best designs: their variables, and what they promise with 80 % intervals."""
-    found = json.loads(designs)
-    best = list(enumerate(found.pop("best"), 1))
+    searched = json.loads(designs)
+    best = list(enumerate(searched.pop("best"), 1))
     promised = [
         {"design": number, "wanted": name, **ends}
         for number, design in best
         for name, ends in design["wanted"].items()
     ]
     return {
-        "search": columns([found]),
+        "search": columns([searched]),
         "best": columns([{"design": number, **design["variables"]} for number, design in best]),
         "promised": columns(promised),
     }

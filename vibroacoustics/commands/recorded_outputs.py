@@ -29,7 +29,7 @@ def write_speed_map(mapped: xr.Dataset, folder: str | Path) -> Path:
     return write_analysis(mapped, folder, SPEED_MAP_NAME, page, lambda _: pictures)
 
 
-def write_tones(found: xr.Dataset, folder: str | Path) -> Path:
+def write_tones(tones: xr.Dataset, folder: str | Path) -> Path:
     """Write tones with table and page; see `write_analysis`."""
-    files = {"tones.csv": tones_csv(found), TONES_REPORT_NAME: tones_html(found)}
-    return write_analysis(found, folder, TONES_NAME, files, lambda _: [])
+    files = {"tones.csv": tones_csv(tones), TONES_REPORT_NAME: tones_html(tones)}
+    return write_analysis(tones, folder, TONES_NAME, files, lambda _: [])

@@ -142,13 +142,13 @@ def tones_command(
     outputs.check_folder(folder)
     recording = reading.at_once(recording_file, plugin)
     with outputs.naming(recording_file), stage(progress, "tones"):
-        found = recorded_tones(recording)
-    written = recorded_outputs.write_tones(found, folder)
+        tones = recorded_tones(recording)
+    written = recorded_outputs.write_tones(tones, folder)
     page = folder / recorded_outputs.TONES_REPORT_NAME
     return Outcome(
-        tone_tables.tones_text(found),
+        tone_tables.tones_text(tones),
         {"tones": written, "report": page},
-        numbers=tone_tables.tone_numbers(found),
+        numbers=tone_tables.tone_numbers(tones),
     )
 
 

@@ -30,56 +30,56 @@ _METHOD: Final = (
 )
 
 
-def tones_text(found: xr.Dataset) -> str:
+def tones_text(tones: xr.Dataset) -> str:
     """Tones of every channel with loudness and sharpness, for a terminal.
 
     Parameters
     ----------
-    found : from `recorded_tones`
+    tones : from `recorded_tones`
     """
     texts = [
         "\n".join([to_text(table).rstrip("\n") if table.rows else table.caption, *loudness])
-        for table, loudness in (_of_channel(found, name) for name in _channels(found))
+        for table, loudness in (_of_channel(tones, name) for name in _channels(tones))
     ]
     return "\n".join(texts if available() else [*texts, NEEDED])
 
 
-def tones_csv(found: xr.Dataset) -> bytes:
+def tones_csv(tones: xr.Dataset) -> bytes:
     """Every tone, a line each."""
     rows = []
-    for name in _channels(found):
-        values = (found[variable].sel(channel=name).item() for variable in _LOUDNESS)
+    for name in _channels(tones):
+        values = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
         loudness = ["" if math.isnan(value) else value for value in values]
-        rows += [(name, *_numbers(tone), _which(tone), *loudness) for tone in tones_of(found, name)]
+        rows += [(name, *_numbers(tone), _which(tone), *loudness) for tone in tones_of(tones, name)]
     return to_csv(_COLUMNS, rows)
 
 
-def tones_html(found: xr.Dataset) -> bytes:
+def tones_html(tones: xr.Dataset) -> bytes:
     """Page with a table for each channel."""
     parts = []
-    for number, name in enumerate(_channels(found)):
-        table, loudness = _of_channel(found, name)
+    for number, name in enumerate(_channels(tones)):
+        table, loudness = _of_channel(tones, name)
         blocks = (table, Bullets(tuple(loudness))) if loudness else (table,)
         parts.append(Part(f"channel_{number}", name, blocks))
     notes = _METHOD if available() else (*_METHOD, f"{NEEDED}.")
     parts.append(Part("method", "Method", (Bullets(notes),)))
-    attrs = found.attrs
+    attrs = tones.attrs
     about = "Tones above the noise of their critical band, the strongest first."
     return html(Page(str(attrs["title"]), "Recording", attrs["created_utc"], tuple(parts), about))
 
 
-def tone_numbers(found: xr.Dataset) -> list[dict[str, Any]]:
+def tone_numbers(tones: xr.Dataset) -> list[dict[str, Any]]:
     """Level of every tone, and loudness of every channel where it is available."""
     numbers = []
-    for name in _channels(found):
+    for name in _channels(tones):
         numbers += [
             _number(
                 tone.level_db, "dB", "recorded_tone_level", name, frequency_hz=tone.frequency_hz
             )
-            for tone in tones_of(found, name)
+            for tone in tones_of(tones, name)
         ]
         for variable, unit in _LOUDNESS.items():
-            value = found[variable].sel(channel=name).item()
+            value = tones[variable].sel(channel=name).item()
             if not math.isnan(value):
                 numbers.append(_number(value, unit, variable, name))
     return numbers
@@ -100,19 +100,19 @@ def _number(
     }
 
 
-def _channels(found: xr.Dataset) -> list[str]:
-    return [str(name) for name in found["channel"].values]
+def _channels(tones: xr.Dataset) -> list[str]:
+    return [str(name) for name in tones["channel"].values]
 
 
-def _of_channel(found: xr.Dataset, name: str) -> tuple[Table, list[str]]:
+def _of_channel(tones: xr.Dataset, name: str) -> tuple[Table, list[str]]:
     """Table of the strongest tones of a channel, and its loudness in words."""
-    tones = tones_of(found, name)
-    rows = tuple((*tone_row(tone), *_times(tone), _which(tone)) for tone in tones[:MOST_TONES])
-    caption = f"{name}: {len(tones)} tones above the noise of their critical band"
+    listed = tones_of(tones, name)
+    rows = tuple((*tone_row(tone), *_times(tone), _which(tone)) for tone in listed[:MOST_TONES])
+    caption = f"{name}: {len(listed)} listed above the noise of their critical band"
     if not rows:
         caption = f"{name}: no tone stands above the noise of its critical band"
     table = Table(caption, (*TONE_HEAD, *_TIME_HEAD, "prominent"), rows, frozenset({0, 7}))
-    loudness, sharpness = (found[variable].sel(channel=name).item() for variable in _LOUDNESS)
+    loudness, sharpness = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
     if math.isnan(loudness):
         return table, []
     return table, [f"loudness {loudness:.3g} sone, sharpness {sharpness:.2f} acum"]

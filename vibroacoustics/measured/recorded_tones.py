@@ -48,21 +48,21 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         units = ", ".join(sorted(set(map(str, signal["channel_unit"].values))))
         raise ParameterError(f"channels: none is in Pa (available: {units}); see --unit")
     rate_hz = float(recording.attrs["sample_rate_hz"])
-    found, loudness = [], []
+    listed, loudness = [], []
     for channel in microphones:
         bands = narrow_bands(channel.values, rate_hz)
         judged = tones(recorded_spectrum(bands))
-        found.append([tone for tone in judged if tone.noise_ratio_db > 0.0])
+        listed.append([tone for tone in judged if tone.noise_ratio_db > 0.0])
         loud = recorded_loudness(bands) if available() else None
         loudness.append((loud.loudness_sone, loud.sharpness_acum) if loud else (np.nan, np.nan))
     coords = {
         "channel": microphones["channel"].values,
-        "recorded_tone": np.arange(1.0, max(map(len, found)) + 1.0),
+        "recorded_tone": np.arange(1.0, max(map(len, listed)) + 1.0),
     }
-    table = list(zip_longest(*found)) or []
+    table = list(zip_longest(*listed)) or []
     values = {
         name: np.array([[_value(tone, field) for tone in rank] for rank in table])
-        .reshape(len(table), len(found))
+        .reshape(len(table), len(listed))
         .T
         for name, field in FIELDS.items()
     }
@@ -74,15 +74,15 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     return label_coordinates(results)
 
 
-def tones_of(found: xr.Dataset, channel: str) -> list[Tone]:
+def tones_of(listed: xr.Dataset, channel: str) -> list[Tone]:
     """Tones of a channel, the strongest first.
 
     Parameters
     ----------
-    found : from `recorded_tones`
+    listed : from `recorded_tones`
     channel : name
     """
-    columns = [found[name].sel(channel=channel).values.tolist() for name in FIELDS]
+    columns = [listed[name].sel(channel=channel).values.tolist() for name in FIELDS]
     return [
         Tone(f"{values[0]:.1f} Hz", *values)
         for values in zip(*columns, strict=True)

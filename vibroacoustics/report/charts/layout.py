@@ -121,7 +121,7 @@ def layout(chart: Chart) -> Layout:
 
 def legend_names(chart: Chart) -> list[str]:
     """Return the labels of the marks, each once."""
-    marks = [mark for panel in chart.panels for mark in panel.marks if mark.mark != "image"]
+    marks = [mark for panel in chart.panels for mark in panel.marks if not isinstance(mark, Image)]
     names = dict.fromkeys(str(getattr(mark, "label", "")) for mark in marks)
     return [name for name in names if name] if chart.legend else []
 
@@ -186,9 +186,11 @@ def scale_of(axis: Axis, values: Array, tight: bool = False) -> Scale | None:
         low, high = low - 0.5, high + 0.5
     ticks = axis.ticks
     if ticks is None:
-        ticks = _powers(low, high) if logarithmic else round_ticks(low, high, axis.whole)
-    inside = [tick for tick in ticks if min(low, high) - 1e-9 <= tick[0] <= max(low, high) + 1e-9]
-    return Scale(low, high, tuple(inside), logarithmic)
+        ticks = _powers(low, high) if logarithmic else round_ticks(low, high, axis.integer)
+    shown_ticks = [
+        tick for tick in ticks if min(low, high) - 1e-9 <= tick[0] <= max(low, high) + 1e-9
+    ]
+    return Scale(low, high, tuple(shown_ticks), logarithmic)
 
 
 def _ends(low: float, high: float, logarithmic: bool) -> tuple[float, float]:
@@ -201,14 +203,14 @@ def _ends(low: float, high: float, logarithmic: bool) -> tuple[float, float]:
 
 
 def round_ticks(
-    low: float, high: float, whole: bool = False, most: int = 7
+    low: float, high: float, integer: bool = False, most: int = 7
 ) -> tuple[tuple[float, str], ...]:
     """Return round numbers within a range, with their words."""
     low, high = min(low, high), max(low, high)
     rough = (high - low) / most
     power = 10.0 ** np.floor(np.log10(rough))
     step = next(power * digit for digit in _STEPS if power * digit >= rough * (1.0 - 1e-9))
-    step = max(1.0, float(np.ceil(step))) if whole else step
+    step = max(1.0, float(np.ceil(step))) if integer else step
     values = step * np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1.0)
     digits = max(0, -int(np.floor(np.log10(step) + 1e-9)) + (step / power == _STEPS[2]))
     return tuple((float(value), _number(float(value), digits)) for value in values)

@@ -4,7 +4,7 @@
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from typing import Any, Literal, TypeAlias, TypeVar
 
 import numpy as np
@@ -39,7 +39,6 @@ class Line:
     dash: str = ""
     marker: str = ""
     width: float = 1.6
-    mark: Literal["line"] = field(default="line", kw_only=True, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +66,6 @@ class Points:
     size: float = 6.0
     filled: bool = True
     stems: bool = False
-    mark: Literal["points"] = field(default="points", kw_only=True, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +92,6 @@ class Bars:
     colour: str = ""
     thickness: float = 0.8
     upright: bool = False
-    mark: Literal["bars"] = field(default="bars", kw_only=True, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +114,6 @@ class Image:
     scale: tuple[float, float]
     label: str
     contours: tuple[float, ...] = ()
-    mark: Literal["image"] = field(default="image", kw_only=True, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,7 +140,6 @@ class Segments:
     dash: str = "-"
     width: float = 1.0
     arrow: bool = False
-    mark: Literal["segments"] = field(default="segments", kw_only=True, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,7 +162,6 @@ class Area:
     colour: str = ""
     dash: str = "-"
     opacity: float = 1.0
-    mark: Literal["area"] = field(default="area", kw_only=True, repr=False)
 
 
 @dataclass(frozen=True)
@@ -187,7 +181,6 @@ class Span:
     label: str = ""
     colour: str = "#d55e00"
     along: Literal["x", "y"] = "x"
-    mark: Literal["span"] = field(default="span", kw_only=True, repr=False)
 
 
 @dataclass(frozen=True)
@@ -211,7 +204,6 @@ class Note:
     align: Literal["left", "center", "right"] = "left"
     shift: tuple[float, float] = (0.0, 0.0)
     size: float = 7.5
-    mark: Literal["note"] = field(default="note", kw_only=True, repr=False)
 
 
 Mark: TypeAlias = Line | Points | Bars | Image | Segments | Area | Span | Note
@@ -227,14 +219,14 @@ class Axis:
     scale : linear or logarithmic
     limits : lowest and highest value; none for those of the marks
     ticks : values with their words; none for round numbers
-    whole : ticks at whole numbers alone
+    integer : ticks at whole numbers alone
     """
 
     label: str = ""
     scale: Literal["linear", "log"] = "linear"
     limits: tuple[float | None, float | None] | None = None
     ticks: tuple[tuple[float, str], ...] | None = None
-    whole: bool = False
+    integer: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,7 +276,6 @@ class Chart:
     title: str = ""
     wide: bool = False
     legend: bool = True
-    block: Literal["chart"] = field(default="chart", kw_only=True, repr=False)
 
     def data(self) -> dict[str, Any]:
         """Return the chart as plain values for JSON; None for what is not finite."""
@@ -313,7 +304,8 @@ def _plain(value: object) -> object:
     if isinstance(value, np.ndarray):
         return _numbers(value)
     if is_dataclass(value):
-        return {part.name: _plain(getattr(value, part.name)) for part in fields(value)}
+        of_mark = {"mark": type(value).__name__.lower()} if isinstance(value, Mark) else {}
+        return of_mark | {part.name: _plain(getattr(value, part.name)) for part in fields(value)}
     if isinstance(value, tuple | list):
         return [_plain(part) for part in value]
     if isinstance(value, str | bool | int | float | None):

@@ -51,8 +51,8 @@ def _panel(panel: Panel, box: Box, name: str, keys: dict[str, str]) -> list[str]
     images = [mark for mark in panel.marks if isinstance(mark, Image)]
     bars = [colour_bar(mark, frame.box) for mark in images]
     grid = _polar_grid(frame) if panel.polar else _grid(frame, bool(images))
-    inside = f'<g clip-path="url(#{name})">' if not panel.polar else "<g>"
-    return [*parts, clip, *grid, inside, *marks, "</g>", *bars, *_edges(panel, frame)]
+    group = f'<g clip-path="url(#{name})">' if not panel.polar else "<g>"
+    return [*parts, clip, *grid, group, *marks, "</g>", *bars, *_edges(panel, frame)]
 
 
 def _titles(panel: Panel, box: Box) -> list[str]:

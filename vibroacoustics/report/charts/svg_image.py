@@ -52,11 +52,11 @@ def _along(values: Array, middles: Array, scale: Scale, pixels: int, axis: int) 
     if len(middles) > pixels:
         starts = np.minimum(nearest, len(middles) - 1)
         step = np.maximum(np.diff(starts, append=starts[-1] + 1), 1)
-        found = [
+        pixel_values = [
             np.fmax.reduce(np.take(values, range(s, min(s + n, len(middles))), axis), axis)
             for s, n in zip(starts, step, strict=True)
         ]
-        picked = np.stack(found, axis)
+        picked = np.stack(pixel_values, axis)
     else:
         picked = np.take(values, nearest, axis)
     outside = (at < first) | (at > last)

@@ -36,6 +36,7 @@ def words(x: float, y: float, text: str, anchor: str = "start", **looks: str) ->
 
 
 def rectangle(box: Box) -> str:
+    """Return the path of a rectangle."""
     return f"M{box.x:.1f} {box.y:.1f}h{box.width:.1f}v{box.height:.1f}h{-box.width:.1f}Z"
 
 
@@ -52,12 +53,14 @@ def path(points: Array) -> str:
 
 
 def pairs(first: Array, last: Array) -> str:
+    """Return a path of straight lines between points, shape (n, 2) each."""
     finite = np.isfinite(first).all(axis=1) & np.isfinite(last).all(axis=1)
     ends = zip(first[finite].tolist(), last[finite].tolist(), strict=True)
     return "".join(f"M{a:.1f} {b:.1f}L{c:.1f} {d:.1f}" for (a, b), (c, d) in ends)
 
 
 def markers(points: Array, shape: str, size: float, colour: str, filled: bool) -> str:
+    """Return markers at points, shape (n, 2), that are finite."""
     finite = points[np.isfinite(points).all(axis=1)].tolist()
     looks = f'fill="{colour}"' if filled else f'fill="#fff" fill-opacity="0" stroke="{colour}"'
     if shape in _STROKED:

@@ -103,7 +103,7 @@ def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Chart:
         f"spectrum_{file}",
         f"Mean order spectrum of {title}, to order {float(orders['map_order'][-1]):g}.",
         f"Mean order spectrum of {title}: root of the mean power over the blocks.",
-        (Panel(Axis("Shaft order", whole=True), y, (*marks, *others), shortened(title)),),
+        (Panel(Axis("Shaft order", integer=True), y, (*marks, *others), shortened(title)),),
     )
 
 
@@ -143,7 +143,7 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Chart:
         f"map_{file}",
         f"Order map of {title}.",
         f"Order map of {title}: level of each line, {_MAP_RANGE_DB:g} dB shown.",
-        (Panel(Axis("Shaft order", whole=True), y, (colours,), shortened(title), 3.4),),
+        (Panel(Axis("Shaft order", integer=True), y, (colours,), shortened(title), 3.4),),
     )
 
 
