@@ -45,7 +45,7 @@ def unit(label: str, of_study: Mapping[str, Any] = _NO_WORDS) -> str:
     Parameters
     ----------
     label : name with its unit
-    of_study : words that the results keep, with strangers' `units`
+    of_study : words that the results keep, with `units` of plug-ins
     """
     return _split(label, of_study)[1]
 
@@ -57,5 +57,5 @@ def _split(label: str, of_study: Mapping[str, Any]) -> tuple[str, str]:
         symbol = units.get("_".join(parts[start:]))
         if symbol is not None:
             return "_".join(parts[:start]), symbol
-    known, unit = split_key(label)
-    return known, unit.symbol if unit else ""
+    stem, unit = split_key(label)
+    return stem, unit.symbol if unit else ""

@@ -60,6 +60,6 @@ def _by_title(table: dict[str, Any], options: dict[str, str]) -> dict[str, Any]:
 
 
 def _titles(results: xr.Dataset) -> dict[str, Any]:
-    """Of the study; results of recordings have none."""
-    known = json.loads(results.attrs.get("parameters", "{}"))
-    return dict(known.get("titles", {})) if isinstance(known, dict) else {}
+    """Return the titles of the study; results of recordings have none."""
+    parameters = json.loads(results.attrs.get("parameters", "{}"))
+    return dict(parameters.get("titles", {})) if isinstance(parameters, dict) else {}

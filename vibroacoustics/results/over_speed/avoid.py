@@ -1,4 +1,4 @@
-"""Speeds to avoid: where level or foot force stands out, and the line and mode there."""
+"""Speeds to avoid: where level or foot force stands out, and the line and mode case."""
 
 from collections.abc import Sequence
 from typing import Final, NamedTuple
@@ -16,7 +16,7 @@ from .modes import Mode, modes_of
 from .sound_lines import sound_lines
 
 STANDS_OUT_DB: Final = 3.0
-"""Of a maximum over the higher of the two valleys beside it: twice the power."""
+"""Prominence of a maximum over the higher of the two valleys beside it: twice the power."""
 WITHIN_DB: Final = 3.0
 """Speeds whose level is within this of the maximum are avoided with it: half the power."""
 NEAR_RATIO: Final = 0.05
@@ -34,7 +34,7 @@ class Range(NamedTuple):
     ----------
     from_rpm, to_rpm : ends
     peak_rpm : where it is largest
-    peak_db : level there
+    peak_db : level case
     above_db : over the higher valley beside it
     """
 
@@ -46,7 +46,7 @@ class Range(NamedTuple):
 
 
 class Avoided(NamedTuple):
-    """A range with what stands out there.
+    """A range with what stands out case.
 
     Attributes
     ----------
@@ -92,14 +92,14 @@ def speeds_to_avoid(
     receiver: str | None = None,
     of: Sequence[str] = (REFERENCE_OPTION,),
 ) -> list[Avoided]:
-    """Of options of a study: maxima of the modelled A-weighted level and of the foot force."""
-    at = receiver or catalogue_receiver(results)
+    """Return maxima of the modelled A-weighted level and of the foot force with options."""
+    microphone = receiver or catalogue_receiver(results)
     every = modes_of(results)
     on_mounts = [mode for mode in every if mode.kind == "mounts"]
     avoided = []
     for option in of:
         for quantity, modes in ((LEVEL, every), (FOOT_FORCE, on_mounts)):
-            speed, level, names, hertz, lines = _curves(results, option, at, quantity)
+            speed, level, names, hertz, lines = _curves(results, option, microphone, quantity)
             floor = LEVEL_FLOOR_DB if quantity == LEVEL else level_of_amplitude(FORCE_FLOOR)
             for span in ranges_to_avoid(speed, np.maximum(level, floor)):
                 peak = int(np.flatnonzero(speed == span.peak_rpm)[0])
@@ -113,7 +113,7 @@ def speeds_to_avoid(
 
 
 def recorded_speeds_to_avoid(speed_rpm: Array, level_db: Array, bins: int = BINS) -> list[Range]:
-    """Of a recording's blocks: of the energy means in equal steps of speed, as blocks scatter.
+    """Return those of a recording, from energy means in equal steps of speed, as blocks scatter.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ def recorded_speeds_to_avoid(speed_rpm: Array, level_db: Array, bins: int = BINS
 
 
 def _falls_to(speed_rpm: Array, level_db: Array) -> float:
-    """Where the level is so far below the first one, going on from there; linear in between."""
+    """Where the level is so far below the first one, going on from case; linear in between."""
     wanted = level_db[0] - WITHIN_DB
     after = int(np.argmax(level_db <= wanted))
     share = (level_db[after - 1] - wanted) / (level_db[after - 1] - level_db[after])
@@ -147,10 +147,10 @@ def _curves(
     results: xr.Dataset, option: str, receiver: str, quantity: str
 ) -> tuple[Array, Array, list[str], Array, Array]:
     """Speeds, level, names of lines, their frequencies and levels (line, speed)."""
-    there = results.sel(option=option).sortby("speed")
-    speed = there["speed"].values
+    case = results.sel(option=option).sortby("speed")
+    speed = case["speed"].values
     if quantity == LEVEL:
-        level = there["level_modelled"].sel(receiver=receiver, weighting="A").values
+        level = case["level_modelled"].sel(receiver=receiver, weighting="A").values
         lines = sound_lines(results, receiver, option)
         names = [line.name for line in lines]
         hertz, levels = (
@@ -158,7 +158,7 @@ def _curves(
             for field in ("frequency_hz", "level_db")
         )
         return speed, level, names, hertz, levels
-    foot = there["foot_force_amplitude"].max("foot").transpose("order", "speed")
+    foot = case["foot_force_amplitude"].max("foot").transpose("order", "speed")
     orders = foot["order"].values[1:]
     names, force = [f"{order:g}×" for order in orders], foot.values[1:]
     hertz = orders[:, None] * speed / 60.0
@@ -169,4 +169,4 @@ def _curves(
 def avoided(results: xr.Dataset) -> list[Avoided]:
     """Return those of all options at the published microphone, the most prominent first."""
     every = speeds_to_avoid(results, catalogue_receiver(results), options(results))
-    return sorted(every, key=lambda one: -one.range.above_db)
+    return sorted(every, key=lambda each: -each.range.above_db)

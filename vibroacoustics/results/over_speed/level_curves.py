@@ -46,11 +46,13 @@ def option_curves(
     receiver : default: that of the catalogue's noise
     of : options; default: the first eight
     """
-    at = {"receiver": chosen(results, "receiver", receiver or catalogue_receiver(results))}
-    names = [chosen(results, "option", one) for one in of] or options(results)[:MOST_CURVES]
-    levels = a_weighted(interval(results, name).sel(at))
+    where = {"receiver": chosen(results, "receiver", receiver or catalogue_receiver(results))}
+    names = [chosen(results, "option", option) for option in of] or options(results)[:MOST_CURVES]
+    levels = a_weighted(interval(results, name).sel(where))
     sampled = is_sampled(results, name)
-    return [_curve(levels, sampled and one == names[0], one, option=one) for one in names]
+    return [
+        _curve(levels, sampled and option == names[0], option, option=option) for option in names
+    ]
 
 
 def source_curves(
@@ -64,11 +66,11 @@ def source_curves(
     receiver : default: that of the catalogue's noise
     option : one of the results
     """
-    at = {
+    where = {
         "receiver": chosen(results, "receiver", receiver or catalogue_receiver(results)),
         "option": chosen(results, "option", option),
     }
-    levels = interval(results, "source_level").sel(at)
+    levels = interval(results, "source_level").sel(where)
     sampled = is_sampled(results, "source_level")
     return [
         _curve(levels, sampled, source_name(results, source), sound_source=source)
@@ -77,7 +79,7 @@ def source_curves(
 
 
 def recorded_curves(mapped: xr.Dataset, channel: str | None = None) -> list[LevelCurve]:
-    """Of a channel of sound pressure, by weighting, block by block.
+    """Return levels of a channel of sound pressure by weighting, block by block.
 
     Parameters
     ----------
@@ -85,15 +87,15 @@ def recorded_curves(mapped: xr.Dataset, channel: str | None = None) -> list[Leve
     channel : default: the first of sound pressure
     """
     of_pressure = mapped.sel(channel=mapped["channel_unit"] == "Pa")
-    there = of_pressure["block_level"].sel(channel=chosen(of_pressure, "channel", channel))
-    there = there.sortby("block_speed")
+    blocks = of_pressure["block_level"].sel(channel=chosen(of_pressure, "channel", channel))
+    blocks = blocks.sortby("block_speed")
     return [
         LevelCurve(
             "unweighted" if weighting == "Z" else f"{weighting}-weighted",
-            there["block_speed"].values,
-            there.sel(weighting=weighting).values,
+            blocks["block_speed"].values,
+            blocks.sel(weighting=weighting).values,
         )
-        for weighting in map(str, there["weighting"].values)
+        for weighting in map(str, blocks["weighting"].values)
     ]
 
 
@@ -102,7 +104,7 @@ def is_run_up(speed_rpm: xr.DataArray) -> bool:
     return bool(np.ptp(speed_rpm.values) > STEADY_RATIO * float(speed_rpm.mean()))
 
 
-def _curve(levels: xr.Dataset, sampled: bool, label: str, **at: str) -> LevelCurve:
-    level = levels.sel(at).sortby("speed")
+def _curve(levels: xr.Dataset, sampled: bool, label: str, **where: str) -> LevelCurve:
+    level = levels.sel(where).sortby("speed")
     band = np.array([level["low"].values, level["high"].values]) if sampled else None
     return LevelCurve(label, level["speed"].values, level["value"].values, band)

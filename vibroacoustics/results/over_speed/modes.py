@@ -47,7 +47,7 @@ class Crossing(NamedTuple):
 
 
 def modes_of(results: xr.Dataset) -> list[Mode]:
-    """On the mounts, of the shell (with its frame), of gas, with the values as given."""
+    """On the mounts, of the shell (with its frame), of gas, with the nominal values."""
     kept_in = {"mounts": ("natural_frequency", "mode"), "shell": ("shell_frequency", "shell_mode"),
                 "gas": ("gas_frequency", "gas_mode")}  # fmt: skip
     modes = [
@@ -75,8 +75,8 @@ def crossing_speeds(speed_rpm: Array, line_hz: Array, mode_hz: float) -> Array:
     """
     above = line_hz - mode_hz
     first, second = above[:-1], above[1:]
-    known = np.isfinite(first) & np.isfinite(second)
-    meets = known & ((first < 0.0) != (second < 0.0))
+    is_finite = np.isfinite(first) & np.isfinite(second)
+    meets = is_finite & ((first < 0.0) != (second < 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
         share = first / (first - second)
     return np.asarray((speed_rpm[:-1] + share * np.diff(speed_rpm))[meets])
@@ -101,7 +101,7 @@ def crossings(
             for rpm in crossing_speeds(speed_rpm, line.frequency_hz, mode.frequency_hz):
                 db = float(np.interp(rpm, speed_rpm, below))
                 met.append(Crossing(line, mode, float(rpm), db))
-    return sorted(met, key=lambda one: one.speed_rpm)
+    return sorted(met, key=lambda crossing: crossing.speed_rpm)
 
 
 def _reported(results: xr.Dataset) -> dict[str, float]:

@@ -15,7 +15,7 @@ from ..stored_study import catalogue_receiver
 from ..titles import chosen
 
 MOST_ORDERS: Final = 8
-"""Of a study; a recording has those that were asked for."""
+"""Largest number for a study; a recording has those of its analysis."""
 _QUIETEST: Final = 1e-4
 """Orders that stay below this share of the strongest, 80 dB, are none of them."""
 
@@ -40,11 +40,11 @@ class OrderCuts(NamedTuple):
     limits: Array | None = None
 
     def shown(self, rms: Array) -> Array:
-        """As drawn: of sound pressure the level, dB re 20 µPa, else itself."""
+        """Return sound pressure as level, dB re 20 µPa, and other units as they are."""
         if self.unit != "Pa":
             return rms
-        known = np.where(rms > 0.0, rms, np.nan)
-        return np.asarray(level_of_amplitude(known / REFERENCE_PRESSURE_PA))
+        positive = np.where(rms > 0.0, rms, np.nan)
+        return np.asarray(level_of_amplitude(positive / REFERENCE_PRESSURE_PA))
 
 
 def order_cuts(
@@ -71,40 +71,41 @@ def order_cuts(
 
 
 def _of_recording(orders: xr.Dataset, channel: str | None) -> OrderCuts:
-    there = orders.sel(channel=chosen(orders, "channel", channel)).sortby("block_speed")
+    of_channel = orders.sel(channel=chosen(orders, "channel", channel)).sortby("block_speed")
     limits = None
-    if "order_limit" in there and there["order_limit"].count():
-        of_speed = there["order_limit"].sel(speed=there["block_speed"], method="nearest")
+    if "order_limit" in of_channel and of_channel["order_limit"].count():
+        of_speed = of_channel["order_limit"].sel(speed=of_channel["block_speed"], method="nearest")
         limits = of_speed.transpose("order", "block").values
-    rms = there["block_order_rms"].transpose("order", "block").values
+    rms = of_channel["block_order_rms"].transpose("order", "block").values
     return OrderCuts(
-        str(there["channel"].item()), str(there["channel_unit"].item()),
-        there["block_speed"].values, there["order"].values, rms[None], limits,
+        str(of_channel["channel"].item()), str(of_channel["channel_unit"].item()),
+        of_channel["block_speed"].values, of_channel["order"].values, rms[None], limits,
     )  # fmt: skip
 
 
 def _of_comparison(compared: xr.Dataset, channel: str | None) -> OrderCuts:
-    there = compared.sel(channel=chosen(compared, "channel", channel)).sortby("speed")
-    both = [there[f"{side}_order_rms"].transpose("order", "speed") for side in
+    of_channel = compared.sel(channel=chosen(compared, "channel", channel)).sortby("speed")
+    sides = [of_channel[f"{side}_order_rms"].transpose("order", "speed") for side in
             ("channel", "compared")]  # fmt: skip
-    rms = np.stack([one.where(np.isfinite(there["order_difference"])).values for one in both])
-    return _cuts(there, rms)
+    is_compared = np.isfinite(of_channel["order_difference"])
+    rms = np.stack([side.where(is_compared).values for side in sides])
+    return _cuts(of_channel, rms)
 
 
 def _of_study(results: xr.Dataset, channel: str | None, option: str) -> OrderCuts:
     every = channel_orders(results, chosen(results, "option", option))
     name = channel or f"pressure {catalogue_receiver(results)}"
-    there = every.sel(channel=chosen(every.to_dataset(name="orders"), "channel", name))
-    there = there.sortby("speed").transpose("order", "speed")
-    return _cuts(there, np.abs(there.values)[None] / np.sqrt(2.0))
+    of_channel = every.sel(channel=chosen(every.to_dataset(name="orders"), "channel", name))
+    of_channel = of_channel.sortby("speed").transpose("order", "speed")
+    return _cuts(of_channel, np.abs(of_channel.values)[None] / np.sqrt(2.0))
 
 
-def _cuts(there: xr.Dataset | xr.DataArray, rms: Array) -> OrderCuts:
+def _cuts(of_channel: xr.Dataset | xr.DataArray, rms: Array) -> OrderCuts:
     """The strongest orders of a channel."""
-    order, speed = there["order"].values, there["speed"].values
-    unit = str(there["channel_unit"].item())
+    order, speed = of_channel["order"].values, of_channel["speed"].values
+    unit = str(of_channel["channel_unit"].item())
     rows = _strongest(np.nan_to_num(rms).max(axis=0), order, speed, unit)
-    return OrderCuts(str(there["channel"].item()), unit, speed, order[rows], rms[:, rows])
+    return OrderCuts(str(of_channel["channel"].item()), unit, speed, order[rows], rms[:, rows])
 
 
 def _strongest(rms: Array, order: Array, speed_rpm: Array, unit: str) -> Array:

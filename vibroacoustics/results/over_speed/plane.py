@@ -16,7 +16,7 @@ from .level_curves import is_run_up
 FINEST_HZ: Final = 5.0
 MOST_COLUMNS: Final = 600
 MOST_ROWS: Final = 300
-"""Of a map: more could not be told apart in a picture."""
+"""Largest numbers of a map: more would be finer than a picture."""
 CLOSE_RATIO: Final = 0.1
 """Between speeds no further apart than this, lines of a study are drawn through, level and
 frequency linear."""
@@ -48,8 +48,8 @@ def plane_of(
 ) -> Plane:
     """The map of a microphone or channel.
 
-    Of a study the power of all lines within a step of frequency, without noise; of more rows or
-    columns than a picture shows the loudest of neighbours.
+    A study gives the power of all lines within a step of frequency, without noise. More rows or
+    columns than a picture shows are reduced to the loudest of neighbours.
 
     Parameters
     ----------
@@ -78,11 +78,11 @@ def _recorded(mapped: xr.Dataset, channel: str | None) -> Plane:
 
 
 def _of_study(results: xr.Dataset, receiver: str | None, option: str) -> Plane:
-    at = {
+    case = {
         "receiver": chosen(results, "receiver", receiver or catalogue_receiver(results)),
         "option": chosen(results, "option", option),
     }
-    pressure = results["pressure_line"].sel(at).sum("sound_source").sortby("speed")
+    pressure = results["pressure_line"].sel(case).sum("sound_source").sortby("speed")
     pressure = pressure.transpose("speed", "line")
     tones = pressure["tone_frequency"].transpose("speed", "line").values
     rows = _between(pressure["speed"].values)
@@ -98,7 +98,7 @@ def _of_study(results: xr.Dataset, receiver: str | None, option: str) -> Plane:
     for row, (where, of_lines) in enumerate(zip(column, audible, strict=True)):
         total[row] = np.bincount(where, of_lines, minlength=columns)
     middles = np.asarray(step * (np.arange(columns) + 0.5))
-    title = f"{at['receiver']}, option {option}"
+    title = f"{case['receiver']}, option {option}"
     level = np.asarray(level_of_power(total))
     return Plane(title, middles, speed, True, level, "dB re 20 µPa")
 

@@ -68,8 +68,8 @@ def sound_lines(
     receiver : default: that of the catalogue's noise
     option : one of the results
     """
-    at = {"option": option, "receiver": receiver or catalogue_receiver(results)}
-    pressure = results["pressure_line"].sel(at).sum("sound_source").sortby("speed")
+    case = {"option": option, "receiver": receiver or catalogue_receiver(results)}
+    pressure = results["pressure_line"].sel(case).sum("sound_source").sortby("speed")
     pressure = pressure.transpose("line", "speed")
     hertz = pressure["tone_frequency"].transpose("line", "speed").values
     audible = np.where(hertz > 0.0, hertz, 1.0)
