@@ -77,9 +77,8 @@ def test_polar_angles_run_from_the_right_against_the_clock():
 def test_every_mark_is_drawn_and_named_in_both():
     drawn = chart(*MARKS)
     document = minidom.parseString(svg(drawn))  # noqa: S318
-    texts = [
-        node.firstChild.data for node in document.getElementsByTagName("text") if node.firstChild
-    ]
+    nodes = document.getElementsByTagName("text")
+    texts = {node.firstChild.data for node in nodes if node.firstChild}
     names = ["avoided", "level", "measured", "limit", "part"]
     assert {*names, "loudest <1>", "Frequency, Hz", "Level, dB"} <= texts
     made = figure(drawn)

@@ -48,11 +48,11 @@ def run_up_variables(
     sound : without an option at the receivers, by speed
     unmodelled_pa2 : mean square of unmodelled noise, shape (speed,)
     """
-    parts = [sound_by_source(one, axes.bands) for one in sound.values()]
-    total = np.array([one.total[0] for one in parts]) + unmodelled_pa2[:, None]
+    parts = [sound_by_source(received, axes.bands) for received in sound.values()]
+    total = np.array([part.total[0] for part in parts]) + unmodelled_pa2[:, None]
     order, energy = _orders(sound)
     values = {
-        "run_up_source_level": level(np.array([one.alone for one in parts])),
+        "run_up_source_level": level(np.array([part.alone for part in parts])),
         "run_up_unmodelled_level": level(unmodelled_pa2),
         "run_up_level": level(total),
         "run_up_order_level": level(energy),
@@ -68,12 +68,12 @@ def run_up_variables(
 
 def _orders(sound: Mapping[float, ReceivedSound]) -> tuple[Array, Array]:
     """Orders up to the highest that matters; their mean squares, (speed, receiver, order), Pa²."""
-    received = list(sound.values())
-    highest = max(len(one.lines.names) for one in received)
-    energy = np.zeros((len(received), received[0].pressure.shape[1], highest))
-    for row, one in enumerate(received):
-        order, columns = order_columns(one, highest)
-        of_lines = energy_of_lines(one.pressure, one.lines.frequency_hz).sum(axis=0)
+    every = list(sound.values())
+    highest = max(len(received.lines.names) for received in every)
+    energy = np.zeros((len(every), every[0].pressure.shape[1], highest))
+    for row, received in enumerate(every):
+        order, columns = order_columns(received, highest)
+        of_lines = energy_of_lines(received.pressure, received.lines.frequency_hz).sum(axis=0)
         energy[row][:, order] = of_lines[:, columns]
     loudest = level_of_power(energy.max(axis=(0, 1)))
     last = int(np.flatnonzero(loudest >= loudest.max() - _QUIETER_DB)[-1])

@@ -29,9 +29,9 @@ class Energies(Stage):
     def run(self, chain: Chain) -> Given:
         shown = Shown.of(chain)
         axes = replace(chain[NominalSound].axes, options=shown.options)
-        at = {"speed": shown.speed_rpm, "option": list(shown.options)}
+        case = {"speed": shown.speed_rpm, "option": list(shown.options)}
         pressure, sound = (
-            chain.results["pressure_line"].sel(at),
+            chain.results["pressure_line"].sel(case),
             shown.received(chain[Transmission]),
         )
         return Given(energy_variables(axes, sound, pressure, shown.unmodelled))

@@ -19,7 +19,7 @@ from .chain import Chain
 from .representative import Representative
 
 UNMODELLED_NOISE: Final = ("representative_unmodelled_band_level", "unmodelled_band_level")
-"""Of the representative sample, else nominal."""
+"""Cases of the representative sample, else the nominal ones."""
 SHOWN: Final[tuple[str | type, ...]] = (
     Cases, Transmission, Representative, "rank", *UNMODELLED_NOISE
 )  # fmt: skip
@@ -82,6 +82,6 @@ class Shown:
         rows = slice(None) if receiver is None else [receiver]
         sound = path.received(self.cases)
         return [
-            with_discrepancy(one, self.gain[key][:, rows]) if self.gain else one
-            for key, one in sound.items()
+            with_discrepancy(received, self.gain[key][:, rows]) if self.gain else received
+            for key, received in sound.items()
         ]

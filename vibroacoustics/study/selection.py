@@ -39,7 +39,7 @@ def running_up(study: Study) -> Study:
 
     About its speed where it has one. The frequency of the motor's supply, where the study gives
     it, is interpolated; beside the only speed it is in proportion. Speeds at which the crank angles
-    do not tell the highest orders apart are omitted.
+    do not resolve the highest orders are omitted.
 
     Parameters
     ----------

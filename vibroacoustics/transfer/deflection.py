@@ -1,4 +1,4 @@
-"""Deflection of the housing at one frequency: as a rigid body, and by the modes of its shell."""
+"""Deflection of the housing at part frequency: as a rigid body, and by the modes of its shell."""
 
 from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
@@ -15,7 +15,7 @@ from .observers import motions
 from .shell_modes import SampledMode, ShellMode
 
 _ANGLES: Final[Array] = 2.0 * np.pi * np.arange(48) / 48
-"""Of the points on a ring."""
+"""Angles of the points on a ring."""
 _ON_WALL: Final = 13
 """Rings on the wall, its ends among them."""
 _ON_CAP: Final = 6
@@ -55,7 +55,7 @@ def ring_points(radius_m: Array, height_m: Array) -> Array:
 
 
 class MovingCase(NamedTuple):
-    """A case at one line.
+    """A case at part line.
 
     Attributes
     ----------
@@ -88,7 +88,7 @@ def deflection_variables(cases: Mapping[str, MovingCase], shell: Shell) -> xr.Da
         "dof": list(RIGID_BODY_DOFS),
         "foot": list(next(iter(cases.values())).path.body.stand.names),
     }
-    labelled = stamped({name: [one[name] for one in each] for name in each[0]}, coords)
+    labelled = stamped({name: [part[name] for part in each] for name in each[0]}, coords)
     return labelled.assign_coords(
         deflection_line=("shown_option", [case.line for case in cases.values()]),
         station_radius=("station", radius),

@@ -48,8 +48,8 @@ def figure(chart: Chart) -> Figure:
     placed = layout(chart)
     with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": "agg", **_STYLE}):
         size = (placed.width / PIXELS_PER_INCH, placed.height / PIXELS_PER_INCH)
-        drawn = Drawing(figsize=size, dpi=DOTS_PER_INCH)
-        FigureCanvasAgg(drawn)
+        drawing = Drawing(figsize=size, dpi=DOTS_PER_INCH)
+        FigureCanvasAgg(drawing)
         handles: dict[str, Any] = {}
         for panel, box in zip(chart.panels, placed.boxes, strict=True):
             frame = frame_of(panel, box)
@@ -57,24 +57,24 @@ def figure(chart: Chart) -> Figure:
             corner = (shape.x, placed.height - shape.y - shape.height)
             cell = np.array([*corner, shape.width, shape.height])
             cell /= [placed.width, placed.height, placed.width, placed.height]
-            axes = drawn.add_axes(tuple(cell), projection="polar" if panel.polar else None)
+            axes = drawing.add_axes(tuple(cell), projection="polar" if panel.polar else None)
             _write(axes, panel)
             if frame is None:
                 empty = NOTHING_TO_DRAW if panel.marks else ""
                 axes.text(0.5, 0.5, empty, transform=axes.transAxes, ha="center", va="center")
                 axes.set(xticks=[], yticks=[])
                 continue
-            handles |= _draw(axes, panel, frame)
+            handles |= _draw_panel(axes, panel, frame)
         if chart.title:
-            drawn.text(0.02, 0.99, escaped(chart.title), va="top", size=9.5)
+            drawing.text(0.02, 0.99, escaped(chart.title), va="top", size=9.5)
         shown = [key.name for key in placed.keys if key.name in handles]
         if shown:
             columns = len({key.x for key in placed.keys})
             named = [handles[name] for name in shown]
-            drawn.legend(
+            drawing.legend(
                 named, [escaped(name) for name in shown], loc="lower center", ncols=columns
             )
-    return drawn
+    return drawing
 
 
 def escaped(text: str) -> str:
@@ -88,7 +88,7 @@ def _write(axes: Any, panel: Panel) -> None:
         axes.set_title(escaped(panel.title))
 
 
-def _draw(axes: Any, panel: Panel, frame: Frame) -> dict[str, Any]:
+def _draw_panel(axes: Any, panel: Panel, frame: Frame) -> dict[str, Any]:
     """Draw marks and ticks; return what the legend shows of each label."""
     if not panel.polar:
         _scale(axes, "x", frame.x)
@@ -134,11 +134,11 @@ def _line(mark: Line, on: _Axes, look: Look) -> Any:
     if mark.interval is not None:
         low, high = map(numbers, mark.interval)
         on.axes.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0.0)
-    (drawn,) = on.axes.plot(
+    (handle,) = on.axes.plot(
         x, np.broadcast_to(numbers(mark.y), x.shape), color=colour, lw=mark.width,
         linestyle=mark.dash or look.dash, marker=mark.marker, markersize=3.5,
     )  # fmt: skip
-    return drawn
+    return handle
 
 
 @_mark.register
@@ -148,22 +148,22 @@ def _points(mark: Points, on: _Axes, look: Look) -> Any:
         on.axes.vlines(x, on.frame.y.low, y, color=colour, alpha=0.45, lw=1.0)
     if mark.interval is not None:
         on.axes.vlines(x, *map(numbers, mark.interval), color=colour, lw=1.0)
-    (drawn,) = on.axes.plot(
+    (handle,) = on.axes.plot(
         x, y, mark.marker or look.marker, color=colour, markersize=mark.size,
         fillstyle="full" if mark.filled else "none",
     )  # fmt: skip
-    return drawn
+    return handle
 
 
 @_mark.register
 def _bars(mark: Bars, on: _Axes, look: Look) -> Any:
     bars = on.axes.bar if mark.upright else on.axes.barh
     position, size, base = map(numbers, (mark.position, mark.size, mark.base))
-    drawn = bars(position, size, mark.thickness, base, color=mark.colour or look.colour)
+    handle = bars(position, size, mark.thickness, base, color=mark.colour or look.colour)
     if mark.interval is not None:
         rules = on.axes.vlines if mark.upright else on.axes.hlines
         rules(position, *map(numbers, mark.interval), color="#000000", lw=1.0)
-    return drawn
+    return handle
 
 
 @_mark.register
@@ -191,17 +191,17 @@ def _segments(mark: Segments, on: _Axes, look: Look) -> Any:
         return None
     gap = np.full(x.shape, np.nan)
     points = [np.stack(ends, axis=-1).ravel() for ends in ((x, x_end, gap), (y, y_end, gap))]
-    (drawn,) = on.axes.plot(*points, color=mark.colour, linestyle=mark.dash, lw=mark.width)
-    return drawn
+    (handle,) = on.axes.plot(*points, color=mark.colour, linestyle=mark.dash, lw=mark.width)
+    return handle
 
 
 @_mark.register
 def _area(mark: Area, on: _Axes, look: Look) -> Any:
-    (drawn,) = on.axes.fill(
+    (handle,) = on.axes.fill(
         numbers(mark.x), numbers(mark.y), facecolor=mark.fill or "none", alpha=mark.opacity,
         edgecolor=mark.colour or "none", linestyle=mark.dash, lw=0.9,
     )  # fmt: skip
-    return drawn
+    return handle
 
 
 @_mark.register

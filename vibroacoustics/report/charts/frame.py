@@ -108,8 +108,8 @@ def _extent(mark: Mark, letter: str) -> Array:
     if isinstance(mark, Image):
         return edges_of(numbers(getattr(mark, letter)))
     if isinstance(mark, Segments):
-        both = (getattr(mark, letter), getattr(mark, f"{letter}_end"))
-        return numbers(np.concatenate([numbers(end).ravel() for end in both]))
+        ends_of = (getattr(mark, letter), getattr(mark, f"{letter}_end"))
+        return numbers(np.concatenate([numbers(end).ravel() for end in ends_of]))
     values = [numbers(getattr(mark, letter)).ravel()]
     if letter == "y" and isinstance(mark, Line | Points) and mark.interval is not None:
         values += [numbers(end).ravel() for end in mark.interval]

@@ -44,8 +44,8 @@ def _panel(panel: Panel, box: Box, name: str, keys: dict[str, str]) -> list[str]
     clip = f'<clipPath id="{name}"><path d="{rectangle(frame.box)}"/></clipPath>'
     marks = []
     for mark, look in zip(panel.marks, looks_of(panel.marks), strict=True):
-        drawn, key = draw_mark(mark, frame, look)
-        marks.append(drawn)
+        shape, key = draw_mark(mark, frame, look)
+        marks.append(shape)
         if key and getattr(mark, "label", ""):
             keys.setdefault(mark.label, key)  # type: ignore[union-attr]
     images = [mark for mark in panel.marks if isinstance(mark, Image)]
@@ -66,8 +66,8 @@ def _titles(panel: Panel, box: Box) -> list[str]:
         parts.append(words(box.x + 0.5 * box.width, foot, panel.x.label, "middle"))
     if panel.y.label and not panel.polar:
         turn = f"rotate(-90 {box.x - left + 14.0:.1f} {box.y + 0.5 * box.height:.1f})"
-        at = (box.x - left + 14.0, box.y + 0.5 * box.height)
-        parts.append(words(*at, panel.y.label, "middle", transform=turn))
+        position = (box.x - left + 14.0, box.y + 0.5 * box.height)
+        parts.append(words(*position, panel.y.label, "middle", transform=turn))
     return parts
 
 
@@ -78,8 +78,8 @@ def _grid(frame: Frame, blank: bool) -> list[str]:
         return [f'<path d="{rectangle(frame.box)}" fill="#{BLANK}"/>']
     across = [x + width * float(frame.x.share(value)) for value, _ in frame.x.ticks]
     down = [y + height * (1.0 - float(frame.y.share(value))) for value, _ in frame.y.ticks]
-    shape = "".join(f"M{at:.1f} {y:.1f}v{height:.1f}" for at in across)
-    shape += "".join(f"M{x:.1f} {at:.1f}h{width:.1f}" for at in down)
+    shape = "".join(f"M{position:.1f} {y:.1f}v{height:.1f}" for position in across)
+    shape += "".join(f"M{x:.1f} {position:.1f}h{width:.1f}" for position in down)
     return [f'<path d="{shape}" stroke="{GRID}" stroke-width=".8"/>']
 
 
@@ -91,13 +91,13 @@ def _edges(panel: Panel, frame: Frame) -> list[str]:
     foot = y + height
     shape, parts = f"M{x:.1f} {y:.1f}V{foot:.1f}H{x + width:.1f}", []
     for value, word in frame.x.ticks:
-        at = x + width * float(frame.x.share(value))
-        shape += f"M{at:.1f} {foot:.1f}v4"
-        parts.append(words(at, foot + 16.0, word, "middle"))
+        position = x + width * float(frame.x.share(value))
+        shape += f"M{position:.1f} {foot:.1f}v4"
+        parts.append(words(position, foot + 16.0, word, "middle"))
     for value, word in frame.y.ticks:
-        at = y + height * (1.0 - float(frame.y.share(value)))
-        shape += f"M{x:.1f} {at:.1f}h-4"
-        middle = at + 4.0 - 7.0 * (lines(word) - 1)
+        position = y + height * (1.0 - float(frame.y.share(value)))
+        shape += f"M{x:.1f} {position:.1f}h-4"
+        middle = position + 4.0 - 7.0 * (lines(word) - 1)
         parts.append(words(x - 7.0, middle, word, "end"))
     return [f'<path d="{shape}" fill="none" stroke="{INK}"/>', *parts]
 
@@ -124,6 +124,6 @@ def _polar_grid(frame: Frame) -> list[str]:
     return parts
 
 
-def _key(key: Key, drawn: str) -> str:
+def _key(key: Key, shape: str) -> str:
     name = words(key.x + 32.0, key.y + 12.0, key.name)
-    return f'<g transform="translate({key.x:.1f} {key.y + 8.0:.1f})">{drawn}</g>{name}'
+    return f'<g transform="translate({key.x:.1f} {key.y + 8.0:.1f})">{shape}</g>{name}'

@@ -44,10 +44,10 @@ def _along(values: Array, middles: Array, scale: Scale, pixels: int, axis: int) 
     between = 0.5 * (middles[1:] + middles[:-1])
     share = (np.arange(pixels) + 0.5) / pixels
     if scale.logarithmic:
-        at = scale.low * (scale.high / scale.low) ** share
+        middle = scale.low * (scale.high / scale.low) ** share
     else:
-        at = scale.low + (scale.high - scale.low) * share
-    nearest: IndexArray = np.searchsorted(between, at)
+        middle = scale.low + (scale.high - scale.low) * share
+    nearest: IndexArray = np.searchsorted(between, middle)
     first, last = edges_of(middles)
     if len(middles) > pixels:
         starts = np.minimum(nearest, len(middles) - 1)
@@ -59,7 +59,7 @@ def _along(values: Array, middles: Array, scale: Scale, pixels: int, axis: int) 
         picked = np.stack(pixel_values, axis)
     else:
         picked = np.take(values, nearest, axis)
-    outside = (at < first) | (at > last)
+    outside = (middle < first) | (middle > last)
     return np.where(outside[:, None] if axis == 0 else outside, np.nan, picked)
 
 
@@ -109,6 +109,6 @@ def colour_bar(mark: Image, box: Box) -> str:
         )
         for value, word in round_ticks(low, high, most=5)
     )
-    at = (left + width + 38.0, box.y + 0.5 * box.height)
-    turn = f"rotate(-90 {at[0]:.1f} {at[1]:.1f})"
-    return cells + ticks + words(*at, mark.label, "middle", transform=turn)
+    position = (left + width + 38.0, box.y + 0.5 * box.height)
+    turn = f"rotate(-90 {position[0]:.1f} {position[1]:.1f})"
+    return cells + ticks + words(*position, mark.label, "middle", transform=turn)

@@ -112,8 +112,8 @@ def _segments(mark: Segments, frame: Frame, look: Look) -> tuple[str, str]:
     stroke = f'fill="none" stroke="{mark.colour}" stroke-width="{mark.width:g}"'
     stroke += f' stroke-dasharray="{dash}"' if dash else ""
     heads = "".join(head(*ends, mark.colour) for ends in zip(first, last, strict=True))
-    drawn = f'<path d="{pairs(first, last)}" {stroke}/>{heads if mark.arrow else ""}'
-    return drawn, f'<path d="M0 0H26" {stroke}/>'
+    shape = f'<path d="{pairs(first, last)}" {stroke}/>{heads if mark.arrow else ""}'
+    return shape, f'<path d="M0 0H26" {stroke}/>'
 
 
 @draw_mark.register
@@ -121,8 +121,8 @@ def _area(mark: Area, frame: Frame, look: Look) -> tuple[str, str]:
     looks = f'fill="{mark.fill or "none"}" fill-opacity="{mark.opacity:g}"'
     looks += f' stroke="{mark.colour or "none"}"'
     looks += f' stroke-dasharray="{DASHES[mark.dash]}"' if DASHES[mark.dash] else ""
-    drawn = f'<path d="{path(frame.points(mark.x, mark.y))}Z" {looks}/>'
-    return drawn, f'<path d="M0-5H26V5H0Z" {looks}/>'
+    shape = f'<path d="{path(frame.points(mark.x, mark.y))}Z" {looks}/>'
+    return shape, f'<path d="M0-5H26V5H0Z" {looks}/>'
 
 
 @draw_mark.register

@@ -71,9 +71,9 @@ def markers(points: Array, shape: str, size: float, colour: str, filled: bool) -
         return "".join(
             f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{size:.3g}" {looks}/>' for x, y in finite
         )
-    drawn = SHAPES[shape]
+    outline = SHAPES[shape]
     return "".join(
-        f'<path d="{drawn}" transform="translate({x:.1f} {y:.1f})scale({size:.3g})" {looks}/>'
+        f'<path d="{outline}" transform="translate({x:.1f} {y:.1f})scale({size:.3g})" {looks}/>'
         for x, y in finite
     )
 
