@@ -102,7 +102,7 @@ def results() -> xr.Dataset:
 
 def test_charts_become_pictures() -> None:
     line = Chart("line", "alt", "caption", (Panel(Axis(), Axis(), (Line([0, 1], [2, 3]),)),))
-    folded = (blocks.Details("Fold", (blocks.Charts((line,)),)),)
+    folded = (blocks.Details("Fold", (blocks.Pictures((line,)),)),)
     assert list(blocks.charts(folded)) == [line]
     assert list(blocks.pictures(folded)) == [picture(line)]
     assert blocks.from_json(blocks.to_json(folded)) == blocks.drawn(folded)

@@ -73,18 +73,10 @@ class Definitions:
 
 @dataclass(frozen=True)
 class Pictures:
-    """Figures side by side where there is room."""
+    """Figures and charts side by side where there is room."""
 
-    pictures: tuple[Picture, ...]
+    pictures: tuple[Picture | Chart, ...]
     block: Literal["pictures"] = field(default="pictures", kw_only=True, repr=False)
-
-
-@dataclass(frozen=True)
-class Charts:
-    """Charts side by side where there is room."""
-
-    charts: tuple[Chart, ...]
-    block: Literal["charts"] = field(default="charts", kw_only=True, repr=False)
 
 
 @dataclass(frozen=True)
@@ -222,7 +214,6 @@ Block: TypeAlias = Annotated[
     | Definitions
     | Table
     | Pictures
-    | Charts
     | Lights
     | Intervals
     | Beside
@@ -258,18 +249,16 @@ def from_json(text: str) -> tuple[Block, ...]:
 
 def pictures(blocks: Sequence[Block]) -> Iterator[Picture]:
     """All pictures of some blocks, folded ones too."""
-    for block in _flat(blocks):
+    for block in _flat(drawn(blocks)):
         if isinstance(block, Pictures):
-            yield from block.pictures
-        elif isinstance(block, Charts):
-            yield from map(picture, block.charts)
+            yield from (each for each in block.pictures if isinstance(each, Picture))
 
 
 def charts(blocks: Sequence[Block]) -> Iterator[Chart]:
     """All charts of some blocks, folded ones too."""
     for block in _flat(blocks):
-        if isinstance(block, Charts):
-            yield from block.charts
+        if isinstance(block, Pictures):
+            yield from (each for each in block.pictures if isinstance(each, Chart))
 
 
 def drawn(blocks: Sequence[Block]) -> tuple[Block, ...]:
@@ -278,8 +267,9 @@ def drawn(blocks: Sequence[Block]) -> tuple[Block, ...]:
 
 
 def _drawn(block: Block) -> Block:
-    if isinstance(block, Charts):
-        return Pictures(tuple(map(picture, block.charts)))
+    if isinstance(block, Pictures):
+        finished = (picture(each) if isinstance(each, Chart) else each for each in block.pictures)
+        return Pictures(tuple(finished))
     if isinstance(block, Details):
         return replace(block, blocks=drawn(block.blocks))
     if isinstance(block, Beside):
