@@ -13,7 +13,6 @@ WRITES = re.compile(
 ALLOWED = {
     "base/folder.py": "the opener",
     "base/regular_file.py": "opens for reading",
-    "commands/command.py": "text of the help, no file",
     "commands/messages.py": "appends with the opener",
     "commands/printing.py": "a browser writes to a temporary folder of its own",
     "results/cache.py": "time of the last use, of a file with one link",

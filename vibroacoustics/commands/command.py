@@ -1,7 +1,8 @@
 """One grammar of all commands: a function gives an outcome, and the runner reports it.
 
-The runner adds `--json` and `--quiet`, and `--verbose` and `--log` where a command computes: where
-it takes `progress`. Fields of a parameter that is a dataclass are options in its place.
+The runner adds `--json` and `--quiet`, and `--verbose` and `--log` where a command computes; it
+passes `progress` to a function that takes it. Fields of a parameter that is a dataclass are options
+in its place.
 """
 
 import re
@@ -16,6 +17,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from ..base.errors import ParameterError
+from ..base.progress import stage
 from . import messages, option_words
 from .outcome import Outcome
 from .progress import progress_on_stderr
@@ -59,6 +61,7 @@ class Command:
     example : words behind `vibroacoustics` and the name
     function : gives the outcome
     renamed : new option by old option
+    computes : whether it takes time, and has `--verbose` and `--log`
     """
 
     name: str
@@ -66,11 +69,7 @@ class Command:
     example: str
     function: Callable[..., Outcome]
     renamed: Mapping[str, str]
-
-    @property
-    def computes(self) -> bool:
-        """Whether it shows the progress of a computation."""
-        return "progress" in signature(self.function).parameters
+    computes: bool
 
     def run(self, options: dict[str, Any], speech: Speech, inputs: Mapping[str, Any]) -> None:
         """Run the function, and print text or JSON.
@@ -86,8 +85,12 @@ class Command:
             warnings = stack.enter_context(messages.collected(speech.quiet))
             if isinstance(speech, LongSpeech):
                 stack.enter_context(messages.logged(speech.log))
-                progress = progress_on_stderr(speech.quiet, speech.verbose)
-                options["progress"] = stack.enter_context(progress)
+                advance = progress_on_stderr(speech.quiet, speech.verbose)
+                progress = stack.enter_context(advance)
+                if "progress" in signature(self.function).parameters:
+                    options["progress"] = progress
+                else:
+                    stack.enter_context(stage(progress, self.name))
             stack.enter_context(option_words.spoken(inputs))
             outcome = self.function(**options)
             for label, path in outcome.files.items():
@@ -105,11 +108,9 @@ class Command:
     def typed(self) -> Callable[..., None]:
         """Return the function as typer reads it: every option is a parameter."""
         parameters = dict(signature(self.function, eval_str=True).parameters)
-        if parameters.pop("progress", None) is None:
-            speech = Parameter("speech", Parameter.KEYWORD_ONLY, annotation=Speech)
-        else:
-            speech = Parameter("speech", Parameter.KEYWORD_ONLY, annotation=LongSpeech)
-        parameters["speech"] = speech
+        parameters.pop("progress", None)
+        kind = LongSpeech if self.computes else Speech
+        parameters["speech"] = Parameter("speech", Parameter.KEYWORD_ONLY, annotation=kind)
         groups: dict[str, Any] = {
             name: each.annotation
             for name, each in parameters.items()
@@ -123,7 +124,7 @@ class Command:
                 options[name] = group(**values)
             self.run(options, options.pop("speech"), inputs)
 
-        said = {each.name for each in fields(speech.annotation)}
+        said = {each.name for each in fields(kind)}
         shown = [option for each in parameters.values() for option in _spread(each)]
         typed.__signature__ = Signature(shown)  # type: ignore[attr-defined]
         typed.__annotations__ = {option.name: option.annotation for option in shown}
@@ -136,17 +137,21 @@ COMMANDS: Final[dict[str, Command]] = {}
 
 
 def command(
-    name: str, job: str, example: str, renamed: Mapping[str, str] | None = None
+    name: str,
+    job: str,
+    example: str,
+    renamed: Mapping[str, str] | None = None,
+    computes: bool = True,
 ) -> Callable[[Callable[..., Outcome]], Callable[..., Outcome]]:
     """Take a function in as a command.
 
     Parameters
     ----------
-    name, job, example, renamed : see `Command`
+    name, job, example, renamed, computes : see `Command`
     """
 
     def registered(function: Callable[..., Outcome]) -> Callable[..., Outcome]:
-        COMMANDS[name] = Command(name, job, example, function, renamed or {})
+        COMMANDS[name] = Command(name, job, example, function, renamed or {}, computes)
         return function
 
     return registered
@@ -162,10 +167,13 @@ def _spread(parameter: Parameter) -> list[Parameter]:
 
 
 def _option(name: str, annotation: Any, default: Any) -> Parameter:
-    """Option of typer; where it is annotated with a text, that is its help."""
+    """Option or, where its text begins with a name in capitals, argument of typer."""
     about = getattr(annotation, "__metadata__", (None,))[0]
     if isinstance(about, str):
+        argument = re.match(r"([A-Z]+): (.*)", about)
         words = typer.Option(f"--{name.replace('_', '-')}", help=about)
+        if argument is not None:
+            words = typer.Argument(metavar=argument[1], help=argument[2])
         annotation = Annotated[annotation.__origin__, words]
     return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
@@ -191,7 +199,7 @@ class HelpedCommand(TyperCommand):
                 with formatter.section(title):
                     formatter.write_dl(rows)
         with formatter.section("Example"):
-            formatter.write_text(self.example)
+            formatter.write_dl([(self.example, "")])
 
     @property
     def example(self) -> str:

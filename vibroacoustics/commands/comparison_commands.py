@@ -3,9 +3,6 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from ..base.progress import Progress, stage
 from .command import command
 from .options import LimitsFile, Option, Paper, Pdf, with_pdf
 from .outcome import Outcome
@@ -16,13 +13,10 @@ if TYPE_CHECKING:
 
 @command("compare", "Results", "reports/mine/results.nc reports/bench/orders.nc")
 def compare_command(
-    progress: Progress,
-    first: Annotated[Path, typer.Argument(metavar="A", help="Results of `run` or `orders`, .nc.")],
+    first: Annotated[Path, "A: Results of `run` or `orders`, .nc."],
     others: Annotated[
         list[Path],
-        typer.Argument(
-            metavar="B", help="Results to compare with; several of `orders` are averaged."
-        ),
+        "B: Results to compare with; several of `orders` are averaged.",
     ],
     pair: Annotated[
         list[str] | None,
@@ -58,19 +52,18 @@ def compare_command(
     outputs.check_folder(folder)
     of_orders, of_figures = read_figure_limits(limits) if limits else ((), ())
     reference, other = outputs.open_orders(first), _second(others, specimens)
-    with stage(progress, "comparison"):
-        orders = order_comparison.compare(
-            reference,
-            other,
-            arguments.assignments("--pair", pair),
-            option,
-            radians(tacho_angle),
-            other_option,
-        )
-        orders = checking.held_against(with_scatter(orders, other), of_orders)
-        compared = Compared(orders, reference, other)
-        figures = check_figures(compared, of_figures)
-        written = outputs.write_comparison(compared, figures, folder, prints)
+    orders = order_comparison.compare(
+        reference,
+        other,
+        arguments.assignments("--pair", pair),
+        option,
+        radians(tacho_angle),
+        other_option,
+    )
+    orders = checking.held_against(with_scatter(orders, other), of_orders)
+    compared = Compared(orders, reference, other)
+    figures = check_figures(compared, of_figures)
+    written = outputs.write_comparison(compared, figures, folder, prints)
     page = folder / outputs.COMPARISON_REPORT_NAME
     files = checking.margin_files(orders, folder / outputs.COMPARED_LIMITS_NAME)
     if figures:

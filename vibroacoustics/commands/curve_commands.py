@@ -3,9 +3,6 @@
 from pathlib import Path
 from typing import Annotated, Final
 
-import typer
-
-from ..base.progress import Progress, stage
 from .command import command
 from .options import Option, Plugins, load_plugins
 from .outcome import Outcome
@@ -15,8 +12,7 @@ CURVES_NAME: Final = "curves.nc"
 
 @command("curves", "Studies", "pipelines/copeland_sources.toml --speed 2900")
 def curves_command(
-    progress: Progress,
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Study or machine file, .toml.")],
+    file: Annotated[Path, "FILE: Study or machine file, .toml."],
     speed: Annotated[
         float | None,
         "Shaft speed, rpm; default: the study's first, or of the overall noise.",
@@ -35,10 +31,9 @@ def curves_command(
     folder = out or Path("reports") / file.stem / "curves"
     study_or_machine = load_study_or_machine(file)
     outputs.check_folder(folder)
-    with stage(progress, "curves"):
-        inner = curves(study_or_machine, speed, option)
-        tables = {f"{name}.csv": report.curve_csv(inner, str(name)) for name in inner.data_vars}
-        written = outputs.write_analysis(inner, folder, CURVES_NAME, tables, report.curve_figures)
+    inner = curves(study_or_machine, speed, option)
+    tables = {f"{name}.csv": report.curve_csv(inner, str(name)) for name in inner.data_vars}
+    written = outputs.write_analysis(inner, folder, CURVES_NAME, tables, report.curve_figures)
     lines = [
         f"{name}: {curve.attrs['title']} ({curve.attrs['source']})" for name, curve in inner.items()
     ]

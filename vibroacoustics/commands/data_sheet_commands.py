@@ -3,7 +3,6 @@
 from pathlib import Path
 from typing import Annotated
 
-from ..base.progress import Progress, stage
 from .command import command
 from .options import Option, Plugins, ResultsFile, Speed, load_plugins
 from .outcome import Outcome
@@ -16,7 +15,6 @@ from .outcome import Outcome
     {"--microphones": "--microphone, once for each microphone"},
 )
 def datasheet_command(
-    progress: Progress,
     results_file: ResultsFile,
     option: Option = "none",
     speed: Speed = None,
@@ -45,7 +43,7 @@ def datasheet_command(
     points_m = arguments.points("--point", point)
     outputs.check_folder(folder)
     results, _ = outputs.open_run(results_file)
-    with outputs.naming(results_file), stage(progress, "data sheet"):
+    with outputs.naming(results_file):
         sheet = data_sheet(results, option, speed, microphone or None, points_m, batch)
     page = sheets.write_data_sheet(sheet, folder)
     files = {"data sheet": page, "table": page.with_suffix(".csv")}

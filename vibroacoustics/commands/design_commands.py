@@ -29,9 +29,7 @@ DESIGNS_NAME: Final = "designs.nc"
 SWEEP_CHUNKS: Final = "sweep_chunks"
 SEARCH_CHUNKS: Final = "search_chunks"
 
-StudyFile = Annotated[
-    Path, typer.Argument(metavar="STUDY", help="Study file, .toml, with a table `design`.")
-]
+StudyFile = Annotated[Path, "STUDY: Study file, .toml, with a table `design`."]
 
 
 @command("sweep", "Designs", "pipelines/copeland_designs.toml --workers 4")

@@ -9,7 +9,7 @@ from .command import command
 from .outcome import Outcome, columns
 
 
-@command("cache", "Installation", "--limit 5")
+@command("cache", "Installation", "--limit 5", computes=False)
 def cache_command(
     clear: Annotated[bool, "Remove all of it."] = False,
     limit: Annotated[
@@ -27,11 +27,9 @@ def cache_command(
     return caching.managed(clear, limit)
 
 
-@command("doctor", "Installation", "reports/copeland_sources")
+@command("doctor", "Installation", "reports/copeland_sources", computes=False)
 def doctor_command(
-    folder: Annotated[
-        Path | None, typer.Argument(metavar="FOLDER", help="Folder of results to check, too.")
-    ] = None,
+    folder: Annotated[Path | None, "FOLDER: Folder of results to check, too."] = None,
 ) -> Outcome:
     """Show versions, memory, FFT, k-Wave and cache, without a network."""
     from . import doctor

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ..base.progress import Progress, stage
+from ..base.progress import Progress
 from .command import command
 from .options import NoCache, Plugins, ResultsFile, StudyFile, load_plugins, used_cache
 from .outcome import Outcome
@@ -14,7 +14,6 @@ from .outcome import Outcome
 
 @command("listen", "Results", "reports/mine/results.nc --option none --option lanchester")
 def listen_command(
-    progress: Progress,
     results_file: ResultsFile,
     option: Annotated[list[str] | None, "Option to listen to; default: all."] = None,
     microphone: Annotated[
@@ -41,7 +40,7 @@ def listen_command(
     from .listening import listen
 
     results, _ = outputs.open_run(results_file)
-    with outputs.naming(results_file), stage(progress, "sounds"):
+    with outputs.naming(results_file):
         written = listen(
             results,
             out or results_file.parent / "sound",

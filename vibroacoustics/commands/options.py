@@ -4,13 +4,9 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
-StudyFile = Annotated[Path, typer.Argument(metavar="STUDY", help="Study file, .toml.")]
-ResultsFile = Annotated[
-    Path, typer.Argument(metavar="RESULTS", help="Results of a run, results.nc.")
-]
-Recording = Annotated[Path, typer.Argument(metavar="RECORDING", help="File of the recording.")]
+StudyFile = Annotated[Path, "STUDY: Study file, .toml."]
+ResultsFile = Annotated[Path, "RESULTS: Results of a run, results.nc."]
+Recording = Annotated[Path, "RECORDING: File of the recording."]
 FileOut = Annotated[Path | None, "Folder of the results; default: reports/NAME OF THE FILE."]
 StudyOut = Annotated[Path | None, "Folder of the results; default: reports/NAME OF THE STUDY."]
 Speed = Annotated[float | None, "Shaft speed, rpm; default: the first."]

@@ -3,9 +3,6 @@
 from pathlib import Path
 from typing import Annotated, Final
 
-import typer
-
-from ..base.progress import Progress, stage
 from .command import command
 from .options import FileOut
 from .outcome import Outcome
@@ -16,10 +13,9 @@ BLOCKED_NAME: Final = "blocked_forces.nc"
 
 @command("predict", "Measurements", "softer_mounts.toml")
 def predict_command(
-    progress: Progress,
     file: Annotated[
         Path,
-        typer.Argument(metavar="FILE", help="File, .toml, of measurements, mounts and changes."),
+        "FILE: File, .toml, of measurements, mounts and changes.",
     ],
     out: FileOut = None,
 ) -> Outcome:
@@ -30,24 +26,20 @@ def predict_command(
 
     folder = out or Path("reports") / file.stem
     outputs.check_folder(folder)
-    with stage(progress, "prediction"):
-        predicted = predict(file)
-        tables = {
-            "prediction.csv": report.prediction_csv(predicted),
-            "prediction.md": report.prediction_markdown(predicted),
-        }
-        written = outputs.write_analysis(
-            predicted, folder, PREDICTION_NAME, tables, report.predicted_figures
-        )
+    predicted = predict(file)
+    tables = {
+        "prediction.csv": report.prediction_csv(predicted),
+        "prediction.md": report.prediction_markdown(predicted),
+    }
+    written = outputs.write_analysis(
+        predicted, folder, PREDICTION_NAME, tables, report.predicted_figures
+    )
     return Outcome(report.prediction_text(predicted), {"prediction": written})
 
 
 @command("blocked-forces", "Measurements", "fan_in_situ.toml")
 def blocked_forces_command(
-    progress: Progress,
-    file: Annotated[
-        Path, typer.Argument(metavar="FILE", help="File, .toml, of measurements and interface.")
-    ],
+    file: Annotated[Path, "FILE: File, .toml, of measurements and interface."],
     out: FileOut = None,
 ) -> Outcome:
     """Find the blocked forces of an installed source (ISO 20270), with on-board validation."""
@@ -58,18 +50,15 @@ def blocked_forces_command(
 
     folder = out or Path("reports") / file.stem
     outputs.check_folder(folder)
-    with stage(progress, "blocked forces"):
-        blocked = blocked_forces(file)
-        tables = {
-            "blocked_forces.csv": report.blocked_csv(blocked),
-            "validation.csv": report.validation_csv(blocked),
-            "blocked_forces.md": report.blocked_markdown(blocked),
-        }
-        with outputs.naming(file):
-            orders = blocked_orders_csv(blocked)
-        if orders is not None:
-            tables["orders.csv"] = orders
-        written = outputs.write_analysis(
-            blocked, folder, BLOCKED_NAME, tables, report.blocked_figures
-        )
+    blocked = blocked_forces(file)
+    tables = {
+        "blocked_forces.csv": report.blocked_csv(blocked),
+        "validation.csv": report.validation_csv(blocked),
+        "blocked_forces.md": report.blocked_markdown(blocked),
+    }
+    with outputs.naming(file):
+        orders = blocked_orders_csv(blocked)
+    if orders is not None:
+        tables["orders.csv"] = orders
+    written = outputs.write_analysis(blocked, folder, BLOCKED_NAME, tables, report.blocked_figures)
     return Outcome(report.blocked_text(blocked), {"blocked forces": written})

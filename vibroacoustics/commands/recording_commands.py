@@ -8,7 +8,7 @@ from typing import Annotated, Final
 
 import typer
 
-from ..base.progress import Progress, stage
+from ..base.progress import Progress
 from .command import command
 from .options import FileOut, LimitsFile, Paper, Pdf, Plugins, Recording, with_pdf
 from .outcome import Outcome
@@ -71,7 +71,6 @@ def orders_command(
 
 @command("track", "Recordings", "run_up.csv --speed-channel tacho --bandwidth 3", RENAMED)
 def track_command(
-    progress: Progress,
     recording_file: Recording,
     *,
     bandwidth: Annotated[float, "Full width at -3 dB of what passes around each order, Hz."],
@@ -92,15 +91,13 @@ def track_command(
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = reading.at_once(recording_file, plugin)
-    with stage(progress, "tracked orders"):
-        tracked = track_orders(recording, source, numbers, bandwidth, poles)
-        written = recorded_outputs.write_tracked(tracked, folder)
+    tracked = track_orders(recording, source, numbers, bandwidth, poles)
+    written = recorded_outputs.write_tracked(tracked, folder)
     return Outcome(report.tracked_text(tracked), {"tracked orders": written})
 
 
 @command("map", "Recordings", "run_up.csv --speed-channel tacho --resolution 4", RENAMED)
 def map_command(
-    progress: Progress,
     recording_file: Recording,
     *,
     speed: SpeedOptions,
@@ -118,16 +115,14 @@ def map_command(
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = reading.at_once(recording_file, plugin)
-    with stage(progress, "speed-frequency map"):
-        mapped = speed_frequency_map(recording, source, resolution, maximum_frequency)
-        written = recorded_outputs.write_speed_map(mapped, folder)
+    mapped = speed_frequency_map(recording, source, resolution, maximum_frequency)
+    written = recorded_outputs.write_speed_map(mapped, folder)
     page = folder / recorded_outputs.SPEED_MAP_REPORT_NAME
     return Outcome(files={"speed-frequency map": written, "report": page})
 
 
 @command("tones", "Recordings", 'machine.wav --unit "channel 1=Pa"')
 def tones_command(
-    progress: Progress,
     recording_file: Recording,
     *,
     reading: Reading,
@@ -141,7 +136,7 @@ def tones_command(
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
     recording = reading.at_once(recording_file, plugin)
-    with outputs.naming(recording_file), stage(progress, "tones"):
+    with outputs.naming(recording_file):
         tones = recorded_tones(recording)
     written = recorded_outputs.write_tones(tones, folder)
     page = folder / recorded_outputs.TONES_REPORT_NAME
@@ -152,7 +147,7 @@ def tones_command(
     )
 
 
-@command("export", "Recordings", "machine.uff --out machine.csv")
+@command("export", "Recordings", "machine.uff --out machine.csv", computes=False)
 def export_command(
     recording_file: Recording,
     *,

@@ -5,8 +5,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..base.errors import ParameterError
 from ..base.fault import collected
 from ..base.progress import Progress, stage
@@ -33,7 +31,7 @@ if TYPE_CHECKING:
 @command("run", "Studies", "pipelines/copeland_sources.toml")
 def run_command(
     progress: Progress,
-    study_files: Annotated[list[Path], typer.Argument(metavar="STUDY", help="Study files, .toml.")],
+    study_files: Annotated[list[Path], "STUDY: Study files, .toml."],
     out: Annotated[
         Path | None,
         "Folder of the results; of several studies one in it each; "
@@ -108,7 +106,7 @@ def _run(study: "Study", folder: Path, progress: Progress) -> Outcome:
 @command("check", "Studies", "pipelines/copeland_sources.toml")
 def check_command(
     progress: Progress,
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Study or machine file, .toml.")],
+    file: Annotated[Path, "FILE: Study or machine file, .toml."],
     plugin: Plugins = None,
 ) -> Outcome:
     """List all errors of a study or a machine, and what a run of the study would cost."""
@@ -154,7 +152,7 @@ def radiation_command(
     return Outcome(report.radiation_text(radiated), {"transfer vectors": written})
 
 
-@command("report", "Results", "reports/copeland_sources/results.nc --pdf")
+@command("report", "Results", "reports/copeland_sources/results.nc --pdf", computes=False)
 def report_command(
     results_file: ResultsFile,
     out: Annotated[Path | None, "Folder of the report; default: that of the file."] = None,

@@ -3,16 +3,14 @@
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
 from .command import command
 from .options import Plugins, load_plugins
 from .outcome import SCHEMA, Outcome
 
 
-@command("new", "Studies", "oldham-scroll --out my_machine")
+@command("new", "Studies", "oldham-scroll --out my_machine", computes=False)
 def new_command(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="Kind of machine.")],
+    kind: Annotated[str, "KIND: Kind of machine."],
     out: Annotated[Path | None, "Folder of the files; default: KIND."] = None,
 ) -> Outcome:
     """Write a commented machine file and study to begin with, and their schemas."""
@@ -37,13 +35,11 @@ def new_command(
     )
 
 
-@command("schema", "Installation", "envelope")
+@command("schema", "Installation", "envelope", computes=False)
 def schema_command(
     name: Annotated[
         str | None,
-        typer.Argument(
-            metavar="NAME", help="Schema to print: study, machine, data_sheet or envelope."
-        ),
+        "NAME: Schema to print: study, machine, data_sheet or envelope.",
     ] = None,
     out: Annotated[Path, "Folder of the files."] = Path("schemas"),
     plugin: Plugins = None,

@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-from ..base.progress import Progress, stage
 from . import messages
 from .command import command
 from .options import Plugins, ResultsFile, load_plugins
@@ -14,7 +13,6 @@ from .outcome import Outcome
 
 @command("score", "Results", "reports/mine/results.nc --scoring mine.toml")
 def score_command(
-    progress: Progress,
     results_file: ResultsFile,
     scoring_of: Annotated[
         Path | None,
@@ -38,8 +36,7 @@ def score_command(
     results, _ = outputs.open_run(results_file)
     messages.warn(manifest.mixed(results_file.parent))
     settings = loading.load_study(scoring_of).scoring if scoring_of else None
-    with outputs.naming(scoring_of or results_file), stage(progress, "scores"):
+    with outputs.naming(scoring_of or results_file):
         scored = scored_again(results, settings)
-    with stage(progress, "report"):
-        written = outputs.write_report(scored, folder)
+    written = outputs.write_report(scored, folder)
     return Outcome(scoring.ranking_text(scored), {"report": written})

@@ -3,9 +3,6 @@
 from pathlib import Path
 from typing import Annotated, Final
 
-import typer
-
-from ..base.progress import Progress, stage
 from .command import command
 from .options import Plugins
 from .outcome import Outcome
@@ -16,10 +13,9 @@ SOUND_POWER_NAME: Final = "sound_power.nc"
 
 @command("sound-power", "Recordings", 'front.wav rear.wav --hemisphere 1.0 --unit "channel 1=Pa"')
 def sound_power_command(
-    progress: Progress,
     files: Annotated[
         list[Path],
-        typer.Argument(metavar="RECORDING", help="Files of the microphones' recordings."),
+        "RECORDING: Files of the microphones' recordings.",
     ],
     hemisphere: Annotated[float | None, "Radius of the hemisphere of the microphones, m."] = None,
     box: Annotated[
@@ -65,8 +61,7 @@ def sound_power_command(
     reading = Reading(unit, calibration, sample_rate=sample_rate)
     given = ([*files, *quiet], reading, plugin)
     running, still = (microphones.read_files(each, *given) for each in (files, quiet))
-    with stage(progress, "sound power"):
-        measured = sound_power(running, surface, still, absorption)
+    measured = sound_power(running, surface, still, absorption)
     tables = {
         "sound_power.csv": report.measured_power_csv(measured),
         "sound_power.html": report.measured_power_html(measured),
