@@ -116,9 +116,9 @@ def study_of(name: str) -> str:
     return f"{name}.study"
 
 
-def _study(at: Folder, name: str) -> str:
+def _study(cached: Folder, name: str) -> str:
     with suppress(OSError, StorageError):
-        content = at.read_bytes(study_of(name), _MAXIMUM_STUDY_BYTES)
+        content = cached.read_bytes(study_of(name), _MAXIMUM_STUDY_BYTES)
         return " ".join(content.decode(errors="replace").split())
     return ""
 

@@ -33,10 +33,10 @@ def test_lists_limits_and_clears(folder, results):
     assert lines[1].endswith(".nc  unknown study")
     assert f"{folder}: 3 results" in lines[3]
     assert "of at most 2000 MB" in lines[3]
-    lines = command_here("cache", "--limit", "0.0008").stdout.splitlines()
+    lines = command_here("cache", "--limit", "0.0012").stdout.splitlines()
     assert lines[0].startswith("removed 2 results")
     assert "1 results" in lines[-1]
-    assert "of at most 0.8 MB" in lines[-1]
+    assert "of at most 1.2 MB" in lines[-1]
     lines = command_here("cache", "--clear").stdout.splitlines()
     assert lines[0].startswith("removed 1 results")
     assert cache.contents()[0] == []

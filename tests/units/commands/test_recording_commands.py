@@ -33,18 +33,9 @@ def file(recording, tmp_path_factory):
 
 def test_track_gives_the_envelopes(file, tmp_path):
     outcome = command_here(
-        "track",
-        file,
-        "--speed-channel",
-        "speed",
-        "--orders",
-        "1,3",
-        "--bandwidth",
-        2,
-        "--out",
-        "--out",
-        tmp_path,
-    )
+        "track", file, "--speed-channel", "speed", "--orders", "1,3", "--bandwidth", 2,
+        "--out", tmp_path,
+    )  # fmt: skip
     assert outcome.returncode == 0, outcome.stderr
     assert "bandwidth: 2 Hz, 2 poles" in outcome.stdout
     tracked = va.open_results(tmp_path / "tracked_orders.nc")
