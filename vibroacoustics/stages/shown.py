@@ -56,9 +56,7 @@ class Shown:
         study, chosen = chain.study, chain.get(Representative)
         published = study.catalogue_speed_rpm
         speed = min(chosen_speeds(study), key=lambda speed: abs(speed - published))
-        rank = chain.results["rank"].isel(scoring_method=0)
-        first = str(rank["option"].values[rank.argmin("option").item()])
-        options = tuple(dict.fromkeys([REFERENCE_OPTION, first]))
+        options = tuple(dict.fromkeys([REFERENCE_OPTION, *_first_ranked(chain.results)]))
         every = chain[Cases] if chosen is None else chosen.cases
         return cls(
             speed,
@@ -85,3 +83,11 @@ class Shown:
             with_discrepancy(received, self.gain[key][:, rows]) if self.gain else received
             for key, received in sound.items()
         ]
+
+
+def _first_ranked(results: xr.Dataset) -> list[str]:
+    """Name of the option that ranks first; empty in a trial, which has no scores."""
+    if "rank" not in results:
+        return []
+    rank = results["rank"].isel(scoring_method=0)
+    return [str(rank["option"].values[rank.argmin("option").item()])]
