@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from importlib.util import find_spec
 from typing import Final, Literal
 
@@ -138,7 +139,14 @@ def filter_gain(frequency_hz: Array) -> Array:
 def _thirds(parts: Ingredients) -> Array:
     """Mean squares in the bands `CENTRES_HZ`, Pa²; noise is even over the logarithm in its band."""
     lines = 0.5 * np.abs(parts.lines.pressure_pa) ** 2 @ filter_gain(parts.lines.frequency_hz)
-    across = HALF_BAND ** (2.0 * (np.arange(_ACROSS) + 0.5) / _ACROSS - 1.0)
-    hertz = parts.bands.centre_hz[:, None] * across
-    gain = filter_gain(hertz.ravel()).reshape(*hertz.shape, CENTRES_HZ.size).mean(axis=1)
+    gain = _noise_gain(tuple(parts.bands.centre_hz.tolist()))
     return np.asarray(lines + parts.bands.pressure_pa**2 @ gain)
+
+
+@lru_cache(maxsize=16)
+def _noise_gain(centre_hz: tuple[float, ...]) -> Array:
+    """Gain of the filters on noise in third octaves, shape (band, filter)."""
+    across = HALF_BAND ** (2.0 * (np.arange(_ACROSS) + 0.5) / _ACROSS - 1.0)
+    hertz = np.array(centre_hz)[:, None] * across
+    gain = filter_gain(hertz.ravel()).reshape(*hertz.shape, CENTRES_HZ.size)
+    return np.asarray(gain.mean(axis=1))

@@ -1,7 +1,5 @@
 """Loudness and sharpness of the sound of every option over results."""
 
-from collections.abc import Iterable
-from contextlib import suppress
 from itertools import product
 
 import numpy as np
@@ -10,7 +8,7 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamped
-from .ingredients import ingredients
+from .ingredients import Ingredients, ingredients
 from .loudness import NEEDED, SoundField, available, loudness_of
 
 _AT_RECEIVERS = ("pressure_line", "noise_band_level", "unmodelled_band_level")
@@ -55,19 +53,26 @@ def _stamped(results: xr.Dataset, where: str, values: dict[str, Array]) -> xr.Da
 
 def _of_every_case(results: xr.Dataset, where: str, field: SoundField) -> Array:
     """Loudness and sharpness, shape (2, speed, option, position)."""
-    dims = ("speed", "option", where)
-    speeds, options, positions = (results[dim].values.tolist() for dim in dims)
-    values = np.full((2, len(speeds), len(options), len(positions)), np.nan)
-    for (s, speed), (p, position) in product(enumerate(speeds), enumerate(positions)):
-        with suppress(ParameterError):  # louder than the standard goes
-            values[:, s, :, p] = _of_options(results, options, position, speed, field)
-    return values
+    speeds, options, positions = (
+        results[dim].values.tolist() for dim in ("speed", "option", where)
+    )
+    groups = [
+        [ingredients(results, option, position, speed) for option in options]
+        for speed, position in product(speeds, positions)
+    ]
+    values = np.array(_of_groups(groups, field))
+    return np.moveaxis(values.reshape(len(speeds), len(positions), len(options), 2), (3, 2), (0, 2))
 
 
-def _of_options(
-    results: xr.Dataset, options: Iterable[str], position: str, speed: float, field: SoundField
-) -> Array:
-    """Loudness and sharpness of the options at a position and speed, shape (2, option)."""
-    parts = [ingredients(results, option, position, speed) for option in options]
-    loud = loudness_of(parts, field)
-    return np.array([[one.loudness_sone, one.sharpness_acum] for one in loud]).T
+def _of_groups(groups: list[list[Ingredients]], field: SoundField) -> list[list[list[float]]]:
+    """Loudness and sharpness of groups of sounds; not a number in a group with too loud a sound."""
+    try:
+        loud = loudness_of([part for group in groups for part in group], field)
+    except ParameterError:
+        if len(groups) == 1:
+            return [[[np.nan, np.nan]] * len(groups[0])]
+        half = len(groups) // 2
+        return _of_groups(groups[:half], field) + _of_groups(groups[half:], field)
+    size = len(groups[0])
+    pairs = [[sound.loudness_sone, sound.sharpness_acum] for sound in loud]
+    return [pairs[first : first + size] for first in range(0, len(pairs), size)]
