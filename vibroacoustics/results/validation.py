@@ -6,7 +6,7 @@ agrees with D within T where |E| + 1.64 u <= T (equivalence test: Schuirmann 198
 Pharmacokinetics and Biopharmaceutics 15, 657); it differs where |E| > 2 u; else that is undecided.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Final
 
 import numpy as np
@@ -22,18 +22,6 @@ FORCE_TOLERANCE: Final = 0.1
 AGREES: Final = "agrees"
 DIFFERS: Final = "differs"
 UNDECIDED: Final = "undecided"
-PARTS: Final = {
-    "simulation": "evidence_simulation",
-    "data": "evidence_data",
-    "numerical": "evidence_numerical_uncertainty",
-    "inputs": "evidence_input_uncertainty",
-    "published": "evidence_data_uncertainty",
-}
-"""Variables of the numbers."""
-TEXTS: Final = {
-    "quantity": "evidence_quantity", "unit": "evidence_unit", "source": "evidence_source",
-}  # fmt: skip
-"""Coordinates of the texts."""
 
 
 @dataclass(frozen=True)
@@ -84,10 +72,7 @@ class Validation:
 
 def validations(results: xr.Dataset) -> list[Validation]:
     """Return all that is published of what the results hold; none in those of earlier versions."""
-    if PARTS["data"] not in results:
+    if "evidence_data" not in results:
         return []
-    columns = {part: results[name].values.tolist() for part, name in {**PARTS, **TEXTS}.items()}
-    return [
-        Validation(**dict(zip(columns, row, strict=True)))
-        for row in zip(*columns.values(), strict=True)
-    ]
+    columns = [results[f"evidence_{part.name}"].values.tolist() for part in fields(Validation)]
+    return [Validation(*row) for row in zip(*columns, strict=True)]

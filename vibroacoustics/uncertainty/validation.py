@@ -1,13 +1,14 @@
 """Results beside published values of the machine: level and forces of moving parts."""
 
 from collections.abc import Iterable, Iterator
+from dataclasses import fields
 from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 
 from ..base.ellipse import semi_major_axis
-from ..base.vocabulary import REFERENCE_OPTION, stamped
+from ..base.vocabulary import COORDINATES, REFERENCE_OPTION, VARIABLES, stamped
 from ..results.estimates import nominal, prior_ensemble
 from ..results.grid_error import grid_error_db
 from ..results.stored_study import (
@@ -18,7 +19,7 @@ from ..results.stored_study import (
     overall_noise,
     parameters,
 )
-from ..results.validation import PARTS, TEXTS, Validation
+from ..results.validation import Validation
 
 _OF_A_RANGE: Final = 1.0 / np.sqrt(12.0)
 """Standard uncertainty of what lies evenly in a range, over its width (JCGM 100:2008, 4.3.7)."""
@@ -37,10 +38,12 @@ def validation_variables(results: xr.Dataset) -> xr.Dataset:
     every = [*_catalogue_level(results), *_forces(results, evidence.get("forces", ()))]
     if not every:
         return xr.Dataset()
-    numbers = {name: [getattr(each, part) for each in every] for part, name in PARTS.items()}
-    texts = {name: [getattr(each, part) for each in every] for part, name in TEXTS.items()}
+    names = [part.name for part in fields(Validation)]
+    columns = {f"evidence_{name}": [getattr(each, name) for each in every] for name in names}
+    numbers = {name: values for name, values in columns.items() if name in VARIABLES}
+    texts = {name: ("evidence", text) for name, text in columns.items() if name in COORDINATES}
     labelled = stamped(numbers, {"evidence": np.arange(1.0, 1.0 + len(every))})
-    return labelled.assign_coords({name: ("evidence", text) for name, text in texts.items()})
+    return labelled.assign_coords(texts)
 
 
 def _catalogue_level(results: xr.Dataset) -> Iterator[Validation]:
