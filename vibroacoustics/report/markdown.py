@@ -15,6 +15,7 @@ from .blocks import (
     Pictures,
     Text,
     drawn,
+    pictures,
 )
 from .page import Page, figure_file
 from .tables import Table, escape_markdown, to_markdown
@@ -72,7 +73,7 @@ def _pictures(block: Pictures) -> str:
     return "\n\n".join(
         f"![{escape_markdown(picture.alt)}]({figure_file(picture)})\n"
         f"{escape_markdown(picture.caption)}"
-        for picture in block.pictures
+        for picture in pictures([block])
     )
 
 

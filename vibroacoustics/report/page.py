@@ -68,6 +68,6 @@ def page_of(results: xr.Dataset) -> Page:
     return Page(of_study["title"], of_study["machine"]["name"], results.attrs["created_utc"], parts)
 
 
-def figure_file(picture: Picture | Chart) -> str:
+def figure_file(picture: Picture) -> str:
     """File of a figure beside the report."""
     return f"figures/{file_name(picture.name)}.{picture.ending}"
