@@ -79,6 +79,7 @@ BUILT_IN = [
     "provenance",
 ]
 NOT_HERE = {
+    "evidence",
     "live",
     "stopping",
     "baseline",
