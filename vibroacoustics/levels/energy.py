@@ -74,7 +74,7 @@ def energy_variables(
     pressure_line : (option, sound_source, receiver, line), with `tone_frequency`
     level : of unmodelled noise, (option, noise_band)
     """
-    parts = [sound_by_source(received, axes.bands).mutual.sum(axis=1) for received in sound]
+    parts = [sound_by_source(case, axes.bands).mutual.sum(axis=1) for case in sound]
     noise = np.repeat(unmodelled_energy(level)[:, None, None], len(axes.receivers), axis=2)
     lines = pressure_line.transpose("sound_source", "option", "receiver", "line")
     of_lines = energy_of_lines(lines.values, lines["tone_frequency"].values)

@@ -66,7 +66,7 @@ def frequencies_of(bands: Sequence[Band], sound: Sequence[ReceivedSound]) -> Arr
     bands : third octaves
     sound : of all cases
     """
-    lines_hz = np.concatenate([received.lines.frequency_hz for received in sound])
+    lines_hz = np.concatenate([case.lines.frequency_hz for case in sound])
     chosen: list[float] = []
     for band in bands:
         low, high = band.lower_hz, band.upper_hz
@@ -108,7 +108,7 @@ def polar_variables(
     names : of the points that have sound
     sound : at these, of each option
     """
-    levels = level(np.array([band_energy(received, bands) for received in sound]))
+    levels = level(np.array([band_energy(case, bands) for case in sound]))
     every = np.full((len(options), len(bands), len(_PLANES) * _DIRECTIONS.size), np.nan)
     every[..., [int(name) for name in names]] = np.moveaxis(levels, 1, 2)
     values = {

@@ -22,19 +22,19 @@ _QUIETER_DB: Final = 40.0
 
 
 def unmodelled_over_speed(
-    band_level: xr.DataArray, remainder: Remainder, speed_rpm: float, speeds_rpm: Sequence[float]
+    band_level: xr.DataArray, growth: Remainder, speed_rpm: float, speeds_rpm: Sequence[float]
 ) -> Array:
     """Compute the A-weighted mean square of unmodelled noise over speed, shape (speed,), Pa².
 
     Parameters
     ----------
     band_level : of the noise at one speed, (noise_band), dB
-    remainder : growth of the noise with speed
+    growth : of the noise with speed
     speed_rpm : of that level
     speeds_rpm : of the run-up
     """
-    growth = remainder.speed_factor(np.array(speeds_rpm), speed_rpm)
-    return np.asarray(growth * unmodelled_energy(band_level).sum())
+    factor = growth.speed_factor(np.array(speeds_rpm), speed_rpm)
+    return np.asarray(factor * unmodelled_energy(band_level).sum())
 
 
 def run_up_variables(
@@ -68,12 +68,12 @@ def run_up_variables(
 
 def _orders(sound: Mapping[float, ReceivedSound]) -> tuple[Array, Array]:
     """Orders up to the highest that matters; their mean squares, (speed, receiver, order), Pa²."""
-    every = list(sound.values())
-    highest = max(len(received.lines.names) for received in every)
-    energy = np.zeros((len(every), every[0].pressure.shape[1], highest))
-    for row, received in enumerate(every):
-        order, columns = order_columns(received, highest)
-        of_lines = energy_of_lines(received.pressure, received.lines.frequency_hz).sum(axis=0)
+    received = list(sound.values())
+    highest = max(len(case.lines.names) for case in received)
+    energy = np.zeros((len(received), received[0].pressure.shape[1], highest))
+    for row, case in enumerate(received):
+        order, columns = order_columns(case, highest)
+        of_lines = energy_of_lines(case.pressure, case.lines.frequency_hz).sum(axis=0)
         energy[row][:, order] = of_lines[:, columns]
     loudest = level_of_power(energy.max(axis=(0, 1)))
     last = int(np.flatnonzero(loudest >= loudest.max() - _QUIETER_DB)[-1])

@@ -53,8 +53,8 @@ class Directivity(Stage):
             study.machine.shell, study.receivers[study.catalogue_receiver]
         ).tolist()
         points, frequency_hz = points_around(position), frequencies_of(bands, received)
-        scene = study, modes_of(chain), points, frequency_hz
-        vectors, _ = cached(_CACHE, key_at(*scene), lambda: vectors_at(*scene))
+        inputs = study, modes_of(chain), points, frequency_hz
+        vectors, _ = cached(_CACHE, key_at(*inputs), lambda: vectors_at(*inputs))
         around = replace(path, microphones=_observers(vectors, bands, path.shell is not None))
         sound = shown.received(around, shown.receiver)
         names = vectors["receiver"].values.tolist()

@@ -19,7 +19,7 @@ from .chain import Chain
 from .representative import Representative
 
 UNMODELLED_NOISE: Final = ("representative_unmodelled_band_level", "unmodelled_band_level")
-"""Cases of the representative sample, else the nominal ones."""
+"""Variables of the representative sample and with nominal values."""
 SHOWN: Final[tuple[str | type, ...]] = (
     Cases, Transmission, Representative, "rank", *UNMODELLED_NOISE
 )  # fmt: skip
@@ -80,8 +80,8 @@ class Shown:
         rows = slice(None) if receiver is None else [receiver]
         sound = path.received(self.cases)
         return [
-            with_discrepancy(received, self.gain[key][:, rows]) if self.gain else received
-            for key, received in sound.items()
+            with_discrepancy(case, self.gain[key][:, rows]) if self.gain else case
+            for key, case in sound.items()
         ]
 
 

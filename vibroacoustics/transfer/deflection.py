@@ -79,7 +79,7 @@ def deflection_variables(cases: Mapping[str, MovingCase], shell: Shell) -> xr.Da
     """
     radius, height = rings(shell)
     points = ring_points(radius, height)
-    each = [_deflection(case, points) for case in cases.values()]
+    each = [_deflection(moving, points) for moving in cases.values()]
     coords = {
         "shown_option": list(cases),
         "station": np.arange(1.0, radius.size + 1.0),
@@ -88,7 +88,7 @@ def deflection_variables(cases: Mapping[str, MovingCase], shell: Shell) -> xr.Da
         "dof": list(RIGID_BODY_DOFS),
         "foot": list(next(iter(cases.values())).path.body.stand.names),
     }
-    labelled = stamped({name: [part[name] for part in each] for name in each[0]}, coords)
+    labelled = stamped({name: [case[name] for case in each] for name in each[0]}, coords)
     return labelled.assign_coords(
         deflection_line=("shown_option", [case.line for case in cases.values()]),
         station_radius=("station", radius),
