@@ -1,6 +1,6 @@
 """Figures of results: each function takes a dataset and returns a matplotlib Figure.
 
-The report draws its pictures with the same functions. A notebook shows what they return;
+The report draws the same charts. A notebook shows what these functions return;
 `figure.savefig("name.png")` writes it.
 
 >>> results = va.open_results("results.nc")
@@ -29,29 +29,52 @@ Of `curves`: `curves`. Of `predict`: `predicted_levels`.
 """
 
 from .report.charts.needs import plotted
-from .report.figures import recorded_orders
+from .report.figures import directivity as _directivity
+from .report.figures import (
+    forces,
+    in_room,
+    maps,
+    mounts,
+    orders,
+    paths,
+    radiation,
+    recorded_orders,
+    sources,
+)
+from .report.figures import scores as _scores
+from .report.figures import stopping as _stopping
+from .report.figures import transfer_vectors as _transfer_vectors
 from .report.figures.baseline import baseline_third_octaves
 from .report.figures.blocked_forces import blocked_force, blocked_validation
 from .report.figures.campbell import campbell
 from .report.figures.compared_orders import compared_orders, order_differences
 from .report.figures.curves import curves
-from .report.figures.directivity import directivity
-from .report.figures.forces import force_over_revolution
-from .report.figures.in_room import room_map, room_seam
 from .report.figures.levels_over_speed import levels_over_speed, source_levels_over_speed
-from .report.figures.maps import line_map, unit_level_map
-from .report.figures.mounts import mount_transmissibility
-from .report.figures.orders import foot_force_orders, force_orders, level_orders
 from .report.figures.orders_over_speed import orders_over_speed
-from .report.figures.paths import path_shares
 from .report.figures.prediction import predicted_levels
-from .report.figures.radiation import green_difference, levels, transfer
-from .report.figures.scores import rank_acceptability, scores
-from .report.figures.sources import option_third_octaves, source_third_octaves
 from .report.figures.speed_maps import speed_frequency_map
-from .report.figures.stopping import stopping, stopping_order_map
-from .report.figures.transfer_vectors import transfer_vectors
 
+directivity = plotted(_directivity.directivity, "transfer_vectors.nc")
+foot_force_orders = plotted(orders.foot_force_orders)
+force_orders = plotted(orders.force_orders)
+force_over_revolution = plotted(forces.force_over_revolution)
+green_difference = plotted(radiation.green_difference)
+level_orders = plotted(orders.level_orders)
+levels = plotted(radiation.levels)
+line_map = plotted(maps.line_map)
+mount_transmissibility = plotted(mounts.mount_transmissibility)
+option_third_octaves = plotted(sources.option_third_octaves)
+path_shares = plotted(paths.path_shares)
+rank_acceptability = plotted(_scores.rank_acceptability)
+room_map = plotted(in_room.room_map, "kitchen.nc")
+room_seam = plotted(in_room.room_seam, "kitchen.nc")
+scores = plotted(_scores.scores)
+source_third_octaves = plotted(sources.source_third_octaves)
+stopping = plotted(_stopping.stopping)
+stopping_order_map = plotted(_stopping.stopping_order_map)
+transfer = plotted(radiation.transfer)
+transfer_vectors = plotted(_transfer_vectors.transfer_vectors, "transfer_vectors.nc")
+unit_level_map = plotted(maps.unit_level_map, "transfer_vectors.nc")
 order_map = plotted(recorded_orders.order_map, "orders.nc")
 order_spectrum = plotted(recorded_orders.order_spectrum, "orders.nc")
 tracked_orders = plotted(recorded_orders.tracked_orders, "tracked_orders.nc")

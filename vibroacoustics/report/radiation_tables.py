@@ -8,10 +8,10 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
-from .figures.directivity import directivity_figure
-from .figures.maps import map_figure, names, silent_dofs, unit_level_db
-from .figures.style import Picture
-from .figures.transfer_vectors import transfer_vector_figure
+from .charts.picture import Picture, picture
+from .figures.directivity import directivity
+from .figures.maps import names, silent_dofs, unit_level_db, unit_level_map
+from .figures.transfer_vectors import transfer_vectors
 from .kwave_words import kwave_line
 from .tables import Table, to_text
 
@@ -84,8 +84,8 @@ def _power_table(power: xr.DataArray, nearest: list[int], head: tuple[str, ...])
 def radiation_figures(radiated: xr.Dataset) -> list[Picture]:
     """The figures that the dataset has variables for."""
     makers = {
-        "transfer_vector": transfer_vector_figure,
-        "map_transfer_vector": map_figure,
-        "directivity_transfer_vector": directivity_figure,
+        "transfer_vector": transfer_vectors,
+        "map_transfer_vector": unit_level_map,
+        "directivity_transfer_vector": directivity,
     }
-    return [make(radiated) for name, make in makers.items() if name in radiated]
+    return [picture(make(radiated)) for name, make in makers.items() if name in radiated]

@@ -295,6 +295,20 @@ def named_axis(names: Sequence[str], write: Callable[[str], str] = str, label: s
     return Axis(label, limits=(len(names) - 0.5, -0.5), ticks=ticks)
 
 
+def frequency_axis(label: str, frequency_hz: Values) -> Axis:
+    """Return a logarithmic axis of frequencies, with ticks at 1, 2, 5, 10 … Hz.
+
+    Parameters
+    ----------
+    label : of the axis
+    frequency_hz : that the axis has to show, shape (n,)
+    """
+    low, high = float(np.min(frequency_hz)), float(np.max(frequency_hz))
+    ticks = [digit * 10**power for power in range(6) for digit in (1, 2, 5)]
+    shown = tuple((float(tick), str(tick)) for tick in ticks if low <= tick <= high)
+    return Axis(label, "log", (low / 1.05, high * 1.05), shown)
+
+
 def lines(x: Values, named: Iterable[tuple[str, Values]], marker: str = "") -> tuple[Line, ...]:
     """Return a line for each name and its values."""
     return tuple(Line(x, y, name, marker=marker) for name, y in named)

@@ -1,38 +1,27 @@
-"""Levels around the machine: balloons and polar cuts."""
+"""Levels around the machine at unit velocity, as polar cuts."""
 
-from typing import Any, Final
+from collections.abc import Iterator
+from typing import Final
 
 import numpy as np
 import xarray as xr
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import BoundaryNorm
-from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
-from ...base import rounding
 from ...base.arrays import Array
+from ..charts.layout import COLOURS
+from ..charts.marks import Axis, Chart, Line, Panel
 from ..charts.needs import needs
-from .maps import (
-    COLOUR_MAP,
-    DEPTH_DB,
-    WIDE_INCH,
-    colour_edges,
-    dof_title,
-    names,
-    silent_dofs,
-    unit_level_db,
-)
-from .style import COLOURS, Picture, plain, png, render
+from .maps import DEPTH_DB, dof_title, names, silent_dofs, unit_level_db
 
-RING_STEP_DB: Final = 20.0
+_HORIZONTAL: Final = ("x", "y", "−x", "−y")
+_VERTICAL: Final = ("x, y", "z", "−x, −y", "−z")
 
 
 @needs(
     "directivity_transfer_vector",
     from_="`radiate` of a study with a table radiation.directivity",
 )
-def directivity(radiated: xr.Dataset) -> Figure:
-    """Balloon and two cuts of each motion that radiates, dB at 1 mm/s or 1 mrad/s.
+def directivity(radiated: xr.Dataset) -> Chart:
+    """Vertical and horizontal cuts of each motion that radiates, dB at 1 mm/s or 1 mrad/s.
 
     At the highest 1x line.
 
@@ -40,146 +29,64 @@ def directivity(radiated: xr.Dataset) -> Figure:
     ----------
     radiated : of `radiate`; needs `directivity_transfer_vector`
         (polar_angle, azimuth, dof, line_frequency), Pa s/m
-
-    Raises
-    ------
-    ParameterError
-        The dataset holds none.
-
-    Examples
-    --------
-    >>> radiated = va.open_results("transfer_vectors.nc")
-    >>> va.plot.directivity(radiated).savefig("directivity.png")
     """
-    field, silent = _around(radiated)
-    dofs, frequency = names(field, "dof"), float(field["line_frequency"])
-    balloons = {
-        dof_title(dof): unit_level_db(field.values[index])
-        for index, dof in enumerate(dofs)
-        if dof not in silent
-    }
-    return directivity_balloons(
-        balloons, field["polar_angle"].values, field["azimuth"].values, frequency
-    )
-
-
-def _around(radiated: xr.Dataset) -> tuple[xr.DataArray, list[str]]:
-    """Field (dof, polar_angle, azimuth) at the highest frequency, and the silent motions."""
     field = radiated["directivity_transfer_vector"].isel(line_frequency=-1)
     field = field.transpose("dof", "polar_angle", "azimuth")
-    return field, silent_dofs(field.values, names(field, "dof"))
-
-
-def directivity_figure(radiated: xr.Dataset) -> Picture:
-    """Balloon and two cuts of each degree of freedom that radiates, at the highest frequency."""
-    field, silent = _around(radiated)
-    frequency = float(field["line_frequency"])
+    frequency, dofs = float(field["line_frequency"]), names(field, "dof")
+    silent = silent_dofs(field.values, dofs)
+    angles = (field["polar_angle"].values, field["azimuth"].values)
+    cuts = [
+        panel
+        for dof, values in zip(dofs, field.values, strict=True)
+        if dof not in silent
+        for panel in _cuts(dof_title(dof), unit_level_db(values), *angles)
+    ]
     left_out = f" Silent and left out: {', '.join(silent)}." if silent else ""
-    return Picture(
+    return Chart(
         "directivity",
-        f"Directivity at {frequency:.1f} Hz: a balloon and two cuts for every degree of freedom "
-        "that radiates.",
+        f"Directivity at {frequency:.1f} Hz: vertical and horizontal cuts for every degree of "
+        "freedom that radiates.",
         f"Level around the machine at {frequency:.1f} Hz when the housing moves at 1 mm/s or turns "
-        "at 1 mrad/s (root mean square) in one degree of freedom. Balloon: the radius falls to "
-        f"zero {DEPTH_DB:g} dB below the loudest.{left_out}",
-        png(directivity(radiated)),
+        "at 1 mrad/s (root mean square) in one degree of freedom: planes xz and yz, and the cone "
+        f"nearest to the horizon (xy). The middle is {DEPTH_DB:g} dB below the edge.{left_out}",
+        tuple(cuts),
+        columns=2,
+        title=f"{frequency:.1f} Hz, level in dB re 20 µPa",
     )
 
 
-def directivity_balloons(
-    levels: dict[str, Array], polar_angle: Array, azimuth: Array, frequency_hz: float
-) -> Figure:
-    """A row per title: balloon, vertical cuts, horizontal cut.
+def compass(names: tuple[str, ...]) -> Axis:
+    """Return the angles of a polar panel, with a name at each quarter.
 
     Parameters
     ----------
-    levels : level (polar angle, azimuth), dB, by title
-    polar_angle : from +z, rad
-    azimuth : from +x towards +y over a whole turn, its end left out, rad
-    frequency_hz : named in the head of the figure
+    names : at the right, above, at the left and below
     """
-    rows = max(len(levels), 1)
-
-    def paint(figure: Figure) -> None:
-        figure.suptitle(f"{frequency_hz:.1f} Hz, level in dB re 20 µPa", x=0.01, ha="left")
-        for row, (title, level) in enumerate(levels.items()):
-            solid = figure.add_subplot(rows, 3, 3 * row + 1, projection="3d")
-            _balloon(figure, solid, level, polar_angle, azimuth)
-            solid.set_title(plain(title), loc="left")
-            top = 5.0 * float(np.ceil(level.max() / 5.0))
-            upright = figure.add_subplot(rows, 3, 3 * row + 2, projection="polar")
-            _vertical_cuts(upright, level, polar_angle, azimuth, top)
-            flat = figure.add_subplot(rows, 3, 3 * row + 3, projection="polar")
-            _horizontal_cut(flat, level, polar_angle, azimuth, top)
-
-    return render(WIDE_INCH, 2.5 * rows + 0.4, paint)
+    return Axis(ticks=tuple((45.0 * at, "" if at % 2 else names[at // 2]) for at in range(8)))
 
 
-def _balloon(figure: Figure, axes: Any, level: Array, polar_angle: Array, azimuth: Array) -> None:
-    closed_level = np.concatenate([level, level[:, :1]], axis=1)
-    closed_azimuth = np.append(azimuth, azimuth[0] + 2.0 * np.pi)
-    radius = np.clip(closed_level - level.max() + DEPTH_DB, 0.0, None)
-    sine = np.sin(polar_angle)[:, None]
-    norm = BoundaryNorm(colour_edges(float(level.max()), float(level.min())), 256)
-    mapping = ScalarMappable(norm, COLOUR_MAP)
-    axes.plot_surface(
-        radius * sine * np.cos(closed_azimuth),
-        radius * sine * np.sin(closed_azimuth),
-        radius * np.cos(polar_angle)[:, None],
-        facecolors=mapping.to_rgba(closed_level),
-        rstride=1,
-        cstride=1,
-        linewidth=0.2,
-        edgecolor="#00000030",
-        shade=False,
-    )
-    below = bool(polar_angle.max() > np.pi / 2.0 + 1e-9)
-    size = DEPTH_DB
-    axes.set(xlim=(-size, size), ylim=(-size, size), zlim=(-size if below else 0.0, size))
-    axes.set_box_aspect((1.0, 1.0, 1.0 if below else 0.5), zoom=1.4)
-    axes.set(xticks=[], yticks=[], zticks=[], xlabel="x", ylabel="y", zlabel="z")
-    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
-        axis.labelpad = -14
-    bar = figure.colorbar(mapping, ax=axes, orientation="horizontal", pad=0.0, shrink=0.8)
-    bar.ax.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+def decibel_rings(top_db: float, depth_db: float = DEPTH_DB, step_db: float = 10.0) -> Axis:
+    """Return the radius of a polar panel of levels."""
+    rings = top_db - step_db * np.arange(round(depth_db / step_db))
+    ticks = tuple((float(ring), f"{ring:.0f}".replace("-", "−")) for ring in rings)
+    return Axis(limits=(top_db - depth_db, top_db), ticks=ticks)
 
 
-def _vertical_cuts(axes: Any, level: Array, polar_angle: Array, azimuth: Array, top: float) -> None:
-    """The planes x-z and y-z, drawn with z up."""
-    for name, start, colour, dash in (("xz", 0.0, COLOURS[3], "-"), ("yz", 0.5, COLOURS[1], "--")):
-        near = _column(azimuth, start * np.pi)
-        far = _column(azimuth, (start + 1.0) * np.pi)
-        angle = np.concatenate([-polar_angle[::-1], polar_angle])
-        curve = np.concatenate([level[::-1, far], level[:, near]])
-        axes.plot(angle, np.maximum(curve, top - DEPTH_DB), dash, color=colour, label=name)
-    axes.set_theta_zero_location("N")
-    axes.set_theta_direction(-1)
-    if polar_angle.max() < np.pi / 2.0 + 1e-9:
-        axes.set_thetalim(-np.pi / 2.0, np.pi / 2.0)
-    _decibel_rings(axes, top)
-    axes.set_rlabel_position(-90.0)
-    axes.set_xticks(np.deg2rad([-90, -60, -30, 0, 30, 60, 90]))
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, -0.16), ncols=2, frameon=False)
-
-
-def _horizontal_cut(
-    axes: Any, level: Array, polar_angle: Array, azimuth: Array, top: float
-) -> None:
-    """The cone nearest to the horizon, seen from above, x to the right."""
+def _cuts(title: str, level: Array, polar_angle: Array, azimuth: Array) -> Iterator[Panel]:
+    """Planes x-z and y-z with z up, and the cone nearest to the horizon from above."""
+    radius = decibel_rings(5.0 * float(np.ceil(level.max() / 5.0)))
+    turned = 90.0 + np.rad2deg(np.concatenate([-polar_angle[::-1], polar_angle]))
+    planes = (("xz", 0.0, COLOURS[3], "-"), ("yz", 0.5, COLOURS[1], "--"))
+    upright = []
+    for name, half_turns, colour, dash in planes:
+        near, far = (_column(azimuth, np.pi * (half_turns + turn)) for turn in (0.0, 1.0))
+        curve = np.concatenate([level[::-1, near], level[:, far]])
+        upright.append(Line(turned, curve, name, colour=colour, dash=dash))
     row = int(np.argmin(np.abs(polar_angle - np.pi / 2.0)))
-    angle, curve = np.append(azimuth, azimuth[0]), np.append(level[row], level[row, 0])
-    axes.plot(angle, np.maximum(curve, top - DEPTH_DB), color=COLOURS[5], label="xy")
-    _decibel_rings(axes, top)
-    axes.set_rlabel_position(22.5)
-    axes.set_xticks(np.deg2rad([0, 45, 90, 135, 180, 225, 270, 315]))
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, -0.3), frameon=False)
-
-
-def _decibel_rings(axes: Any, top: float) -> None:
-    axes.set_ylim(top - DEPTH_DB, top)
-    rings = top - RING_STEP_DB * np.arange(DEPTH_DB / RING_STEP_DB)
-    axes.set_yticks(rings, [rounding.fixed(float(ring), 0) for ring in rings], fontsize=7.5)
-    axes.tick_params(axis="x", labelsize=7.5, pad=-1.0)
+    around = np.rad2deg(np.append(azimuth, azimuth[0]))
+    flat = Line(around, np.append(level[row], level[row, 0]), "xy", colour=COLOURS[5], dash="-")
+    yield Panel(compass(_VERTICAL), radius, tuple(upright), title, 2.5, polar=True)
+    yield Panel(compass(_HORIZONTAL), radius, (flat,), " ", 2.5, polar=True)
 
 
 def _column(azimuth: Array, wanted: float) -> int:

@@ -4,135 +4,116 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ...base import rounding
-from ...results.stored_study import catalogue_receiver, options, speeds
+from ...results.stored_study import catalogue_receiver, options
+from ..charts.layout import wrapped
+from ..charts.marks import Axis, Chart, Panel, Points, named_axis
 from ..charts.needs import needs
 from ..shown_speeds import few_speeds
 from ..titles import chosen
-from .panels import each_panel, in_rpm, named_rows
-from .style import COLOURS, MARKERS, Picture, logarithmic_ticks, png
 
 HIGHEST_ORDER: Final = 4
+"""Of the forces that are shown: those of the balance of masses."""
+MOST_ORDERS: Final = 8
+"""Orders of the level that are shown, apart from 1×."""
 LOWEST_FORCE_N: Final = 1e-3
 """Smaller forces are left out: a thousandth of a newton moves nothing."""
 
 
 @needs("force_amplitude")
-def force_orders(results: xr.Dataset) -> Figure:
+def force_orders(results: xr.Dataset) -> Chart:
     """Resultant force of orders 1 to 4, peak, N: a row an option, a panel a speed (six at most).
 
     Parameters
     ----------
     results : of `run`; needs `force_amplitude` (speed, option, order), N
-
-    Raises
-    ------
-    ParameterError
-        The results hold none.
-
-    Examples
-    --------
-    >>> results = va.open_results("results.nc")
-    >>> va.plot.force_orders(results).savefig("force_orders.png")
     """
-    return _dots(few_speeds(results)["force_amplitude"], "Force, N", LOWEST_FORCE_N, True)
+    force = few_speeds(results)["force_amplitude"]
+    return _of_force("force_orders", "Resultant force", force, "Force, N")
 
 
 @needs("foot_force_amplitude")
-def foot_force_orders(results: xr.Dataset) -> Figure:
+def foot_force_orders(results: xr.Dataset) -> Chart:
     """Largest force into a foot of orders 1 to 4, peak, N: a row an option, a panel a speed.
 
     Parameters
     ----------
     results : of `run`; needs `foot_force_amplitude` (speed, option, foot, order), N
-
-    Raises
-    ------
-    ParameterError
-        The results hold none.
-
-    Examples
-    --------
-    >>> results = va.open_results("results.nc")
-    >>> va.plot.foot_force_orders(results).savefig("foot_force_orders.png")
     """
     feet = few_speeds(results)["foot_force_amplitude"].max("foot")
-    return _dots(feet, "Force into a foot, N", LOWEST_FORCE_N, True)
+    return _of_force("foot_force_orders", "Largest foot force", feet, "Force into a foot, N")
 
 
 @needs("order_level")
-def level_orders(results: xr.Dataset, receiver: str | None = None) -> Figure:
-    """Sound pressure level of orders 1 to 4, dB, unweighted: a row an option, a panel a speed.
+def level_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
+    """A-weighted level of 1x and of the eight loudest orders: a row an option, a panel a speed.
 
     Parameters
     ----------
     results : of `run`; needs `order_level` (speed, option, receiver, order, weighting), dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
-
-    Raises
-    ------
-    ParameterError
-        The results hold none, or there is no such receiver.
-
-    Examples
-    --------
-    >>> results = va.open_results("results.nc")
-    >>> va.plot.level_orders(results).savefig("level_orders.png")
     """
     at = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    line = few_speeds(results)["order_level"].sel(receiver=at, weighting="Z")
-    return _dots(line, "Level, dB re 20 µPa", rounding.LEVEL_FLOOR_DB, False)
-
-
-def order_figures(results: xr.Dataset) -> list[Picture]:
-    """One figure per quantity: a row per option, a marker per order, a panel per speed shown."""
-    receiver, floor_db = catalogue_receiver(results), rounding.LEVEL_FLOOR_DB
-    return [
-        _force_picture(force_orders(results), "force_orders", "Resultant force"),
-        _force_picture(foot_force_orders(results), "foot_force_orders", "Largest foot force"),
-        Picture(
-            "level_orders",
-            f"Sound pressure level of orders 1 to {HIGHEST_ORDER} at {receiver} for every option "
-            "and speed; the values of orders 1 and 2 are in the comparison table.",
-            f"Sound pressure level of each order at {receiver}, dB re 20 µPa, unweighted. "
-            f"Orders below {rounding.fixed(floor_db, 0)} dB are silent and not drawn.",
-            png(level_orders(results)),
-        ),
-    ]
-
-
-def _force_picture(figure: Figure, name: str, title: str) -> Picture:
-    return Picture(
-        name,
-        f"{title} at orders 1 to {HIGHEST_ORDER} for every option and speed; the values of order "
-        "1 are in the comparison table.",
-        f"{title} by order, semi-major axis, peak, logarithmic. Orders below "
-        f"{LOWEST_FORCE_N:g} N are not drawn.",
-        png(figure),
+    level = few_speeds(results)["order_level"].sel(receiver=at, weighting="A")
+    loud = loudest_orders(level)
+    named = ", ".join(f"{order:g}" for order in loud)
+    floor_db = rounding.LEVEL_FLOOR_DB
+    return Chart(
+        "level_orders",
+        f"A-weighted level of orders {named} at {at} for every option and speed.",
+        f"A-weighted level of single orders at {at}, dB re 20 µPa: 1× and the loudest over options "
+        f"and speeds, {named}. Orders below {rounding.fixed(floor_db, 0)} dB are not drawn.",
+        _dots(level.sel(order=loud), Axis("Level, dB(A)"), floor_db),
     )
 
 
-def _dots(values: xr.DataArray, label: str, lowest: float, logarithmic: bool) -> Figure:
-    """Dot plot of an amplitude or a level over (speed, option, order)."""
-    audible = values.sel(order=slice(1, HIGHEST_ORDER)).transpose("speed", "option", "order")
-    data = np.where(audible.values >= lowest, audible.values, np.nan)
-    labelled = audible.to_dataset(name="value")
-    names, shafts = options(labelled), speeds(labelled)
+def loudest_orders(level: xr.DataArray) -> list[float]:
+    """Return 1 and the orders with the highest level over options and speeds, in rising order.
 
-    def paint(axes: Axes, shaft: float) -> None:
-        by_order = zip(audible["order"].values, data[shafts.index(shaft)].T, strict=True)
-        for index, (order, sizes) in enumerate(by_order):
-            axes.plot(
-                sizes, range(len(names)), MARKERS[index % len(MARKERS)], markersize=6,
-                color=COLOURS[(0, 1, 3, 5)[index % 4]], label=f"{int(order)}×",
-            )  # fmt: skip
-        named_rows(axes, names)
-        if logarithmic:
-            axes.set_xscale("log")
-            logarithmic_ticks(axes)
+    Parameters
+    ----------
+    level : A-weighted, (order, ...), dB
+    """
+    highest = level.max([dim for dim in level.dims if dim != "order"]).dropna("order")
+    loud = highest["order"].values[np.argsort(-highest.values, kind="stable")[:MOST_ORDERS]]
+    return sorted({1.0, *map(float, loud)})
 
-    height = 0.7 + 0.26 * len(names)
-    return each_panel(shafts, height, paint, label, title=in_rpm, columns=4, rows=1, sharex=True)
+
+def _of_force(name: str, title: str, force: xr.DataArray, label: str) -> Chart:
+    return Chart(
+        name,
+        f"{title} at orders 1 to {HIGHEST_ORDER} for every option and speed; the values of order "
+        "1 are in the comparison table.",
+        f"{title} at orders 1 to {HIGHEST_ORDER}, semi-major axis, peak, logarithmic. Orders below "
+        f"{LOWEST_FORCE_N:g} N are not drawn.",
+        _dots(force.sel(order=slice(1, HIGHEST_ORDER)), Axis(label, "log"), LOWEST_FORCE_N),
+    )
+
+
+def _dots(values: xr.DataArray, axis: Axis, lowest: float) -> tuple[Panel, ...]:
+    """Panels of an amplitude or a level over (speed, option, order), on one scale."""
+    shown = values.where(values >= lowest).transpose("speed", "order", "option")
+    names = options(shown.to_dataset(name="value"))
+    limits = _ends(shown.values, axis.scale == "log")
+    return tuple(
+        Panel(
+            Axis(axis.label, axis.scale, limits),
+            named_axis(names, wrapped),
+            tuple(
+                Points(sizes, np.arange(len(names)), f"{sizes['order'].item():g}×")
+                for sizes in at_speed
+            ),
+            f"{at_speed['speed'].item():g} rpm",
+            0.8 + 0.26 * len(names),
+        )
+        for at_speed in shown
+    )
+
+
+def _ends(values: np.ndarray, is_log: bool) -> tuple[float, float] | None:
+    finite = values[np.isfinite(values)]
+    if not finite.size:
+        return None
+    low, high = float(finite.min()), float(finite.max())
+    return (low / 1.3, high * 1.3) if is_log else (low - 2.0, high + 2.0)

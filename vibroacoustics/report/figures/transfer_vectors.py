@@ -1,32 +1,22 @@
 """Transfer vectors over frequency with their estimated error."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from ...base.arrays import Array, ComplexArray
+from ..charts.layout import wrapped
+from ..charts.marks import Axis, Chart, Line, Panel, frequency_axis
 from ..charts.needs import needs
-from .maps import (
-    WIDE_INCH,
-    dof_title,
-    names,
-    rows_of,
-    silent_dofs,
-    unit_level_db,
-    write_silent,
-)
-from .style import Picture, frequency_ticks, line_looks, png, render, wrap
+from .maps import dof_title, names, silent_dofs, silent_panel, unit_level_db
 
 CURVE_DEPTH_DB: Final = 100.0
 """Curves are cut off this far below the loudest of their panel."""
+_HEIGHT: Final = 2.4
 
 
 @needs("transfer_vector", from_="`radiate` and `run`")
-def transfer_vectors(radiated: xr.Dataset) -> Figure:
+def transfer_vectors(radiated: xr.Dataset) -> Chart:
     """Level at every microphone over frequency at 1 mm/s or 1 mrad/s, dB: a panel a motion.
 
     The estimated error of the grids is drawn as a band.
@@ -34,85 +24,44 @@ def transfer_vectors(radiated: xr.Dataset) -> Figure:
     Parameters
     ----------
     radiated : of `radiate` or `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
-
-    Raises
-    ------
-    ParameterError
-        The dataset holds none.
-
-    Examples
-    --------
-    >>> radiated = va.open_results("transfer_vectors.nc")
-    >>> va.plot.transfer_vectors(radiated).savefig("transfer_vectors.png")
     """
-    field = radiated["transfer_vector"].transpose("dof", "receiver", "frequency")
-    error = radiated.get("transfer_vector_error")
-    band = None if error is None else error.transpose("dof", "receiver", "frequency").values
-    dofs, receivers = names(field, "dof"), names(field, "receiver")
-    frequency = field["frequency"].values
-
-    def paint(figure: Figure) -> None:
-        panels = figure.subplots(rows_of(dofs, 2), 2, squeeze=False, sharex=True).ravel()
-        silent = silent_dofs(field.values, dofs)
-        for index, (axes, dof) in enumerate(zip(panels, dofs, strict=False)):
-            axes.set_title(dof_title(dof), loc="left")
-            if dof in silent:
-                axes.set_yticks([])
-                write_silent(axes)
-                continue
-            _level_panel(
-                axes, frequency, field.values[index], None if band is None else band[index],
-                receivers,
-            )  # fmt: skip
-        for axes in panels[len(dofs) :]:
-            axes.set_axis_off()
-        for axes in panels[-2:]:
-            axes.set_xlabel("Frequency, Hz")
-        for axes in panels[::2]:
-            axes.set_ylabel("Level, dB re 20 µPa")
-        loudest = next((a for a, d in zip(panels, dofs, strict=False) if d not in silent), None)
-        if loudest is not None:
-            handles, labels = loudest.get_legend_handles_labels()
-            figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
-
-    return render(WIDE_INCH, 2.1 * rows_of(dofs, 2) + 0.3 * rows_of(receivers, 4) + 0.2, paint)
-
-
-def transfer_vector_figure(radiated: xr.Dataset) -> Picture:
-    """Level over frequency, a panel per degree of freedom, the estimated error as a band."""
-    shaded = (
-        ""
-        if "transfer_vector_error" not in radiated
-        else " Band: plus and minus the estimated error of the grids."
+    dims = ("dof", "receiver", "frequency")
+    field, error = radiated["transfer_vector"].transpose(*dims), None
+    if "transfer_vector_error" in radiated:
+        error = radiated["transfer_vector_error"].transpose(*dims)
+    dofs = names(field, "dof")
+    silent = silent_dofs(field.values, dofs)
+    shaded = "" if error is None else " Band: plus and minus the estimated error of the grids."
+    panels = (
+        silent_panel(dof_title(dof), _HEIGHT)
+        if dof in silent
+        else _panel(field.sel(dof=dof), None if error is None else error.sel(dof=dof))
+        for dof in dofs
     )
-    return Picture(
+    return Chart(
         "transfer_vectors",
         "Sound pressure level at every microphone per unit velocity of the housing against "
         "frequency, a panel per degree of freedom.",
         "Level at every microphone when the housing moves at 1 mm/s or turns at 1 mrad/s (root "
         f"mean square) in one degree of freedom.{shaded}",
-        png(transfer_vectors(radiated)),
+        tuple(panels),
+        columns=2,
+        wide=True,
     )
 
 
-def _level_panel(
-    axes: Axes, frequency: Array, field: ComplexArray, error: Array | None, receivers: Sequence[str]
-) -> None:
+def _panel(field: xr.DataArray, error: xr.DataArray | None) -> Panel:
     """Curves of one degree of freedom, (receiver, frequency)."""
-    looks = line_looks(len(receivers))
-    for row, (name, look) in enumerate(zip(receivers, looks, strict=True)):
-        axes.semilogx(frequency, unit_level_db(field[row]), label=wrap(name, 24), **look)
+    curves, frequency = [], field["frequency"].values
+    for name, values in zip(names(field, "receiver"), field, strict=True):
+        size, around = np.abs(values.values), None
         if error is not None:
-            size = np.abs(field[row])
-            axes.fill_between(
-                frequency,
-                unit_level_db(np.maximum(size - error[row], 1e-3 * size)),
-                unit_level_db(size + error[row]),
-                color=look["color"],
-                alpha=0.25,
-                linewidth=0.0,
-            )
-    top = float(unit_level_db(field).max())
-    lowest = float(unit_level_db(field).min())
-    axes.set_ylim(max(lowest, top - CURVE_DEPTH_DB) - 2.0, top + 4.0)
-    frequency_ticks(axes, frequency)
+            gap = error.sel(receiver=name).values
+            ends = (np.maximum(size - gap, 1e-3 * size), size + gap)
+            around = (unit_level_db(ends[0]), unit_level_db(ends[1]))
+        curves.append(Line(frequency, unit_level_db(size), wrapped(name, 24), around))
+    level = unit_level_db(field.values)
+    top, lowest = float(level.max()), float(level.min())
+    limits = (max(lowest, top - CURVE_DEPTH_DB) - 2.0, top + 4.0)
+    x, y = frequency_axis("Frequency, Hz", frequency), Axis("Level, dB re 20 µPa", limits=limits)
+    return Panel(x, y, tuple(curves), dof_title(str(field["dof"].item())), _HEIGHT)

@@ -3,8 +3,8 @@
 import xarray as xr
 
 from ...base.registry import register
-from ..blocks import Block, Pictures, Text
-from ..figures import force_figures
+from ..blocks import Block, Charts, Text
+from ..figures.forces import force_over_revolution
 from ..option_facts import facts_table
 from ..shown_speeds import few_speeds
 from ..speeds import chosen_speeds
@@ -19,10 +19,9 @@ def _blocks(results: xr.Dataset) -> list[Block]:
 
 def _figure(results: xr.Dataset) -> Block:
     """The force, where the run kept it over time."""
-    figures = tuple(force_figures(results))
-    if not figures:
+    if "force" not in results:
         return Text("Forces over crank angle are not in these results: operation.keep_time_series.")
-    return Pictures(figures)
+    return Charts((force_over_revolution(results),))
 
 
 register(Section("forces", "Force over a revolution", _blocks, position=50.0))

@@ -3,15 +3,16 @@
 import xarray as xr
 
 from ...base.registry import register
-from ..blocks import Block, Heading, Pictures, Text
-from ..figures import level_figures, line_map_figures, transfer_figures
+from ..blocks import Block, Charts, Heading, Text
+from ..figures.maps import line_map
+from ..figures.radiation import green_difference, levels, transfer
 from ..housing import (
     grid_error_sentence,
     line_difference_sentence,
     receivers_table,
     sound_power_table,
 )
-from ..kwave_words import kwave_sentence
+from ..kwave_words import kwave_sentence, kwave_to_hz
 from ..shown_speeds import few_speeds
 from ..speeds import chosen_speeds
 from . import Section
@@ -21,15 +22,16 @@ _SENTENCES = (kwave_sentence, line_difference_sentence, grid_error_sentence)
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     power = sound_power_table(few_speeds(results))
-    transfer, *difference = transfer_figures(results)
+    difference = [green_difference(results)] if kwave_to_hz(results) else []
+    maps = [line_map(results)] if "map_level" in results else []
     return [
         Text(" ".join(filter(None, (part(results) for part in _SENTENCES)))),
         receivers_table(results),
         *chosen_speeds(results, "comparison.csv"),
         *([power] if power else []),
-        Pictures((*level_figures(results), *difference)),
+        Charts((levels(results), *difference)),
         Heading("From velocity of the housing to sound pressure"),
-        Pictures((*line_map_figures(results), transfer)),
+        Charts((*maps, transfer(results))),
     ]
 
 

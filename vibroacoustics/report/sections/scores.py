@@ -5,8 +5,10 @@ import xarray as xr
 from ...base.registry import register
 from ...results.stored_study import parameters
 from .. import scores
-from ..blocks import Block, Heading, Pictures, Text
-from ..figures import score_figures
+from ..blocks import Block, Charts, Heading, Text
+from ..charts.marks import Chart
+from ..figures.scores import rank_acceptability
+from ..figures.scores import scores as score_bars
 from . import Section
 
 
@@ -25,11 +27,15 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         scores.scores_table(results),
         *filter(None, [scores.acceptability_table(results)]),
         *_too_close(results),
-        Pictures(tuple(score_figures(results))),
+        Charts((score_bars(results), *_ranks(results))),
         scores.criteria_table(results),
         scores.values_table(results),
         *_published(results),
     ]
+
+
+def _ranks(results: xr.Dataset) -> list[Chart]:
+    return [rank_acceptability(results)] if "rank_acceptability" in results else []
 
 
 def _too_close(results: xr.Dataset) -> list[Block]:

@@ -6,8 +6,9 @@ from ...base.registry import register
 from ...results.sample_words import prior_words
 from ...results.stored_study import has_sources
 from .. import energy_words, source_tables, source_words
-from ..blocks import Block, Bullets, Heading, Pictures, Text
-from ..figures import source_figures
+from ..blocks import Block, Bullets, Charts, Heading, Text
+from ..charts.marks import Chart
+from ..figures.sources import changing_options, option_third_octaves, source_third_octaves
 from ..remainder import total_sentence
 from ..shown_speeds import few_speeds
 from ..speeds import chosen_speeds
@@ -29,10 +30,16 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         ),
         *chosen_speeds(results, "sources.csv"),
         *source_tables.source_tables(few_speeds(results)),
-        Pictures(tuple(source_figures(results))),
+        Charts((source_third_octaves(results), *_options(results))),
         *_changes(few_speeds(results)),
         source_tables.figures_table(few_speeds(results)),
     ]
+
+
+def _options(results: xr.Dataset) -> list[Chart]:
+    """Spectra of options, if any changes them by what can be heard."""
+    changes = "total_band_level" in results and changing_options(results)
+    return [option_third_octaves(results)] if changes else []
 
 
 def _alternatives(results: xr.Dataset) -> list[Block]:

@@ -3,8 +3,8 @@
 import xarray as xr
 
 from ...base.registry import register
-from ..blocks import Block, Pictures, Text
-from ..figures.stopping import stopping_figures
+from ..blocks import Block, Charts, Text
+from ..figures.stopping import stopping, stopping_order_map
 from ..shown_speeds import few_speeds
 from ..speeds import chosen_speeds
 from ..stopping import forces_table, sentences, sound_table
@@ -22,7 +22,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         *chosen_speeds(results, "results.nc"),
         forces_table(shown),
         sound_table(shown),
-        Pictures(tuple(stopping_figures(shown))),
+        Charts((stopping(shown), stopping_order_map(shown))),
     ]
 
 
