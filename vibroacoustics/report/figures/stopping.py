@@ -77,5 +77,5 @@ def stopping_order_map(results: xr.Dataset) -> Chart:
         "Order map of the force along x over the falling speed of a stop without gas load.",
         "Force along x on the housing by shaft order, over the falling speed of a stop without gas "
         "load.",
-        (Panel(Axis("Shaft order", whole=True), Axis("Speed, rpm"), (image,), height=3.0),),
+        (Panel(Axis("Shaft order", integer=True), Axis("Speed, rpm"), (image,), height=3.0),),
     )

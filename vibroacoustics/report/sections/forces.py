@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from ..blocks import Block, Charts, Text
+from ..blocks import Block, Pictures, Text
 from ..figures.forces import force_over_revolution
 from ..option_facts import facts_table
 from ..shown_speeds import few_speeds
@@ -21,7 +21,7 @@ def _figure(results: xr.Dataset) -> Block:
     """The force, where the run kept it over time."""
     if "force" not in results:
         return Text("Forces over crank angle are not in these results: operation.keep_time_series.")
-    return Charts((force_over_revolution(results),))
+    return Pictures((force_over_revolution(results),))
 
 
 register(Section("forces", "Force over a revolution", _blocks, position=50.0))

@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from ..blocks import Block, Charts, Details, Text
+from ..blocks import Block, Details, Pictures, Text
 from ..figures.in_room import room_map, room_seam
 from ..in_room import (
     absorption,
@@ -29,7 +29,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         *(Details(f"At {name}", (room_table(results, name),)) for name in others),
         Text(power_sentence(results)),
         Text(seam_sentence(results)),
-        Charts((room_map(results), room_seam(results, loudest))),
+        Pictures((room_map(results), room_seam(results, loudest))),
         Details("Both methods at every listener", (seam_table(results),)),
         *(Details("Absorption of walls and furniture", (table,)) for table in absorption(results)),
         Text(

@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from ..blocks import Block, Charts, Text
+from ..blocks import Block, Pictures, Text
 from ..figures.mounts import mount_transmissibility
 from ..housing import attached_table, block_table, isolation_sentence, modes_table
 from ..shown_speeds import few_speeds
@@ -16,7 +16,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(isolation_sentence(results)),
         *filter(None, (modes_table(results), attached_table(results))),
         *_block(results),
-        Charts((mount_transmissibility(results),)),
+        Pictures((mount_transmissibility(results),)),
     ]
 
 

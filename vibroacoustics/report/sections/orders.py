@@ -4,7 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from ...results.stored_study import words
-from ..blocks import Block, Charts, Text
+from ..blocks import Block, Pictures, Text
 from ..figures.orders import foot_force_orders, force_orders, level_orders
 from ..speeds import chosen_speeds
 from . import Section
@@ -14,7 +14,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         Text(f"{words(results)['orders']} A missing marker means a value too small to draw."),
         *chosen_speeds(results, "results.nc"),
-        Charts((force_orders(results), foot_force_orders(results), level_orders(results))),
+        Pictures((force_orders(results), foot_force_orders(results), level_orders(results))),
     ]
 
 

@@ -4,7 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from ...results.stored_study import catalogue_receiver, other_receivers
-from ..blocks import Block, Charts, Details, Heading, Text
+from ..blocks import Block, Details, Heading, Pictures, Text
 from ..figures.paths import foot_bars, path_shares
 from ..paths import (
     bands_table,
@@ -50,7 +50,7 @@ def _of_feet(results: xr.Dataset, speed: float) -> list[Block]:
     return [
         Heading("Forces into the feet"),
         foot_table(results, speed),
-        Charts((foot_bars(results, speed),)),
+        Pictures((foot_bars(results, speed),)),
     ]
 
 
@@ -58,7 +58,7 @@ def _of_receiver(results: xr.Dataset, receiver: str) -> list[Block]:
     order = loudest_order(results, receiver)
     return [
         paths_table(results, receiver),
-        Charts((path_shares(results, receiver),)),
+        Pictures((path_shares(results, receiver),)),
         *([motions_table(results, receiver)] if has_motions(results) else ()),
         orders_table(results, receiver),
         partial_sums_table(results, receiver, order),

@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from ..blocks import Block, Charts, Heading, Text
+from ..blocks import Block, Heading, Pictures, Text
 from ..figures.maps import line_map
 from ..figures.radiation import green_difference, levels, transfer
 from ..housing import (
@@ -29,9 +29,9 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         receivers_table(results),
         *chosen_speeds(results, "comparison.csv"),
         *([power] if power else []),
-        Charts((levels(results), *difference)),
+        Pictures((levels(results), *difference)),
         Heading("From velocity of the housing to sound pressure"),
-        Charts((*maps, transfer(results))),
+        Pictures((*maps, transfer(results))),
     ]
 
 

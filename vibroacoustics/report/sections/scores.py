@@ -5,7 +5,7 @@ import xarray as xr
 from ...base.registry import register
 from ...results.stored_study import parameters
 from .. import scores
-from ..blocks import Block, Charts, Heading, Text
+from ..blocks import Block, Heading, Pictures, Text
 from ..charts.marks import Chart
 from ..figures.scores import rank_acceptability
 from ..figures.scores import scores as score_bars
@@ -27,7 +27,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         scores.scores_table(results),
         *filter(None, [scores.acceptability_table(results)]),
         *_too_close(results),
-        Charts((score_bars(results), *_ranks(results))),
+        Pictures((score_bars(results), *_ranks(results))),
         scores.criteria_table(results),
         scores.values_table(results),
         *_published(results),

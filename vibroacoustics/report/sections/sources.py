@@ -6,7 +6,7 @@ from ...base.registry import register
 from ...results.sample_words import prior_words
 from ...results.stored_study import has_sources
 from .. import energy_words, source_tables, source_words
-from ..blocks import Block, Bullets, Charts, Heading, Text
+from ..blocks import Block, Bullets, Heading, Pictures, Text
 from ..charts.marks import Chart
 from ..figures.sources import changing_options, option_third_octaves, source_third_octaves
 from ..remainder import total_sentence
@@ -30,7 +30,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         ),
         *chosen_speeds(results, "sources.csv"),
         *source_tables.source_tables(few_speeds(results)),
-        Charts((source_third_octaves(results), *_options(results))),
+        Pictures((source_third_octaves(results), *_options(results))),
         *_changes(few_speeds(results)),
         source_tables.figures_table(few_speeds(results)),
     ]

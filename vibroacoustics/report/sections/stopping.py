@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ...base.registry import register
-from ..blocks import Block, Charts, Text
+from ..blocks import Block, Pictures, Text
 from ..figures.stopping import stopping, stopping_order_map
 from ..shown_speeds import few_speeds
 from ..speeds import chosen_speeds
@@ -22,7 +22,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         *chosen_speeds(results, "results.nc"),
         forces_table(shown),
         sound_table(shown),
-        Charts((stopping(shown), stopping_order_map(shown))),
+        Pictures((stopping(shown), stopping_order_map(shown))),
     ]
 
 
