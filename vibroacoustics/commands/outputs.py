@@ -11,7 +11,7 @@ import xarray as xr
 from .. import report
 from ..base.errors import ParameterError, SchemaError, StorageError
 from ..base.folder import Folder, opened_folder
-from ..report.figures import Picture
+from ..report.charts.picture import Picture
 from ..results import manifest, storage
 from ..results.complete import check_run
 from ..results.figure_limits import CheckedFigure, Compared

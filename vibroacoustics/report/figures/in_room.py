@@ -58,8 +58,9 @@ def _furniture(room: dict[str, Any], height_m: float) -> Iterator[Mark]:
         x, y = (low[0], high[0], high[0], low[0]), (low[1], low[1], high[1], high[1])
         yield Area(x, y, colour="#000000", dash=dash)
     white = "#ffffff"
-    yield Points(*([at] for at in room["foot_m"]), colour="#000000", marker="X", size=13.0)
-    yield Points(*([at] for at in room["foot_m"]), colour=white, marker="X", size=9.0)
+    x, y = room["foot_m"][:2]
+    yield Points([x], [y], colour="#000000", marker="X", size=13.0)
+    yield Points([x], [y], colour=white, marker="X", size=9.0)
     for name, listener in room["listeners"].items():
         x, y = listener["x_m"], listener["y_m"]
         yield Points([x], [y], colour=white, marker="o")

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ...base import rounding
+from ...base.arrays import Array
 from ...results.stored_study import catalogue_receiver, options
 from ..charts.layout import wrapped
 from ..charts.marks import Axis, Chart, Panel, Points, named_axis
@@ -111,7 +112,7 @@ def _dots(values: xr.DataArray, axis: Axis, lowest: float) -> tuple[Panel, ...]:
     )
 
 
-def _ends(values: np.ndarray, is_log: bool) -> tuple[float, float] | None:
+def _ends(values: Array, is_log: bool) -> tuple[float, float] | None:
     finite = values[np.isfinite(values)]
     if not finite.size:
         return None
