@@ -9,6 +9,7 @@ import xarray as xr
 from ..base.registry import register
 from ..levels.bands import Band
 from ..levels.polar import frequencies_of, loudest_bands, points_around, polar_variables
+from ..radiation.cost import Cost
 from ..radiation.field_points import key_at, vectors_at, within
 from ..radiation.pressure import pressure_per_shell_velocity
 from ..radiation.receiver_methods import machine_side
@@ -22,9 +23,11 @@ from ..transfer.received import Transmission
 from .chain import Chain
 from .radiation import modes_of
 from .shown import SHOWN, Shown
-from .stage import Given, Stage
+from .stage import Given, Stage, Trial
 
 _CACHE: Final = "directivity-vectors"
+_COST_S: Final = (0.3, 4.0)
+"""Processor time, cached and computed."""
 
 
 @register
@@ -59,6 +62,10 @@ class Directivity(Stage):
         sound = shown.received(around, shown.receiver)
         names = vectors["receiver"].values.tolist()
         return Given(polar_variables(shown.options, bands, position, names, sound))
+
+    def tried(self, chain: Chain, study: Study) -> Trial:
+        how = "not measured: up to 30 frequencies of boundary elements"
+        return Trial(chain, (Cost(self.name, *_COST_S, how),))
 
 
 def _observers(vectors: xr.Dataset, bands: Sequence[Band], bends: bool) -> Observers:

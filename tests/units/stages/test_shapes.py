@@ -268,3 +268,11 @@ def test_a_study_of_many_speeds_or_of_a_slow_machine_has_no_run_up(chain):
     assert not RunUp().applies(study.replace(many))
     slow = load_study(ROOT / "pipelines" / "estupinan_hermetic.toml")
     assert not RunUp().applies(slow)
+
+
+def test_the_run_up_is_tried_before_there_are_ranks(chain):
+    early = chain.having(results=chain.results.drop_vars("rank"))
+    trial = RunUp().tried(early, chain.study)
+    (cost,) = trial.costs
+    assert cost.high_s > 0.0
+    assert "run_up_level" in trial.chain.results
