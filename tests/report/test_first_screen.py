@@ -14,17 +14,18 @@ from support import tiny_run
 from test_report import make_results
 
 from vibroacoustics.base.errors import SchemaError
-from vibroacoustics.report import first_screen, render
+from vibroacoustics.report import render
 from vibroacoustics.report.bands import Band
 from vibroacoustics.report.blocks import Beside, Details, Intervals, Lights, Text
 from vibroacoustics.report.drawing import machine_picture
 from vibroacoustics.report.drawing.loads import loads, turn
 from vibroacoustics.report.drawing.outline import feet_m, outline
 from vibroacoustics.report.drawing.view import bar, fitted
-from vibroacoustics.report.first_screen import sentences
-from vibroacoustics.report.lights import light, lights
 from vibroacoustics.report.quantities import FOOT_FORCE, FORCE, LINE, TOTAL
 from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.report.sections.verdict import words as first_screen
+from vibroacoustics.report.sections.verdict.charts import light, lights
+from vibroacoustics.report.sections.verdict.words import sentences
 from vibroacoustics.report.shifts import Shift
 from vibroacoustics.results.complete import check_run
 from vibroacoustics.study.scoring import Measurable

@@ -13,8 +13,8 @@ from sources_study import SOURCES_STUDY, run_made_up, sources_run
 from support import PIPELINES, ROOT, TINY, made_up_radiation
 
 import vibroacoustics as va
-from vibroacoustics.report import first_screen
 from vibroacoustics.report.blocks import Intervals
+from vibroacoustics.report.sections.verdict import words as first_screen
 from vibroacoustics.stages import room as room_stage
 
 TEXTS = ROOT / "tests" / "report" / "first_screens"

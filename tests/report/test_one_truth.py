@@ -11,10 +11,10 @@ from sources_study import sources_run
 from vibroacoustics import report
 from vibroacoustics.base.ellipse import semi_major_axis
 from vibroacoustics.base.vocabulary import HIGH, LOW, NOMINAL, SUFFIXES
-from vibroacoustics.report import first_screen
 from vibroacoustics.report.bands import band
 from vibroacoustics.report.columns import COLUMNS
-from vibroacoustics.report.comparison import comparison_tables
+from vibroacoustics.report.sections.comparison.tables import comparison_tables
+from vibroacoustics.report.sections.verdict import words as first_screen
 from vibroacoustics.results.estimates import estimate
 from vibroacoustics.results.figure_limit import FigureLimit
 from vibroacoustics.results.figure_limits import Compared, check_figures

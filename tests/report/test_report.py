@@ -30,15 +30,20 @@ from vibroacoustics.base.vocabulary import (
     stamp,
 )
 from vibroacoustics.report import comparison_text, render
-from vibroacoustics.report.assumptions import records_table
-from vibroacoustics.report.comparison import comparison, comparison_csv, comparison_tables
-from vibroacoustics.report.extremes import extremes_table
 from vibroacoustics.report.figures.scores import contributions
-from vibroacoustics.report.first_screen import sentences
-from vibroacoustics.report.housing import grid_error_sentence, isolation_sentence, shape_words
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
-from vibroacoustics.report.scores import published_table, scores_csv, wrong_sums
-from vibroacoustics.report.verdict import reasons
+from vibroacoustics.report.sections.assumptions.tables import records_table
+from vibroacoustics.report.sections.comparison.tables import (
+    comparison,
+    comparison_csv,
+    comparison_tables,
+)
+from vibroacoustics.report.sections.mounts.tables import isolation_sentence, shape_words
+from vibroacoustics.report.sections.radiation.tables import grid_error_sentence
+from vibroacoustics.report.sections.reasons.tables import extremes_table
+from vibroacoustics.report.sections.reasons.words import reasons
+from vibroacoustics.report.sections.scores.tables import published_table, scores_csv, wrong_sums
+from vibroacoustics.report.sections.verdict.words import sentences
 from vibroacoustics.scoring import score
 from vibroacoustics.study.scoring import CriterionScale, Scoring
 

@@ -9,7 +9,8 @@ from support import tiny_run
 
 from vibroacoustics.report.html import html
 from vibroacoustics.report.page import Page, Part
-from vibroacoustics.report.paths import (
+from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.report.sections.paths.tables import (
     foot_table,
     leading,
     leading_sentence,
@@ -20,7 +21,6 @@ from vibroacoustics.report.paths import (
     phasor_shares,
     relation,
 )
-from vibroacoustics.report.sections import SECTIONS
 
 
 @pytest.fixture(scope="module")

@@ -13,22 +13,26 @@ from test_report import PUBLISHED_DBA, make_results
 
 from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTINGS, check, stamp
 from vibroacoustics.report import comparison_text, render
-from vibroacoustics.report.assumptions import not_modelled, remainder_sentence
 from vibroacoustics.report.bands import Band, percent
-from vibroacoustics.report.extremes import extremes_table
-from vibroacoustics.report.first_screen import sentences
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
-from vibroacoustics.report.sampled_words import held_sentence, sampled_sentences
-from vibroacoustics.report.scores import too_close_words
-from vibroacoustics.report.source_changes import changes_sentence
-from vibroacoustics.report.source_tables import change_tables, figures_table, source_tables
-from vibroacoustics.report.source_words import (
+from vibroacoustics.report.sections.assumptions.tables import not_modelled, remainder_sentence
+from vibroacoustics.report.sections.reasons.tables import extremes_table
+from vibroacoustics.report.sections.reasons.words import reasons
+from vibroacoustics.report.sections.scores.tables import too_close_words
+from vibroacoustics.report.sections.sources.changes import changes_sentence
+from vibroacoustics.report.sections.sources.tables import (
+    change_tables,
+    figures_table,
+    source_tables,
+)
+from vibroacoustics.report.sections.sources.words import (
     carrier_sentence,
     certainty_sentences,
     samples_sentence,
     shares_sentence,
 )
-from vibroacoustics.report.verdict import reasons
+from vibroacoustics.report.sections.unknowns.words import held_sentence, sampled_sentences
+from vibroacoustics.report.sections.verdict.words import sentences
 from vibroacoustics.sources.cases import MovingParts
 from vibroacoustics.sources.gas import ScrollGasForces
 from vibroacoustics.sources.keys import OldhamKeyForces

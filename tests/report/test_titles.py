@@ -9,8 +9,8 @@ from support import ROOT, TINY, assert_refused, command_here, made_up_radiation
 import vibroacoustics as va
 from vibroacoustics.report import comparison_csv
 from vibroacoustics.report.page import page_of
-from vibroacoustics.report.scores import criteria_table, scores_csv
 from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.report.sections.scores.tables import criteria_table, scores_csv
 from vibroacoustics.results.titles import chosen, option_titles, titled
 
 TITLE = "Half of the counterweight"

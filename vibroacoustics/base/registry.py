@@ -1,9 +1,9 @@
 """Named things that others can add to: options, machines, criteria, sections, variables, units, …
 
-Built-in things are the modules of the registry's folder: they are imported when a name is first
-looked up, so that a new file edits no other. A thing of a third party comes from an installed
-package (entry point), from a file that the user names, or from a call of `register`; never because
-a study's file says so.
+Built-in things are the modules of the registry's folder, or folders in it that register in
+`__init__.py` or `content.py`: they are imported when a name is first looked up, so that a new file
+edits no other. A thing of a third party comes from an installed package (entry point), from a file
+that the user names, or from a call of `register`; never because a study's file says so.
 """
 
 import sys
@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from difflib import get_close_matches
 from importlib import import_module, metadata
+from importlib.util import find_spec
 from pathlib import Path
 from pkgutil import iter_modules
 from typing import Any, Final, Generic, NamedTuple, TypeVar
@@ -204,7 +205,10 @@ class Registry(Generic[Thing]):
         self._filled = True
         folder = import_module(f"{PACKAGE}.{self._folder}")
         for module in iter_modules(folder.__path__):
-            import_module(f"{folder.__name__}.{module.name}")
+            name = f"{folder.__name__}.{module.name}"
+            import_module(name)
+            if module.ispkg and find_spec(f"{name}.content"):
+                import_module(f"{name}.content")
         for point in metadata.entry_points(group=self._group):
             self._add_installed(point)
 

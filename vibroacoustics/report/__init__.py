@@ -21,7 +21,6 @@ from .columns import COLUMNS
 from .compared.limits import broken_lines, figure_limits_csv
 from .compared.order_rows import comparison_of_orders_csv, comparison_of_orders_text
 from .compared.page import comparison_html
-from .comparison import comparison_csv, comparison_text
 from .curve_tables import curve_csv
 from .data_sheet import data_sheet_csv, data_sheet_html, data_sheet_json
 from .data_sheet import headline as data_sheet_headline
@@ -54,14 +53,15 @@ from .order_tables import (
     tracked_text,
 )
 from .page import page_of
-from .paths import has_paths, paths_csv
 from .prediction import prediction_csv, prediction_markdown, prediction_text
 from .radiation_tables import kwave_text, radiation_figures, radiation_text
 from .recording_pages import orders_html, speed_map_html
-from .scores import scores_csv
 from .sections import SECTIONS
+from .sections.comparison.tables import comparison_csv, comparison_text
+from .sections.paths.tables import has_paths, paths_csv
+from .sections.scores.tables import scores_csv
+from .sections.sources.tables import sources_csv
 from .shown_speeds import over_speed
-from .source_tables import sources_csv
 
 __all__ = [
     "blocked_csv",

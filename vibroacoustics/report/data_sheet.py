@@ -10,8 +10,8 @@ from .blocks import Bullets, Pictures, Text
 from .figures.data_sheet import sheet_picture
 from .html import html
 from .page import Page, Part
+from .sections.tones.tables import excess_words
 from .tables import Table, to_csv
-from .tones import excess_words
 
 Row = tuple[str, str, str, str | float, str]
 

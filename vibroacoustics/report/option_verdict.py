@@ -17,8 +17,8 @@ from ..results.stored_study import (
     words,
 )
 from .quantities import JUDGED, LINE, TOLERANCE_DB, TOTAL
+from .sections.sources.changes import change_sentences
 from .shifts import Shift, shift
-from .source_changes import change_sentences
 
 BETTER: Final = "better"
 WORSE: Final = "worse"

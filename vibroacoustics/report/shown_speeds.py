@@ -7,6 +7,7 @@ import xarray as xr
 
 from ..base.remembered import remembered
 from ..results.stored_study import quoted_speed, speeds
+from .blocks import Text
 
 MOST_SPEEDS: Final = 6
 """Speeds that get a table, a panel or a curve of their own."""
@@ -47,3 +48,9 @@ def few_speeds_words(results: xr.Dataset, file: str = "comparison.csv") -> str:
     if not many_speeds(results):
         return ""
     return f"{MOST_SPEEDS} of {len(speeds(results))} speeds; all are in {file}."
+
+
+def chosen_speeds(results: xr.Dataset, file: str) -> list[Text]:
+    """A note that says how many speeds are shown, and which file holds all; none where all are."""
+    words = few_speeds_words(results, file)
+    return [Text(words, "note")] if words else []

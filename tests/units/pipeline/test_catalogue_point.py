@@ -4,8 +4,8 @@ import pytest
 from sources_study import SOURCES_STUDY, run_made_up
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.report.assumptions import remainder_sentence
-from vibroacoustics.report.source_words import samples_sentence, shares_sentence
+from vibroacoustics.report.sections.assumptions.tables import remainder_sentence
+from vibroacoustics.report.sections.sources.words import samples_sentence, shares_sentence
 from vibroacoustics.study.loading import load_study
 
 GAS_ALONE = {

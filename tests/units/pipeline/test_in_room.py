@@ -17,7 +17,9 @@ from vibroacoustics.levels import a_weighting
 from vibroacoustics.pipeline.cost import run_cost
 from vibroacoustics.radiation.rooms import of_study as rooms
 from vibroacoustics.report.html import html
-from vibroacoustics.report.in_room import (
+from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.report.sections.in_room.tables import (
     absorption,
     room_sentence,
     room_table,
@@ -25,8 +27,6 @@ from vibroacoustics.report.in_room import (
     seam_table,
     sones,
 )
-from vibroacoustics.report.page import Page, Part
-from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.results.size import result_bytes
 from vibroacoustics.sound import loudness
 from vibroacoustics.sound.gain import full_scale_of

@@ -11,7 +11,7 @@ from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.report.html import html
 from vibroacoustics.report.page import Page, Part
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.structure_borne import carrier, way_sentence, ways_table
+from vibroacoustics.report.sections.structure_borne.tables import carrier, way_sentence, ways_table
 from vibroacoustics.sources.cases import cases_of
 from vibroacoustics.study.selection import at_speeds
 from vibroacoustics.transfer import on_mounts

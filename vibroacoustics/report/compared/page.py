@@ -17,11 +17,11 @@ from ...results.validation import (
 )
 from ..bands import percent
 from ..blocks import Block, Details, Pictures, Text
-from ..evidence import validation_table
 from ..figures.compared_orders import difference_picture
 from ..figures.style import Picture
 from ..html import html
 from ..page import Page, Part
+from ..sections.evidence.tables import validation_table
 from ..tables import Table
 from .levels import levels_tables
 from .limits import limit_blocks, limits_sentence

@@ -12,8 +12,8 @@ from ..blocks import Block, Bullets, Details, Pictures, Text
 from ..figures.style import Picture, png
 from ..html import html
 from ..page import Page, Part
+from ..sections.unknowns.tables import NOT_RESOLVED, share_words
 from ..tables import Table, to_text
-from ..unknowns import NOT_RESOLVED, share_words
 from .best import best_tables, limiting, no_best, shown
 from .csv import designs_csv
 from .evaluated import Column, Evaluated

@@ -21,8 +21,8 @@ from ..charts.marks import (
     named_axis,
 )
 from ..charts.needs import needs
-from ..comparison import comparison
 from ..kwave_words import computed_by_kwave, kwave_to_hz
+from ..sections.comparison.tables import comparison
 from ..shown_speeds import few_speeds
 from ..titles import chosen
 from .first_order import first_order_mark, first_order_words

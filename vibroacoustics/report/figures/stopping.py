@@ -10,8 +10,8 @@ from ...results.stored_study import catalogue_receiver, speeds
 from ..charts.layout import shortened
 from ..charts.marks import Axis, Chart, Image, Panel, lines
 from ..charts.needs import needs
+from ..sections.stopping.tables import force_and_moments
 from ..shown_speeds import few_speeds
-from ..stopping import force_and_moments
 
 MAP_RANGE_DB: Final = 60.0
 LEVEL_RANGE_DB: Final = 40.0

@@ -7,7 +7,7 @@ import xarray as xr
 
 from ...results.stored_study import options
 from ...uncertainty.slider_variables import HOOD
-from ..sampled_words import file_unit, named
+from ..sections.unknowns.words import file_unit, named
 from .numbers import FEW_BITS, NOISE_BITS, Numbers
 
 _DIMS = ("receiver", "noise_band")

@@ -6,7 +6,7 @@ from ...base.registry import register
 from ..blocks import Block, Live, Text
 from ..live.data import MOST_MICROPHONES, live_data
 from ..live.sliders import has_sliders
-from ..speeds import chosen_speeds
+from ..shown_speeds import chosen_speeds
 from . import Section
 
 

@@ -6,7 +6,7 @@ from ...base.registry import register
 from ...results.stored_study import words
 from ..blocks import Block, Pictures, Text
 from ..figures.orders import foot_force_orders, force_orders, level_orders
-from ..speeds import chosen_speeds
+from ..shown_speeds import chosen_speeds
 from . import Section
 
 

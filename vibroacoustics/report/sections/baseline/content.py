@@ -1,0 +1,28 @@
+"""The measured baseline: what options make of it, and what it cannot tell."""
+
+import xarray as xr
+
+from ....base.registry import register
+from ...blocks import Block, Bullets, Pictures, Text
+from ...figures.baseline import baseline_figures
+from ...shown_speeds import chosen_speeds
+from .. import Section
+from . import tables as baseline
+from .tables import order_tables
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    return [
+        Text(baseline.summary(results)),
+        Bullets(baseline.limits(results)),
+        *chosen_speeds(results, "results.nc"),
+        *order_tables(results),
+        Pictures(tuple(baseline_figures(results))),
+    ]
+
+
+def _applies(results: xr.Dataset) -> bool:
+    return "baseline_share" in results and baseline.baseline_of(results) is not None
+
+
+register(Section("baseline", "Measured baseline", _blocks, _applies, 25.0))

@@ -1,0 +1,229 @@
+"""What the report says of a measured baseline, and of what it cannot tell."""
+
+from collections.abc import Iterator
+from pathlib import PurePath
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from ....base import rounding
+from ....base.decibel import power_of_level
+from ....base.units import shaft_frequency_hz
+from ....base.vocabulary import REFERENCE_OPTION
+from ....base.weighting import a_weighting
+from ....results.estimates import prior_ensemble
+from ....results.stored_study import options, parameters, speeds
+from ...bands import percent
+from ...shown_speeds import few_speeds
+from ...tables import Table
+
+_TOLERANCE: Final = 0.02
+"""By which a speed may lie outside those that were measured."""
+
+
+def baseline_of(results: xr.Dataset) -> dict[str, Any] | None:
+    """Parameters of the measured baseline; none where there is none."""
+    return (parameters(results).get("measured") or {}).get("baseline")
+
+
+def microphones(results: xr.Dataset) -> list[str]:
+    """Those with a baseline, each once."""
+    baseline = baseline_of(results) or {}
+    every = [*baseline.get("third_octaves", ()), *baseline.get("orders", ())]
+    return list(dict.fromkeys(one["microphone"] for one in every))
+
+
+def summary(results: xr.Dataset) -> str:
+    """Where the baseline comes from and what is done with it."""
+    baseline = baseline_of(results) or {}
+    return (
+        f"The sound of the machine without a balancer was measured at "
+        f"{', '.join(microphones(results))} ({_files(baseline)}). There total level, orders and "
+        "their changes are those measured, less what is modelled without a balancer, plus what is "
+        "modelled with the option, band by band and order by order; they take the place of the "
+        "catalogue level."
+    )
+
+
+def _files(baseline: dict[str, Any]) -> str:
+    return ", ".join(PurePath(name).name for name in baseline["file"])
+
+
+def limits(results: xr.Dataset) -> tuple[str, ...]:
+    """What the measurement covers, and what it cannot tell."""
+    sentences = [_of_bands(results), _of_orders(results), _of_speeds(results)]
+    sentences += [_of_model(results), _of_others(results), _of_samples(results)]
+    return tuple(filter(None, sentences))
+
+
+def _of_bands(results: xr.Dataset) -> str:
+    rows = (baseline_of(results) or {}).get("third_octaves", ())
+    if not rows:
+        return (
+            "Third octaves were not measured: beside the orders the remainder of the catalogue "
+            "level stands."
+        )
+    covered = {one["microphone"]: (min(one["band_hz"]), max(one["band_hz"])) for one in rows}
+    ranges = [f"{low:g} to {high:g} Hz at {name}" for name, (low, high) in covered.items()]
+    share = not_measured(results)
+    size = f", up to {percent(share)} of the energy of the total level" if share > 0.005 else ""
+    return (
+        f"Third octaves: {', '.join(ranges)}; in other bands the remainder of the catalogue level "
+        f"stands{size}."
+    )
+
+
+def not_measured(results: xr.Dataset) -> float:
+    """Largest share of A-weighted energy without an option outside the measured bands."""
+    bands = results["baseline_band_level"].sel(option=REFERENCE_OPTION)
+    weight = xr.DataArray(a_weighting(bands["baseline_band"].values), dims="baseline_band")
+    measured = power_of_level(bands + weight).sum("baseline_band")
+    total = power_of_level(results["level_total"].sel(option=REFERENCE_OPTION))
+    share = (1.0 - measured / total).where(bands.notnull().any("baseline_band"))
+    return float(share.max())
+
+
+def _of_orders(results: xr.Dataset) -> str:
+    if "baseline_order_phase" not in results:
+        return "Orders were not measured apart: a tone counts as energy of its band, without phase."
+    phase = results["baseline_order_phase"].values
+    known, by_phase = int(np.isfinite(phase).sum()), int(np.nansum(phase))
+    orders = ", ".join(f"{order:g}" for order in results["baseline_order"].values[:20])
+    first = f"Orders {orders} were measured"
+    if by_phase == known:
+        return f"{first}, all with a phase that counts: they change as complex peaks."
+    if (baseline_of(results) or {}).get("tacho_angle_rad") is None:
+        return (
+            f"{first}. The crank angle of the tacho's pulse is not given (tacho_angle_deg): they "
+            "change as energies, and whether an option's tone adds to the rest or takes off it is "
+            "not known."
+        )
+    return (
+        f"{first}; {by_phase} of {known} values (order, speed, microphone) have a phase that "
+        "counts and change as complex peaks, the others as energies."
+    )
+
+
+def _of_speeds(results: xr.Dataset) -> str:
+    """Speeds of the study that were measured, lie between, or outside."""
+    sentences = []
+    for name in microphones(results):
+        between, outside = [], []
+        for speed in speeds(results):
+            positions = [_position(known, speed) for known in _measured_rpm(results, name)]
+            if "outside" in positions:
+                outside.append(f"{speed:g}")
+            elif "between" in positions:
+                between.append(f"{speed:g}")
+        if between:
+            sentences.append(
+                f"At {name} levels at {', '.join(between)} rpm lie between measured speeds: on "
+                "straight lines of level and phase over speed, which a resonance between "
+                "them would not follow."
+            )
+        if outside:
+            sentences.append(
+                f"At {name} nothing was measured at {', '.join(outside)} rpm: there the "
+                "remainder of the catalogue level stands, and levels are not to be set beside "
+                "those at other speeds."
+            )
+    return " ".join(sentences)
+
+
+def _measured_rpm(results: xr.Dataset, name: str) -> Iterator[list[float]]:
+    baseline = baseline_of(results) or {}
+    for kind in ("third_octaves", "orders"):
+        known = [one["speed_rpm"] for one in baseline.get(kind, ()) if one["microphone"] == name]
+        if known:
+            yield known
+
+
+def _position(known: list[float], speed: float) -> str:
+    """`measured` within the tolerance of a measured speed, else `between` or `outside`."""
+    if min(abs(one / speed - 1.0) for one in known) <= _TOLERANCE / 4.0:
+        return "measured"
+    within = min(known) * (1.0 - _TOLERANCE) <= speed <= max(known) * (1.0 + _TOLERANCE)
+    if not within:
+        return "outside"
+    return "between" if min(known) < speed < max(known) else "measured"
+
+
+def _of_model(results: xr.Dataset) -> str:
+    """Where the model is louder than what was measured."""
+    louder = (results["baseline_share"] > 1.0).any(["speed", "receiver"])
+    bands = [f"{band:g}" for band in results["baseline_band"].values[louder.values]]
+    texts = []
+    if bands:
+        texts.append(f"the third octaves at {', '.join(bands)} Hz")
+    if "baseline_order_share" in results:
+        over = results["baseline_order_share"].where(results["baseline_order_phase"] == 0.0) > 1.0
+        louder_orders = results["baseline_order"].values[over.any(["speed", "receiver"]).values]
+        if louder_orders.size:
+            texts.append(f"the orders {', '.join(f'{order:g}' for order in louder_orders)}")
+    if not texts:
+        return ""
+    return (
+        f"Somewhere the model is louder than what was measured, in {' and '.join(texts)}: there "
+        "the model's level stands, and its change is not to be trusted."
+    )
+
+
+def _of_others(results: xr.Dataset) -> str:
+    names = [str(name) for name in results["receiver"].values]
+    others = [name for name in names if name not in microphones(results)]
+    if not others:
+        return ""
+    return f"At {', '.join(others)} nothing was measured: there the catalogue level stands."
+
+
+def _of_samples(results: xr.Dataset) -> str:
+    if prior_ensemble(results) is None:
+        return ""
+    tolerance = (baseline_of(results) or {}).get("tolerance_db", 0.0)
+    return (
+        f"Samples are weighed by what was measured, sure to ± {tolerance:g} dB: by the A-weighted "
+        "level in the measured bands and orders at the lowest, a middle and the highest speed at "
+        "each microphone, together as one measurement."
+    )
+
+
+MOST_ORDERS: Final = 10
+"""Of the loudest, in a table."""
+
+
+def order_tables(results: xr.Dataset) -> list[Table]:
+    """The loudest orders at the first microphone where any were measured, with every option."""
+    if "baseline_order_level" not in results:
+        return []
+    known = results["baseline_order_level"].notnull().any(["speed", "option", "baseline_order"])
+    name = str(results["receiver"].values[known.values][0])
+    here = few_speeds(results).sel(receiver=name)
+    measured = here["baseline_order_level"].notnull().any(["option", "baseline_order"])
+    return [
+        _order_table(here.sel(speed=speed), name, speed)
+        for speed, there in zip(speeds(here), measured.values.tolist(), strict=True)
+        if there
+    ]
+
+
+def _order_table(here: xr.Dataset, name: str, speed: float) -> Table:
+    here = here.isel(baseline_order=here["baseline_order_phase"].notnull().values)
+    level = here["baseline_order_level"]
+    measured = level.sel(option=REFERENCE_OPTION).values
+    loudest = np.sort(np.argsort(-np.nan_to_num(measured, nan=-np.inf))[:MOST_ORDERS])
+    changed = [option for option in options(here) if option != REFERENCE_OPTION]
+    rows = tuple(
+        (
+            f"{order:g}",
+            f"{order * shaft_frequency_hz(speed):.1f}",
+            "yes" if here["baseline_order_phase"].values[at] > 0.0 else "no",
+            rounding.level(float(measured[at])),
+            rounding.fixed(100.0 * float(here["baseline_order_share"].values[at]), 0),
+            *(rounding.level(float(level.sel(option=one).values[at])) for one in changed),
+        )
+        for at, order in zip(loudest, here["baseline_order"].values[loudest], strict=True)
+    )
+    head = ("Order", "Hz", "phase", "measured", "modelled, % of energy", *changed)
+    caption = f"Measured orders at {name}, {speed:g} rpm, and with each option, dB re 20 µPa"
+    return Table(caption, head, rows, frozenset({2}))

@@ -1,0 +1,155 @@
+"""The comparison of the options: one value per option, speed and microphone."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import xarray as xr
+
+from ....base import rounding
+from ....base.arrays import Array
+from ....base.remembered import remembered
+from ....base.vocabulary import REFERENCE_OPTION
+from ....results.estimates import has_samples
+from ....results.stored_study import (
+    catalogue_receiver,
+    first_order_hz,
+    options,
+    overall_noise,
+    speeds,
+)
+from ...bands import INTERVAL, Band, band
+from ...columns import Column
+from ...kept_columns import columns_of
+from ...option_verdict import table_words
+from ...remainder import total_sentence
+from ...shown_speeds import few_speeds, few_speeds_words
+from ...tables import Table, dataset_csv, to_text
+
+_DIMENSIONS = ("option", "speed", "receiver")
+
+
+@remembered
+def comparison(results: xr.Dataset) -> xr.Dataset:
+    """The columns of `comparison.csv` as variables over (option, speed, receiver).
+
+    Forces in N and moments in N m are semi-major axes, peak; the foot force is the largest over
+    the feet; levels in dB re 20 µPa.
+    """
+    columns = columns_of(results).columns
+    arrays = {column.name: column.values(results).reset_coords(drop=True) for column in columns}
+    coordinates = xr.Dataset(coords={dim: results[dim] for dim in _DIMENSIONS})
+    return xr.Dataset(arrays).broadcast_like(coordinates).transpose(*_DIMENSIONS)
+
+
+def comparison_csv(results: xr.Dataset) -> bytes:
+    """One row per option, speed and microphone, to nine significant digits."""
+    compared = comparison(results)
+    keys = {"option": "option", "speed_rpm": "speed", "receiver": "receiver"}
+    columns = {head: compared[dim] for head, dim in keys.items()}
+    values = {str(name): column for name, column in compared.data_vars.items()}
+    return dataset_csv(_DIMENSIONS, {**columns, **values})
+
+
+def comparison_tables(results: xr.Dataset, receiver: str) -> list[Table]:
+    """One table per speed that is shown, rounded for reading."""
+    return _tables(results, receiver, lambda column: column.head, ends_only=False)
+
+
+def comparison_text(results: xr.Dataset) -> str:
+    """Compact plain-text tables for the terminal, at the catalogue's microphone."""
+    receiver = catalogue_receiver(results)
+    tables = _tables(results, receiver, lambda column: column.terminal, ends_only=True)
+    notes = [_ends_sentence(results), few_speeds_words(results), _no_total(results)]
+    return "\n".join([*map(to_text, tables), *(f"{note}\n" for note in notes if note)])
+
+
+def bands_sentence(results: xr.Dataset) -> str:
+    """Say what the values in the tables are; nothing without samples."""
+    if not has_samples(results):
+        return ""
+    return f"Values are medians of the weighted samples, with their {INTERVAL} in brackets."
+
+
+def _ends_sentence(results: xr.Dataset) -> str:
+    if not has_samples(results):
+        return ""
+    return f"Shown is the {INTERVAL} of the weighted samples."
+
+
+def _no_total(results: xr.Dataset) -> str:
+    return total_sentence(results) if overall_noise(results) is None else ""
+
+
+def _tables(
+    results: xr.Dataset, receiver: str, head_of: Callable[[Column], str | None], ends_only: bool
+) -> list[Table]:
+    shown = few_speeds(results)
+    columns = columns_of(shown).columns
+    cells = _Cells.of(shown, receiver, ends_only)
+    heads = {column.name: head for column in columns if (head := head_of(column)) is not None}
+    verdicts = table_words(results)
+    return [
+        Table(
+            f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
+            ("Option", "Verdict", *heads.values()),
+            tuple(
+                (
+                    option,
+                    verdicts[option],
+                    *(cells.text(column, at, i) for column in columns if column.name in heads),
+                )
+                for at, option in enumerate(options(shown))
+            ),
+            frozenset({0, 1}),
+        )
+        for i, (speed, frequency) in enumerate(
+            zip(speeds(shown), first_order_hz(shown), strict=True)
+        )
+    ]
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """Values at one microphone.
+
+    Attributes
+    ----------
+    results : with the speeds that are shown
+    numbers : by column, shape (option, speed)
+    receiver : the microphone
+    ends_only : whether a band is shown without its middle
+    """
+
+    results: xr.Dataset
+    numbers: dict[str, Array]
+    receiver: str
+    ends_only: bool
+
+    @classmethod
+    def of(cls, results: xr.Dataset, receiver: str, ends_only: bool) -> "_Cells":
+        compared = comparison(results).sel(receiver=receiver)
+        numbers = {str(name): array.values for name, array in compared.data_vars.items()}
+        return cls(results, numbers, receiver, ends_only)
+
+    def text(self, column: Column, option: int, speed: int) -> str:
+        """Text of a value or its band; a change of a silent level is none."""
+        value = float(self.numbers[column.name][option, speed])
+        if column.change_of:
+            level = self.numbers[column.change_of][:, speed]
+            if level[options(self.results).index(REFERENCE_OPTION)] < rounding.LEVEL_FLOOR_DB:
+                return rounding.NOTHING
+            if level[option] < rounding.LEVEL_FLOOR_DB:
+                return "silent"
+        if not column.variable:
+            return column.write(value, self.results)
+        known, write = self._band(column, option, speed), partial(_write, column, self.results)
+        return known.ends(write) if self.ends_only else known.middle_and_ends(write)
+
+    def _band(self, column: Column, option: int, speed: int) -> Band:
+        at = {"option": options(self.results)[option], "speed": speeds(self.results)[speed]}
+        return band(self.results, column.variable, **at, **column.at, receiver=self.receiver)
+
+
+def _write(column: Column, results: xr.Dataset, value: float) -> str:
+    return column.write(value, results)

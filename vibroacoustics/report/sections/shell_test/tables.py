@@ -1,0 +1,137 @@
+"""What a hammer test tells of the shell: values, mobilities and level before and after it."""
+
+from collections.abc import Callable, Iterator
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ....base import rounding
+from ....base.arrays import Array
+from ....base.quantiles import weighted_quantiles
+from ....results.estimates import (
+    QUANTILES,
+    effective_number,
+    prior_ensemble,
+    sample_numbers,
+    weighted_estimate,
+)
+from ....results.labels import unit
+from ....results.stored_study import catalogue_receiver
+from ...bands import INTERVAL, written
+from ...tables import Table
+from ..unknowns.words import named
+
+NARROWED: Final = 0.8
+"""Values whose band is narrowed to less than this part are listed."""
+GIVEN_UP: Final = 20.0
+"""Effective samples below which a warning is given."""
+
+
+def applies(results: xr.Dataset) -> bool:
+    """Whether a hammer test weighed the samples."""
+    return "shell_likelihood" in results
+
+
+def test_sentence(results: xr.Dataset) -> str:
+    """What was measured and with which tolerances it is compared."""
+    about = results["shell_likelihood"].attrs
+    unused = f"; {about['unused']} others have nodes without a name" if about["unused"] else ""
+    return (
+        f"{about['mobilities']} mobilities from {about['lowest_frequency_hz']:g} to "
+        f"{about['highest_frequency_hz']:g} Hz{unused}. Samples count by how well their shell "
+        "agrees with them: in the mean level of each third octave within "
+        f"{about['gain_tolerance_db']:g} dB, in the natural frequencies of clear peaks within "
+        f"{100.0 * about['frequency_tolerance_ratio']:g} %, in their loss factors within "
+        f"{100.0 * about['loss_tolerance_ratio']:g} % (standard deviations). Each of the three "
+        "counts as one measurement, however many lines there are."
+    )
+
+
+def peaks_sentence(results: xr.Dataset) -> str:
+    """The clear peaks with their loss factors."""
+    if "shell_peak_loss" not in results:
+        return "The mobilities have no clear peak: frequencies and loss factors tell nothing."
+    peaks = [
+        f"{peak:.0f} Hz ({100.0 * loss:.2g} %)"
+        for peak, loss in zip(
+            results["shell_peak"].values, results["shell_peak_loss"].values, strict=True
+        )
+    ]
+    return f"Clear peaks, with loss factor: {', '.join(peaks)}."
+
+
+def samples_sentence(results: xr.Dataset) -> str:
+    """How many samples were held against the test, and how many equal ones remain."""
+    weight = results["shell_likelihood"].values
+    effective = effective_number(weight)
+    few = " That is few: bands after the test are rough." if effective < GIVEN_UP else ""
+    return (
+        f"{weight.size} samples were weighted by the test: effective sample size {effective:.0f}."
+        f"{few} The sound of {sample_numbers(results).tried} of them was computed."
+    )
+
+
+def before_and_after(results: xr.Dataset) -> Table:
+    """Middle and band by the ranges alone and with the test."""
+    return Table(
+        f"Before and after the hammer test: median with {INTERVAL}",
+        ("", "by the ranges alone", "with the test"),
+        tuple(_rows(results)),
+    )
+
+
+def _rows(results: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    likelihood = results["shell_likelihood"].values
+    for words, name, write in (
+        ("mean level of the mobilities, model over measured, dB", "shell_gain", rounding.signed),
+        ("natural frequencies, model over measured", "shell_frequency_ratio", _number),
+        ("loss factors, model over measured", "shell_loss_ratio", _number),
+    ):
+        values = results[name].values
+        known = np.isfinite(values)
+        if np.any(known & (likelihood > 0.0)):
+            yield _row(words, values[known], likelihood[known], write)
+    for name in map(str, results["shell_parameter"].values):
+        values = results["shell_value"].sel(shell_parameter=name).values
+        if _narrowed(values, likelihood) < NARROWED:
+            symbol = unit(name.rpartition(".")[2])
+            words = f"{named(name)}, {symbol}" if symbol else named(name)
+            yield _row(words, values, likelihood, _number)
+    ensemble = prior_ensemble(results)
+    before = results["shell_level_before"].values
+    after = before[:0] if ensemble is None else ensemble.level_dba
+    known = np.isfinite(before), np.isfinite(after)
+    weight = after[known[1]] if ensemble is None else ensemble.before[known[1]]
+    words = f"modelled level at {catalogue_receiver(results)}, dB(A)"
+    yield (
+        words,
+        _band(before[known[0]], np.ones(int(known[0].sum())), rounding.fixed),
+        _band(after[known[1]], weight, rounding.fixed),
+    )
+
+
+def _row(
+    words: str, values: Array, weight: Array, write: Callable[[float], str]
+) -> tuple[str, str, str]:
+    return words, _band(values, np.ones(values.size), write), _band(values, weight, write)
+
+
+def _band(values: Array, weight: Array, write: Callable[[float], str]) -> str:
+    if not values.size:
+        return rounding.NOTHING
+    known = weighted_estimate(values, weight)
+    return written(known, effective_number(weight)).middle_and_ends(write)
+
+
+def _narrowed(values: Array, weight: Array) -> float:
+    """Width of the band with the test over that without."""
+    before, after = (
+        weighted_quantiles(values, each, QUANTILES) for each in (np.ones(values.size), weight)
+    )
+    width = float(before[-1] - before[0])
+    return float(after[-1] - after[0]) / width if width > 0.0 else 1.0
+
+
+def _number(value: float) -> str:
+    return f"{value:.3g}".replace("-", "−")

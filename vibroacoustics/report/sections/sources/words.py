@@ -1,0 +1,190 @@
+"""Dominant sources of the level, in sentences made from its numbers."""
+
+from typing import Final
+
+import xarray as xr
+
+from ....base import rounding
+from ....base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
+from ....results.estimates import has_samples, prior_ensemble, sample_numbers
+from ....results.stored_study import (
+    at_catalogue,
+    catalogue_receiver,
+    first_order_hz,
+    nearest_speed,
+    operating_points,
+    overall_noise,
+    parameters,
+    quoted_dba,
+    source_name,
+    speeds,
+)
+from ...bands import INTERVAL, Band, band, percent
+from ...shown_speeds import many_speeds
+from ..unknowns.words import sampled_sentences
+
+LINE_FIGURE: Final = "foot_force_2x_line_n"
+UNMODELLED: Final = "unmodelled noise"
+
+
+def elsewhere(results: xr.Dataset) -> str:
+    """Words for the operating point of the overall noise, where the machine runs at another one."""
+    runs_at, point = operating_points(results)
+    return "" if point == runs_at else f" at the operating point {point}"
+
+
+def total_of(results: xr.Dataset) -> str:
+    """What the total level is the level of."""
+    return "all that is modelled" if overall_noise(results) is None else "the whole machine"
+
+
+def source_share(results: xr.Dataset, source: str, speed: float) -> Band:
+    """Return the share of a source in the energy of the machine without a balancer."""
+    at = at_catalogue(results, sound_source=source, speed=speed)
+    return band(results, "source_share", **at)
+
+
+def unmodelled_share(results: xr.Dataset, speed: float) -> Band:
+    """Return the share of unmodelled noise in the energy of the machine without a balancer."""
+    return band(results, "unmodelled_share", **at_catalogue(results, speed=speed))
+
+
+def ranked(results: xr.Dataset, speed: float) -> list[str]:
+    """Return the sources without a balancer by their share of the energy, the largest first."""
+    names = [str(source) for source in results["sound_source"].values]
+    return sorted(names, key=lambda name: -source_share(results, name, speed).middle)
+
+
+def carrier_sentence(results: xr.Dataset) -> str:
+    """Return a sentence on the source with the largest share of the energy."""
+    speed = nearest_speed(results)
+    source = ranked(results, speed)[0]
+    share = source_share(results, source, speed)
+    level = band(results, "source_level", **at_catalogue(results, sound_source=source, speed=speed))
+    return (
+        f"The dominant modelled source at {catalogue_receiver(results)} and {speed:g} rpm is "
+        f"{source_name(results, source)}: {share.in_percent()} of the energy of "
+        f"{total_of(results)}, alone {level.middle_and_ends(rounding.level)} dB(A)."
+    )
+
+
+def shares_sentence(results: xr.Dataset) -> str:
+    """Return the shares of all sources and of unmodelled noise in the energy of the machine."""
+    speed = nearest_speed(results)
+    shares = [
+        f"{source_name(results, source)} {source_share(results, source, speed).in_percent()}"
+        for source in ranked(results, speed)
+    ]
+    if overall_noise(results) is not None:
+        shares.append(f"{UNMODELLED} {unmodelled_share(results, speed).in_percent()}")
+    what = f"means with their {INTERVAL}; they add up to 100 %" if has_samples(results) else ""
+    how = f" ({what})" if what else ""
+    return f"Shares of the sound energy{how}: {', '.join(shares)}."
+
+
+def certainty_sentences(results: xr.Dataset) -> list[str]:
+    """Return what ranking and intervals depend on."""
+    texts = [_ranking(results), samples_sentence(results)]
+    texts += sampled_sentences(results) if has_samples(results) else []
+    return [*filter(None, [*texts, _up_to(results), _not_an_order(results)])]
+
+
+def samples_sentence(results: xr.Dataset) -> str:
+    """Return the number of samples and how they were weighted."""
+    ensemble = prior_ensemble(results)
+    if ensemble is None:
+        return "No value of the sources has a range: all values are nominal."
+    tried, effective, computed = sample_numbers(results)
+    if not has_samples(results):
+        return _unresolved(results, tried, effective)
+    if overall_noise(results) is None and "baseline_band_level" not in results:
+        how = "by the hammer test" if "shell_weight" in results else "equally"
+        why = "no level of the machine is published"
+        return (
+            f"{tried} samples were weighted {how}, as {why}: effective sample size "
+            f"{effective:.0f}. {computed} of them were computed in all cases."
+        )
+    datum = (
+        "the measured baseline"
+        if "baseline_band_level" in results
+        else f"the published level{elsewhere(results)}"
+    )
+    return (
+        f"{tried} samples were weighted by the likelihood of {datum}: effective sample size "
+        f"{effective:.0f}. {computed} of them were computed in all cases."
+    )
+
+
+def _unresolved(results: xr.Dataset, tried: int, effective: float) -> str:
+    """Why there are neither shares nor intervals."""
+    first = (
+        f"Too few of {tried} samples agree with the data: effective sample size {effective:.1f}."
+    )
+    if overall_noise(results) is None:
+        return f"{first} All values are nominal."
+    overall, ensemble = quoted_dba(results), prior_ensemble(results)
+    louder = 0.0 if ensemble is None else float((ensemble.level_dba > overall).mean())
+    return (
+        f"{first} In {percent(louder)} of them the modelled sources exceed the published "
+        f"{overall:g} dB(A). All values are nominal."
+    )
+
+
+def _ranking(results: xr.Dataset) -> str:
+    speed = nearest_speed(results)
+    names = ranked(results, speed)[:2]
+    if len(names) < 2:
+        return ""
+    first, second = (source_share(results, name, speed) for name in names)
+    words = " and ".join(source_name(results, name) for name in names)
+    if first.lowest > second.highest:
+        return f"The intervals of {words} do not overlap: the dominant source is settled."
+    return f"The intervals of {words} overlap: the dominant source is not settled."
+
+
+def _up_to(results: xr.Dataset) -> str:
+    highest = parameters(results)["radiation"]["maximum_frequency_hz"]
+    above = "in no level" if overall_noise(results) is None else "part of the unmodelled noise"
+    return (
+        f"Sources are modelled up to {highest:g} Hz. Their sound above is {above}: an option with "
+        "key impacts can be louder than shown here."
+    )
+
+
+def _not_an_order(results: xr.Dataset) -> str:
+    """Keep the motor's line apart from 2x."""
+    if LINE_FIGURE not in results["figure"].values or "supply_frequency" not in results:
+        return ""
+    figures = results["reported_figure"].sel(option=REFERENCE_OPTION)
+    motor = float(figures.sel(figure=LINE_FIGURE).max())
+    foot = results["foot_force_amplitude"].sel(order=1, option=REFERENCE_OPTION)
+    return (
+        "The motor's line at twice the line frequency is no order of the shaft: "
+        f"{_twice_line(results)}. It and its sidebands count as motor, never as 2×. "
+        f"{_derived_supply(results)}Into a foot it passes at most "
+        f"{rounding.significant(motor)} N, beside {rounding.significant(float(foot.max()))} N at "
+        "1×: what it does to floor and pipes is not modelled."
+    )
+
+
+def _twice_line(results: xr.Dataset) -> str:
+    """Twice the line frequency beside 2x, by speed."""
+    twice = (2.0 * results["supply_frequency"].values).tolist()
+    write = "{:.1f}".format if _derived_supply(results) else "{:g}".format
+    if many_speeds(results):
+        return (
+            f"{rounding.span(twice, write)} Hz beside 2× at "
+            f"{rounding.span(2.0 * first_order_hz(results), rounding.fixed)} Hz"
+        )
+    rows = zip(speeds(results), twice, first_order_hz(results), strict=True)
+    return ", ".join(
+        f"{write(line)} Hz beside 2× at {2.0 * first:.1f} Hz ({speed:g} rpm)"
+        for speed, line, first in rows
+    )
+
+
+def _derived_supply(results: xr.Dataset) -> str:
+    """Where the supply's frequency comes from, if the study does not give it."""
+    if results["supply_frequency"].attrs["source"] != DERIVED_SUPPLY:
+        return ""
+    return "The supply's frequency is derived from speed and slip under the mean load. "

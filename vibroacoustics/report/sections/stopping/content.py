@@ -1,0 +1,28 @@
+"""What happens when the machine is switched off."""
+
+import xarray as xr
+
+from ....base.registry import register
+from ...blocks import Block, Pictures, Text
+from ...figures.stopping import stopping, stopping_order_map
+from ...shown_speeds import chosen_speeds, few_speeds
+from .. import Section
+from .tables import forces_table, sentences, sound_table
+
+
+def _applies(results: xr.Dataset) -> bool:
+    return "stopping_force" in results
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    shown = few_speeds(results)
+    return [
+        *(Text(sentence) for sentence in sentences(results)),
+        *chosen_speeds(results, "results.nc"),
+        forces_table(shown),
+        sound_table(shown),
+        Pictures((stopping(shown), stopping_order_map(shown))),
+    ]
+
+
+register(Section("stopping", "Stopping", _blocks, _applies, 80.0))

@@ -1,0 +1,177 @@
+"""What happens when the machine is switched off, against steady running."""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ....base import rounding
+from ....base.arrays import Array
+from ....base.vocabulary import REFERENCE_OPTION
+from ....results.stored_study import parameters, speeds
+from ...tables import Table
+from ..sources.words import LINE_FIGURE
+
+
+def sentences(results: xr.Dataset) -> tuple[str, ...]:
+    """What the stop does, its order map, and what is left out."""
+    return (_finding(results), *_turned_back(results), _map_sentence(results), _limits(results))
+
+
+def force_and_moments(results: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+    """Resultant force, tilting moment and size of the roll moment, (speed, stopping_time)."""
+    force, moment = results["stopping_force"], results["stopping_moment"]
+    return (
+        _resultant(force),
+        _resultant(moment.sel(axis=["x", "y"])),
+        _resultant(moment.sel(axis=["z"])),
+    )
+
+
+def _resultant(vector: xr.DataArray) -> xr.DataArray:
+    return vector.reduce(np.linalg.norm, "axis")
+
+
+def _greatest(over_time: xr.DataArray) -> tuple[Array, Array]:
+    """Before switch-off and from then on, shape (speed,)."""
+    time = over_time["stopping_time"]
+    parts = (over_time.where(during).max("stopping_time") for during in (time < 0.0, time >= 0.0))
+    before, after = (np.asarray(part.values) for part in parts)
+    return before, after
+
+
+_PHASES: Final = ("steady", "stopping")
+
+
+def _finding(results: xr.Dataset) -> str:
+    steady, stopping = results["stopping_foot_force"].sel(stopping_phase=list(_PHASES)).values
+    speed = int(np.argmax(stopping))
+    whose = "The representative sample is meant. " if "representative_value" in results else ""
+    return (
+        f"{whose}Switched off at {speeds(results)[speed]:g} rpm the shaft comes to rest in "
+        f"{rounding.significant(results['stopping_duration'].values[speed])} s, after "
+        f"{rounding.fixed(results['stopping_revolutions'].values[speed])} revolutions. The largest "
+        f"force into a foot is {rounding.significant(stopping[speed])} N, against "
+        f"{rounding.significant(steady[speed])} N in steady running without torque ripple and "
+        f"{rounding.significant(_line_foot_force_n(results, speed))} N by the motor's torque at "
+        "twice the line frequency: without the motor, all that slows the shaft reaches the housing "
+        "as roll moment. "
+    ) + _loudest(results.isel(speed=speed))
+
+
+def _loudest(results: xr.Dataset) -> str:
+    """Of one speed."""
+    level = results["stopping_fast_maximum_level"].sel(stopping_phase=list(_PHASES))
+    rise = np.subtract(*level.values[::-1])
+    most, loudest = int(np.argmax(rise)), int(np.argmax(level.values[1]))
+    names = level["receiver"].values
+    return (
+        f"The greatest Fast level rises by up to {rounding.fixed(float(rise[most]))} dB (at "
+        f"{names[most]}); at most it is {rounding.level(float(level.values[1, loudest]))} dB(A) "
+        f"(at {names[loudest]})."
+    )
+
+
+def _line_foot_force_n(results: xr.Dataset, speed: int) -> float:
+    if LINE_FIGURE not in results["figure"].values:
+        return float("nan")
+    figures = results["reported_figure"].sel(option=REFERENCE_OPTION).isel(speed=speed)
+    return float(figures.sel(figure=LINE_FIGURE))
+
+
+def _map_sentence(results: xr.Dataset) -> str:
+    turned = rounding.span(results["stopping_revolutions"].values, rounding.fixed)
+    if "stopping_order_map" not in results:
+        return (
+            f"The shaft turns {turned} times while it stops. There is no order map: even without "
+            "gas load the shaft turns too few times, or has next to no friction to stop it."
+        )
+    return (
+        f"The shaft turns {turned} times while it stops; a block of an order map needs 8. The map "
+        "is that of a stop from the highest speed without gas load, as after the pressures have "
+        "equalised."
+    )
+
+
+def _limits(results: xr.Dataset) -> str:
+    stop = parameters(results)["machine"]["stopping"]
+    left_out = _TURNED_BACK if "stopping_brake_force" in results else _NOT_TURNED_BACK
+    return (
+        f"Assumed: the orbiting set turns by {rounding.fixed(np.degrees(stop['shift_rad']))}° "
+        f"against its counterweights within {rounding.significant(1e3 * stop['shift_duration_s'])} "
+        f"ms; the gas keeps {rounding.fixed(100.0 * stop['gas_share_ratio'], 0)} % of its torque "
+        f"until the shaft stands; the motor's torque is gone at once. {left_out}"
+    )
+
+
+def _turned_back(results: xr.Dataset) -> tuple[str, ...]:
+    """What follows the first rest, where it is computed."""
+    if "stopping_brake_force" not in results:
+        return ()
+    angle = np.degrees(results["stopping_turned_back_angle"].values)
+    force = results["stopping_brake_force"].values
+    jam = (
+        f"the brake jams with up to {rounding.significant(float(force.max()))} N around the shaft"
+        if force.any()
+        else "the brake does not jam"
+    )
+    span = rounding.span(angle, rounding.fixed)
+    return (f"Trapped gas turns the shaft back by {span}°; {jam}.",)
+
+
+_NOT_TURNED_BACK: Final = (
+    "Sound is that of the rigid housing alone. Left out: the knock of the set at the end of its "
+    "turn, gas that flows back and turns the shaft backwards, valves, and the shell's own "
+    "vibration."
+)
+_TURNED_BACK: Final = (
+    "Sound is that of the rigid housing and, where a source drives it, of the elastic shell under "
+    "gas, brake and valve. Left out: the knock of the set at the end of its turn, and keys and "
+    "motor in the shell."
+)
+
+
+def forces_table(results: xr.Dataset) -> Table:
+    """Largest forces before and after switch-off, a row per speed."""
+    foot = results["stopping_foot_force"].sel(stopping_phase=list(_PHASES)).values
+    pairs = [*(_greatest(values) for values in force_and_moments(results)), (foot[0], foot[1])]
+    rows = tuple(
+        (
+            f"{speed:g} rpm",
+            rounding.significant(results["stopping_duration"].values[number]),
+            rounding.fixed(results["stopping_revolutions"].values[number]),
+            *(rounding.significant(part[number]) for pair in pairs for part in pair),
+        )
+        for number, speed in enumerate(speeds(results))
+    )
+    what = ("Force, N", "Tilting moment, N m", "Roll moment, N m", "Force into a foot, N")
+    head = [f"{name}, {phase}" for name in what for phase in _PHASES]
+    caption = "Largest values over time in steady running and while the machine stops"
+    return Table(caption, ("Speed", "Time to rest, s", "Revolutions", *head), rows)
+
+
+def sound_table(results: xr.Dataset) -> Table:
+    """Greatest levels before and after switch-off, a row per microphone."""
+    kinds = ("stopping_fast_maximum_level", "stopping_peak_level")
+    rows = tuple(
+        (
+            str(receiver),
+            *(
+                rounding.level(
+                    float(results[kind].sel(receiver=receiver, speed=speed, stopping_phase=phase))
+                )
+                for speed in speeds(results)
+                for kind in kinds
+                for phase in _PHASES
+            ),
+        )
+        for receiver in results["receiver"].values
+    )
+    head = [
+        f"{what} at {speed:g} rpm, {phase}"
+        for speed in speeds(results)
+        for what in ("Fast, dB(A)", "peak, dB")
+        for phase in _PHASES
+    ]
+    caption = "Greatest Fast level and level of the largest unweighted pressure, re 20 µPa"
+    return Table(caption, ("Microphone", *head), rows)

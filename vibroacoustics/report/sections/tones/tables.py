@@ -1,0 +1,102 @@
+"""Tables of prominent tones, loudness and sharpness."""
+
+import math
+from typing import Final
+
+import xarray as xr
+
+from ....base import rounding
+from ....results.estimates import Estimate, estimate, is_sampled
+from ....results.prominent_tones import ProminentTone, listed_tones, nearest_tone
+from ....results.stored_study import catalogue_receiver, options, speeds
+from ...shown_speeds import few_speeds
+from ...tables import Table
+
+MOST_NAMES: Final = 3
+HEAD: Final = ("Option", "Prominent tones", "Tone", "Hz", "dB", "excess, dB")
+NOT_PROMINENT: Final = "not prominent"
+NO_LOUDNESS: Final = (
+    "The results have no loudness: a run needs mosqito for it, pip install 'vibroacoustics[sound]'."
+)
+
+
+def has_sound(results: xr.Dataset) -> bool:
+    """Return whether results hold what sounds are made of, and their tones."""
+    return {"pressure_line", "noise_band_level", "tone_excess"} <= set(results)
+
+
+def excess_words(excess_db: Estimate) -> str:
+    """Return the ends of the interval of an excess: dB, or that the tone is not prominent."""
+    ends = [
+        rounding.fixed(end) if end >= 0.0 else NOT_PROMINENT
+        for end in (excess_db.low, excess_db.high)
+    ]
+    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
+
+
+def tone_tables(results: xr.Dataset) -> list[Table]:
+    """Return tones, loudness and sharpness of every option at the published receiver, by speed."""
+    name = catalogue_receiver(results)
+    return [_table(results, name, speed) for speed in speeds(few_speeds(results))]
+
+
+def _table(results: xr.Dataset, microphone: str, speed: float) -> Table:
+    loud = _loudness(results, microphone, speed)
+    sampled = is_sampled(results, "tone_excess")
+    rows = tuple(
+        (
+            option,
+            _names(listed_tones(results, option, microphone, speed)),
+            *_cells(nearest_tone(results, option, microphone, speed), sampled),
+            *((_percent(_some_tone(results, option, microphone, speed)),) if sampled else ()),
+            *loud.get(option, ()),
+        )
+        for option in options(results)
+    )
+    of_samples = ("80 % interval, dB", "probability", "some tone") if sampled else ()
+    with_loudness = ("sone", "acum") if loud else ()
+    head = (*HEAD, *of_samples, *with_loudness)
+    caption = f"Prominent tones, and the tone with the largest excess, {microphone}, {speed:g} rpm"
+    return Table(caption, head, rows, frozenset({0, 1, 2}))
+
+
+def _cells(tone: ProminentTone | None, sampled: bool) -> tuple[str, ...]:
+    if tone is None:
+        return ("none", *[""] * (5 if sampled else 3))
+    cells = (
+        tone.name,
+        rounding.fixed(tone.frequency_hz),
+        rounding.level(tone.level_db),
+        rounding.fixed(tone.excess_db.value),
+    )
+    if not sampled:
+        return cells
+    return (*cells, excess_words(tone.excess_db), _percent(tone.probability))
+
+
+def _some_tone(results: xr.Dataset, option: str, microphone: str, speed: float) -> float:
+    """Probability that some tone is prominent."""
+    case = {"option": option, "receiver": microphone, "speed": speed}
+    return estimate(results, "any_tone_probability", **case).value
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.0f} %"
+
+
+def _names(listed: list[ProminentTone]) -> str:
+    names = [tone.name for tone in listed[:MOST_NAMES]]
+    more = len(listed) - len(names)
+    return ", ".join(names + ([f"{more} more"] if more else [])) or "none"
+
+
+def _loudness(results: xr.Dataset, microphone: str, speed: float) -> dict[str, tuple[str, str]]:
+    """Loudness and sharpness by option; empty where some loudness is not in the results."""
+    if "loudness" not in results:
+        return {}
+    here = results[["loudness", "sharpness"]].sel(receiver=microphone, speed=speed)
+    if here["loudness"].isnull().any():
+        return {}
+    loud = map(rounding.three_digits, here["loudness"].values.tolist())
+    sharp = [rounding.fixed(s, 2) if math.isfinite(s) else "" for s in here["sharpness"].values]
+    return dict(zip(options(results), zip(loud, sharp, strict=True), strict=True))

@@ -1,0 +1,95 @@
+"""The chart that opens the report: what each option does to each quantity, as traffic lights."""
+
+from collections.abc import Sequence
+from typing import Final, Literal, TypeAlias
+
+import numpy as np
+import xarray as xr
+
+from ....results.estimates import QUANTILES, has_samples
+from ....results.stored_study import balancers, catalogue_receiver, other_receivers
+from ...blocks import Light, LightRow, Lights
+from ...option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
+from ...quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
+from ...shifts import Shift, extent, measurable, shift
+
+FULL_SCALE: Final = {"%": 100.0, "dB": 20.0}
+"""Change at which a bar reaches the end of its cell."""
+_SURE: Final = QUANTILES[0]
+"""Share of the samples with a measurable change from which on it is not said that there is none."""
+
+Word: TypeAlias = Literal["better", "worse", "mixed", "not sure", "no difference"]
+_WORDS: Final[dict[str, Word]] = {
+    BETTER: "better", WORSE: "worse", MIXED: "mixed", NO_CHANGE: "no difference",
+}  # fmt: skip
+
+
+def lights(results: xr.Dataset) -> Lights | None:
+    """A row an option, a column a quantity that can be measured; None without options."""
+    if not balancers(results):
+        return None
+    verdicts = option_verdicts(results)
+    rows = tuple(
+        LightRow(of.option, _WORDS[of.judgement], _row(results, of.option)) for of in verdicts
+    )
+    receiver = catalogue_receiver(results)
+    elsewhere = ("1× line, others, dB",) if other_receivers(results) else ()
+    head = (
+        "Option", "1× force, %", "1× moment, %", "1× foot force, %", "total level, dB",
+        "1× line, dB", *elsewhere,
+    )  # fmt: skip
+    others = " and at the other microphones" if elsewhere else ""
+    caption = f"Each option against no balancer; levels at {receiver}{others}"
+    return Lights(caption, head, rows, _note(results))
+
+
+def light(shifts: Sequence[Shift]) -> Light:
+    """The light of a quantity, at one microphone or several.
+
+    Better and worse are as the verdicts say; not sure is what is neither, although the band of
+    the samples reaches beyond what could be measured.
+    """
+    full = FULL_SCALE[shifts[0].unit]
+    changes = extent(shifts)
+    ends = np.clip(np.nan_to_num([changes.lowest, changes.highest]) / full, -1.0, 1.0)
+    least = shifts[0].least
+    zone = least.level_db if shifts[0].quantity.is_level else 100.0 * least.force_ratio
+    band = (float(ends[0]), float(ends[1]))
+    return Light(_word(shifts), _change(shifts), band, min(zone / full, 1.0))
+
+
+def _row(results: xr.Dataset, option: str) -> tuple[Light, ...]:
+    by_quantity = [
+        [shift(results, quantity, option)] for quantity in (FORCE, MOMENT, FOOT_FORCE, TOTAL, LINE)
+    ]
+    elsewhere = [shift(results, LINE, option, name) for name in other_receivers(results)]
+    return tuple(light(shifts) for shifts in [*by_quantity, elsewhere] if shifts)
+
+
+def _word(shifts: Sequence[Shift]) -> Word:
+    judgement = judge(any(one.worsens for one in shifts), any(one.improves for one in shifts))
+    unsure = any(max(one.grown, one.fallen) > _SURE for one in shifts)
+    return "not sure" if judgement == NO_CHANGE and unsure else _WORDS[judgement]
+
+
+def _change(shifts: Sequence[Shift]) -> str:
+    """The range over samples, speeds and microphones; a word where there was or is nothing."""
+    first = shifts[0]
+    if len(shifts) == 1 and first.before.min() < first.quantity.floor:
+        return "appears" if first.after.max() >= first.quantity.floor else "0"
+    if len(shifts) == 1 and first.after.max() < first.quantity.floor:
+        return "vanishes"
+    return first.written(extent(shifts))
+
+
+def _note(results: xr.Dataset) -> str:
+    least = measurable(results)
+    over = (
+        "10 to 90 % of the samples at all speeds" if has_samples(results) else "all speeds, nominal"
+    )
+    return (
+        f"Numbers and bars: {over}; bars end at ±100 % and ±20 dB. Grey: less than "
+        f"{100.0 * least.force_ratio:g} % or {least.level_db:g} dB, which could not be measured. "
+        "Mixed: better at a speed or microphone, worse at another. Not sure: beyond grey in some "
+        f"samples, but not in more than {100.0 * least.samples_ratio:g} % of them."
+    )

@@ -1,0 +1,242 @@
+"""The first screen of a report: five sentences, contributions to the level, changes of the total.
+
+Each sentence answers one question: how loud, what makes it, what the options do to the level, what
+they do to vibration, which measurement is most valuable.
+"""
+
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ....base import rounding
+from ....base.vocabulary import REFERENCE_OPTION
+from ....results.estimates import QUANTILES, has_samples
+from ....results.stored_study import (
+    at_catalogue,
+    balancers,
+    catalogue_receiver,
+    has_sources,
+    nearest_speed,
+    overall_noise,
+    parameters,
+    source_name,
+    speeds,
+)
+from ...bands import Band, band
+from ...blocks import Interval, Intervals, IntervalWord
+from ...quantities import FOOT_FORCE, NO_BREAK, TOTAL
+from ...shifts import Shift, measurable, shift
+from ..sources.words import UNMODELLED, ranked, source_share, unmodelled_share
+from ..unknowns.tables import most_valuable
+
+_HALF: Final = 0.5
+"""Share of the energy above which a source makes most of it."""
+_UNCERTAIN: Final = QUANTILES[0]
+"""Probability of a measurable change from which on there may be one."""
+_QUIETEST_DB: Final = 30.0
+"""Sources so far below the machine are not shown."""
+_LEAST_SPAN_DB: Final = 2.0
+"""Smallest half width of the scale of changes."""
+
+
+def sentences(results: xr.Dataset) -> tuple[str, ...]:
+    """Return the sentences of the first screen."""
+    each = (_level, _room, _source, _options, _vibration, _measurement)
+    return tuple(filter(None, (one(results) for one in each)))
+
+
+def contributions(results: xr.Dataset) -> Intervals:
+    """Return the levels of machine, sources and unmodelled noise beside the published level."""
+    speed = nearest_speed(results)
+    at = at_catalogue(results, speed=speed)
+    total = band(results, "level_total", **at)
+    rows = [_contribution("machine", total, "total")]
+    noise = overall_noise(results)
+    if noise is not None and speed == noise["speed_rpm"]:
+        level, deviation = noise["level_dba"], noise.get("deviation_db", 2.0)
+        published = Band(level - deviation, level, level + deviation)
+        text = f"{level:g} ± {deviation:g}"
+        rows.insert(0, Interval("published", text, *published[:3], "published"))
+    if noise is not None:
+        rows.append(_contribution(UNMODELLED, band(results, "residual_level", **at), "part"))
+    for number, source in enumerate(ranked(results, speed)):
+        level_of = band(results, "source_level", **at, sound_source=source)
+        if number == 0 or level_of.highest > total.middle - _QUIETEST_DB:
+            rows.append(_contribution(source_name(results, source), level_of, "part"))
+    ends = [end for row in rows for end in (row.low, row.high) if np.isfinite(end)]
+    lowest = max(min(ends), total.middle - _QUIETEST_DB)
+    scale = (float(np.floor(lowest - 1.0)), float(np.ceil(max(ends) + 1.0)))
+    where = f"{catalogue_receiver(results)}, {speed:g} rpm"
+    of = ", median and 80 % interval" if has_samples(results) else ""
+    return Intervals(
+        f"Contributions to the level at {where}",
+        ("", f"dB(A){of}"),
+        tuple(rows),
+        scale,
+        None,
+        "Each part alone; levels of parts do not add up to that of the machine.",
+    )
+
+
+def changes(results: xr.Dataset) -> Intervals | None:
+    """Return the change of the total by every option; None without options."""
+    if not balancers(results):
+        return None
+    least = measurable(results).level_db
+    rows = [Interval(REFERENCE_OPTION, "0", 0.0, 0.0, 0.0, "no change")]
+    rows += [_change(results, option, least) for option in balancers(results)]
+    ends = [abs(end) for row in rows for end in (row.low, row.high) if np.isfinite(end)]
+    span = float(np.ceil(max(*ends, _LEAST_SPAN_DB)))
+    where = catalogue_receiver(results)
+    several = " At the speed where it is largest." if len(speeds(results)) > 1 else ""
+    return Intervals(
+        f"Change of the total level at {where} by option",
+        ("Option", "dB, median and 80 % interval" if has_samples(results) else "dB"),
+        tuple(rows),
+        (-span, span),
+        (-least, least),
+        f"Grey: ±{least:g} dB, not measurable.{several}",
+    )
+
+
+def _contribution(name: str, level: Band, word: IntervalWord) -> Interval:
+    text = level.middle_and_ends(rounding.level)
+    return Interval(name, text, level.lowest, level.middle, level.highest, word)
+
+
+def _change(results: xr.Dataset, option: str, least: float) -> Interval:
+    of_total, row = shift(results, TOTAL, option), largest(shift(results, TOTAL, option))
+    change = of_total.bands[row]
+    text = change.middle_and_ends(rounding.signed)
+    return Interval(option, text, change.lowest, change.middle, change.highest, word(of_total))
+
+
+def word(of_total: Shift) -> IntervalWord:
+    """Return what an option does to the level: louder, quieter, uncertain, no change."""
+    if of_total.worsens and of_total.improves:
+        return "uncertain"
+    if of_total.worsens:
+        return "louder"
+    if of_total.improves:
+        return "quieter"
+    return "uncertain" if max(of_total.grown, of_total.fallen) > _UNCERTAIN else "no change"
+
+
+def largest(of_quantity: Shift) -> int:
+    """Return the number of the speed at which a quantity changes most."""
+    return int(np.argmax(np.abs(np.nan_to_num(of_quantity.gain_db))))
+
+
+def _level(results: xr.Dataset) -> str:
+    speed = nearest_speed(results)
+    level = band(results, "level_total", **at_catalogue(results, speed=speed))
+    interval = f"80{NO_BREAK}%: {level.ends(rounding.level)}" if has_samples(results) else ""
+    notes = "; ".join(filter(None, [interval, _published(results, speed)]))
+    where = catalogue_receiver(results)
+    return (
+        f"{parameters(results)['machine']['name']} at {speed:g} rpm: "
+        f"{level.middle_text(rounding.level)} dB(A) at {where} ({notes})."
+    )
+
+
+def _published(results: xr.Dataset, speed_rpm: float) -> str:
+    """Return the published level, with its speed where that differs."""
+    noise = overall_noise(results)
+    if noise is None:
+        return "no published level"
+    speed = "" if speed_rpm == noise["speed_rpm"] else f" at {noise['speed_rpm']:g} rpm"
+    return f"published {noise['level_dba']:g}{speed}"
+
+
+def _room(results: xr.Dataset) -> str:
+    if "room_level" not in results:
+        return ""
+    at = {"option": REFERENCE_OPTION, "speed": nearest_speed(results)}
+    known = {
+        str(name): band(results, "room_level", **at, listener=name)
+        for name in results["listener"].values.tolist()
+    }
+    name = max(known, key=lambda one: known[one].middle)
+    return f"In the room, at {name}: {known[name].middle_and_ends(rounding.level)} dB(A)."
+
+
+def _source(results: xr.Dataset) -> str:
+    speed = nearest_speed(results)
+    if not has_sources(results):
+        at = at_catalogue(results, speed=speed)
+        modelled = band(results, "level_modelled", **at).middle_text(rounding.level)
+        rest = "" if overall_noise(results) is None else "; the rest is unmodelled noise"
+        return f"Shaft orders of the rigid machine make {modelled} dB(A) of it{rest}."
+    names = ranked(results, speed)
+    shares = [source_share(results, name, speed) for name in names]
+    others = [*shares[1:], unmodelled_share(results, speed)]
+    name = source_name(results, names[0])
+    text = f"{shares[0].in_percent()} of the sound energy"
+    if shares[0].lowest > max(_HALF, *(other.highest for other in others)):
+        return f"{name[0].upper()}{name[1:]} make most of it: {text}."
+    if not has_samples(results):
+        return f"The dominant modelled source is {name}: {text}."
+    return f"What makes it is not settled: {name} {text}."
+
+
+def _options(results: xr.Dataset) -> str:
+    shifts = {option: shift(results, TOTAL, option) for option in balancers(results)}
+    if not shifts:
+        return ""
+    least = measurable(results).level_db
+    quieter = [name for name, one in shifts.items() if word(one) == "quieter"]
+    louder = [name for name, one in shifts.items() if word(one) == "louder"]
+    text = f"No option lowers it by {least:g} dB or more"
+    if quieter:
+        best = min(quieter, key=lambda name: shifts[name].gain_db.min())
+        text = f"Best for the level: {best}, {_written(shifts[best])}"
+    if not louder:
+        return f"{text}."
+    louder.sort(key=lambda name: -shifts[name].gain_db.max())
+    worst, *others = louder
+    verb = "raises" if _at_largest(shifts[worst]).lowest > least else "may raise"
+    more = {0: "", 1: f", {others[0] if others else ''} too"}.get(
+        len(others), f", {len(others)} others too"
+    )
+    return f"{text}; {worst} {verb} it: {_written(shifts[worst])}{more}."
+
+
+def _vibration(results: xr.Dataset) -> str:
+    shifts = {option: shift(results, FOOT_FORCE, option) for option in balancers(results)}
+    better = [name for name, one in shifts.items() if one.improves and not one.worsens]
+    if not shifts:
+        return ""
+    if not better:
+        return "No option reduces the 1× foot force measurably."
+    sure = [name for name in better if _at_largest(shifts[name]).highest < 0.0]
+    best = min(sure or better, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
+    change = _with_unit(_at_largest(shifts[best]), "%")
+    if not sure:
+        return f"{best} may reduce the 1× foot force: {change}."
+    return f"Best for the feet: {best}, 1× foot force {change}."
+
+
+def _measurement(results: xr.Dataset) -> str:
+    known = most_valuable(results)
+    return f"Most valuable measurement: {known}." if known else ""
+
+
+def _at_largest(of_quantity: Shift) -> Band:
+    return of_quantity.bands[largest(of_quantity)]
+
+
+def _written(of_total: Shift) -> str:
+    return _with_unit(_at_largest(of_total), "dB")
+
+
+def _with_unit(change: Band, unit: str) -> str:
+    """`+4.1 dB (0 to +22)`."""
+    decimals = 0 if unit == "%" else 1
+
+    def write(value: float) -> str:
+        return rounding.signed(value, decimals)
+
+    middle, ends = change.middle_text(write), change.ends(write)
+    value = f"{middle}{NO_BREAK}{unit}"
+    return value if ends == middle else f"{value} ({ends})"
