@@ -9,7 +9,8 @@ The report draws the same charts. A notebook shows what these functions return;
 Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_orders`,
 `mount_transmissibility`, `transfer`, `green_difference`, `levels`, `line_map`, `room_map`,
 `room_seam`, `scores`, `rank_acceptability`, `source_third_octaves`, `option_third_octaves`,
-`baseline_third_octaves`, `path_shares`, `stopping`, `stopping_order_map`.
+`baseline_third_octaves`, `path_shares`, `stopping`, `stopping_order_map`, `stacked_third_octaves`,
+`stacked_lines`, `run_up_levels`, `run_up_orders`, `polar_levels`.
 
 Over several speeds of `run`: `levels_over_speed`, `source_levels_over_speed`,
 `orders_over_speed`, `speed_frequency_map`, `campbell`.
@@ -37,9 +38,12 @@ from .report.figures import (
     mounts,
     orders,
     paths,
+    polar,
     radiation,
     recorded_orders,
+    run_up,
     sources,
+    stacked,
 )
 from .report.figures import scores as _scores
 from .report.figures import stopping as _stopping
@@ -65,11 +69,16 @@ line_map = plotted(maps.line_map)
 mount_transmissibility = plotted(mounts.mount_transmissibility)
 option_third_octaves = plotted(sources.option_third_octaves)
 path_shares = plotted(paths.path_shares)
+polar_levels = plotted(polar.polar_levels)
 rank_acceptability = plotted(_scores.rank_acceptability)
 room_map = plotted(in_room.room_map, "kitchen.nc")
 room_seam = plotted(in_room.room_seam, "kitchen.nc")
+run_up_levels = plotted(run_up.run_up_levels)
+run_up_orders = plotted(run_up.run_up_orders)
 scores = plotted(_scores.scores)
 source_third_octaves = plotted(sources.source_third_octaves)
+stacked_lines = plotted(stacked.stacked_lines)
+stacked_third_octaves = plotted(stacked.stacked_third_octaves)
 stopping = plotted(_stopping.stopping)
 stopping_order_map = plotted(_stopping.stopping_order_map)
 transfer = plotted(radiation.transfer)
@@ -102,14 +111,19 @@ __all__ = [
     "order_spectrum",
     "orders_over_speed",
     "path_shares",
+    "polar_levels",
     "predicted_levels",
     "rank_acceptability",
     "room_map",
     "room_seam",
+    "run_up_levels",
+    "run_up_orders",
     "scores",
     "source_levels_over_speed",
     "source_third_octaves",
     "speed_frequency_map",
+    "stacked_lines",
+    "stacked_third_octaves",
     "stopping",
     "stopping_order_map",
     "tracked_orders",

@@ -296,7 +296,7 @@ def named_axis(names: Sequence[str], write: Callable[[str], str] = str, label: s
 
 
 def frequency_axis(label: str, frequency_hz: Values) -> Axis:
-    """Return a logarithmic axis of frequencies, with ticks at 1, 2, 5, 10 … Hz.
+    """Return a logarithmic axis of frequencies, with ticks at 1, 2, 5, 10 … 1k.
 
     Parameters
     ----------
@@ -305,7 +305,8 @@ def frequency_axis(label: str, frequency_hz: Values) -> Axis:
     """
     low, high = float(np.min(frequency_hz)), float(np.max(frequency_hz))
     ticks = [digit * 10**power for power in range(6) for digit in (1, 2, 5)]
-    shown = tuple((float(tick), str(tick)) for tick in ticks if low <= tick <= high)
+    named = {tick: f"{tick // 1000}k" if tick >= 1000 else str(tick) for tick in ticks}
+    shown = tuple((float(tick), word) for tick, word in named.items() if low <= tick <= high)
     return Axis(label, "log", (low / 1.05, high * 1.05), shown)
 
 

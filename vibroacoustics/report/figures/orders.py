@@ -57,7 +57,7 @@ def level_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
     """
     at = chosen(results, "receiver", receiver or catalogue_receiver(results))
     level = few_speeds(results)["order_level"].sel(receiver=at, weighting="A")
-    loud = loudest_orders(level)
+    loud = loudest_orders(level.where(level >= rounding.LEVEL_FLOOR_DB))
     named = ", ".join(f"{order:g}" for order in loud)
     floor_db = rounding.LEVEL_FLOOR_DB
     return Chart(
@@ -74,7 +74,7 @@ def loudest_orders(level: xr.DataArray) -> list[float]:
 
     Parameters
     ----------
-    level : A-weighted, (order, ...), dB
+    level : A-weighted, (order, ...), dB; not a number where it is silent
     """
     highest = level.max([dim for dim in level.dims if dim != "order"]).dropna("order")
     loud = highest["order"].values[np.argsort(-highest.values, kind="stable")[:MOST_ORDERS]]

@@ -2,6 +2,7 @@
 
 import xarray as xr
 
+from ...drawing import section_picture
 from ....base.registry import register
 from ...blocks import Block, Pictures, Text
 from ...figures.forces import force_over_revolution
@@ -12,8 +13,9 @@ from .tables import facts_table
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     facts = facts_table(few_speeds(results))
-    shown = _figure(results)
-    return [shown, *chosen_speeds(results, "results.nc"), facts] if facts else [shown]
+    section = section_picture(results)
+    shown = [_figure(results), *([Pictures((section,))] if section else [])]
+    return [*shown, *chosen_speeds(results, "results.nc"), facts] if facts else shown
 
 
 def _figure(results: xr.Dataset) -> Block:

@@ -2,6 +2,8 @@
 
 import xarray as xr
 
+from ...figures.deflection import deflection_picture
+from ...figures.polar import polar_levels
 from ....base.registry import register
 from ...blocks import Block, Heading, Pictures, Text
 from ...figures.maps import line_map
@@ -22,6 +24,8 @@ _SENTENCES = (kwave_sentence, line_difference_sentence, grid_error_sentence)
 def _blocks(results: xr.Dataset) -> list[Block]:
     power = sound_power_table(few_speeds(results))
     difference = [green_difference(results)] if kwave_to_hz(results) else []
+    shapes = [deflection_picture(results)] if "deflection" in results else []
+    around = [polar_levels(results)] if "polar_level" in results else []
     maps = [line_map(results)] if "map_level" in results else []
     return [
         Text(" ".join(filter(None, (part(results) for part in _SENTENCES)))),
@@ -30,7 +34,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         *([power] if power else []),
         Pictures((levels(results), *difference)),
         Heading("From velocity of the housing to sound pressure"),
-        Pictures((*maps, transfer(results))),
+        Pictures((*shapes, *around, *maps, transfer(results))),
     ]
 
 

@@ -2,6 +2,7 @@
 
 import xarray as xr
 
+from ...figures.stacked import stacked_lines, stacked_third_octaves
 from ....base.registry import register
 from ....results.sample_words import prior_words
 from ....results.stored_study import has_sources
@@ -31,10 +32,16 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         ),
         *chosen_speeds(results, "sources.csv"),
         *source_tables.source_tables(few_speeds(results)),
-        Pictures((source_third_octaves(results), *_options(results))),
+        Pictures((source_third_octaves(results), *_stacked(results), *_options(results))),
         *_changes(few_speeds(results)),
         source_tables.figures_table(few_speeds(results)),
     ]
+
+
+def _stacked(results: xr.Dataset) -> list[Chart]:
+    """Third octaves and lines, divided among the sources."""
+    charts = {"band_energy": stacked_third_octaves, "line_energy": stacked_lines}
+    return [make(results) for name, make in charts.items() if name in results]
 
 
 def _options(results: xr.Dataset) -> list[Chart]:

@@ -1,0 +1,130 @@
+"""A-weighted third octaves and lines, each a bar that is divided among the sources."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from ...base.arrays import Array
+from ...base.constants import REFERENCE_PRESSURE_PA
+from ...base.decibel import level_of_power
+from ...base.units import shaft_frequency_hz
+from ...results.stored_study import catalogue_receiver, source_name
+from ..charts.layout import COLOURS
+from ..charts.marks import Axis, Bars, Chart, Panel
+from ..charts.needs import needs
+from ..source_words import UNMODELLED
+from ..titles import chosen
+
+DEPTH_DB: Final = 40.0
+"""From the highest bar down to the foot of all."""
+_THINNEST_DB: Final = 0.3
+"""Sources without a longer part of any bar are not drawn."""
+_GREY: Final = "#b8bfc6"
+
+
+@needs("band_energy")
+def stacked_third_octaves(results: xr.Dataset, receiver: str | None = None) -> Chart:
+    """A-weighted third octaves, divided among sources and unmodelled noise: a panel an option.
+
+    Parameters
+    ----------
+    results : of `run`; needs `band_energy` (shown_option, energy_part, receiver, noise_band), Pa²
+    receiver : one of the results' microphones; default: that of the catalogue's noise
+    """
+    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    energy = results["band_energy"].sel(receiver=at)
+    energy = energy.transpose("shown_option", "energy_part", "noise_band")
+    bands = energy["noise_band"].values
+    ticks = tuple((float(row), _hertz(band)) for row, band in enumerate(bands) if row % 3 == 2)
+    axis = Axis("Third-octave band, Hz", ticks=ticks)
+    panels = _panels(results, energy, np.arange(len(bands), dtype=float), axis, 0.9)
+    return _chart("stacked_third_octaves", "third octaves", at, results, panels)
+
+
+@needs("line_energy")
+def stacked_lines(results: xr.Dataset, receiver: str | None = None) -> Chart:
+    """A-weighted lines of the shaft orders, divided among the sources: a panel an option.
+
+    Parameters
+    ----------
+    results : of `run`; needs `line_energy` (shown_option, sound_source, receiver, line), Pa²
+    receiver : one of the results' microphones; default: that of the catalogue's noise
+    """
+    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    energy = results["line_energy"].sel(receiver=at)
+    energy = energy.isel(line=np.flatnonzero(results["line_order"].values > 0.0))
+    energy = energy.transpose("shown_option", "sound_source", "line")
+    shaft_hz = shaft_frequency_hz(float(results["shown_speed"]))
+    frequency = shaft_hz * energy["line_order"].values
+    panels = _panels(results, energy, frequency, Axis("Frequency, Hz"), 0.8 * shaft_hz)
+    return _chart("stacked_lines", "lines of the shaft orders", at, results, panels)
+
+
+def divided(energy: Array, bottom_db: float) -> tuple[Array, Array]:
+    """Return where the parts of each bar begin and how long they are, shape (part, bar), dB.
+
+    A bar is as high as the level of the sum; its parts are the shares of the sources in the
+    energy, without those that work against the others.
+
+    Parameters
+    ----------
+    energy : mean square of each part, shape (part, bar), Pa²
+    bottom_db : foot of the bars
+    """
+    total = np.maximum(energy.sum(axis=0), 1e-30)
+    height = np.maximum(level_of_power(total / REFERENCE_PRESSURE_PA**2) - bottom_db, 0.0)
+    share = np.maximum(energy, 0.0)
+    share = share / np.maximum(share.sum(axis=0), 1e-30)
+    ends = np.cumsum(share, axis=0) * height
+    return bottom_db + ends - share * height, share * height
+
+
+def part_colours(results: xr.Dataset, parts: Sequence[str]) -> list[tuple[str, str]]:
+    """Return the words and the colour of each source, and of unmodelled noise."""
+    sources = [str(source) for source in results["sound_source"].values]
+    return [
+        (source_name(results, part), COLOURS[1 + sources.index(part) % (len(COLOURS) - 1)])
+        if part in sources
+        else (UNMODELLED, _GREY)
+        for part in parts
+    ]
+
+
+def _panels(
+    results: xr.Dataset, energy: xr.DataArray, position: Array, axis: Axis, thickness: float
+) -> tuple[Panel, ...]:
+    """Bars of energy (option, part, bar), on one scale."""
+    named = part_colours(results, [str(part) for part in energy[energy.dims[1]].values])
+    loudest = max(float(energy.sum(str(energy.dims[1])).max()), 1e-30)
+    top = float(level_of_power(loudest / REFERENCE_PRESSURE_PA**2))
+    panels = []
+    for option, values in zip(energy["shown_option"].values, energy.values, strict=True):
+        starts, sizes = divided(values, top - DEPTH_DB)
+        bars = tuple(
+            Bars(position, size, start, words, colour=colour, thickness=thickness, upright=True)
+            for (words, colour), start, size in zip(named, starts, sizes, strict=True)
+            if size.max() > _THINNEST_DB
+        )
+        y = Axis("Level, dB(A)", limits=(top - DEPTH_DB, top + 2.0))
+        panels.append(Panel(axis, y, bars, f"Option {option}", 2.4))
+    return tuple(panels)
+
+
+def _chart(
+    name: str, what: str, receiver: str, results: xr.Dataset, panels: tuple[Panel, ...]
+) -> Chart:
+    where = f"{receiver}, {float(results['shown_speed']):g} rpm"
+    return Chart(
+        name,
+        f"A-weighted {what} at {where}, divided among the sources.",
+        f"A-weighted {what} at {where}, of the representative sample. The height of a bar is the "
+        "level of the sum. Its colours are shares of the energy; sources that are not seen, or "
+        "work against the others, are left out.",
+        panels,
+    )
+
+
+def _hertz(band: float) -> str:
+    return f"{band / 1000.0:g}k" if band >= 1000.0 else f"{band:g}"

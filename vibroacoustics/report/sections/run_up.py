@@ -1,0 +1,24 @@
+"""Levels of sources and orders in a run-up between the speeds of a study."""
+
+import xarray as xr
+
+from ...base.registry import register
+from ..blocks import Block, Pictures
+from ..figures.run_up import run_up_levels, run_up_orders
+from . import Section
+
+_FEWEST: int = 3
+"""Orders from which on they are shown as colours."""
+
+
+def _applies(results: xr.Dataset) -> bool:
+    return "run_up_level" in results
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    several = results.sizes["run_up_order"] >= _FEWEST
+    orders = [run_up_orders(results)] if several else []
+    return [Pictures((run_up_levels(results), *orders))]
+
+
+register(Section("run-up", "Run-up", _blocks, _applies, 35.5))
