@@ -30,8 +30,9 @@ Of `curves`: `curves`. Of `predict`: `predicted_levels`.
 """
 
 from .report.charts.needs import plotted
-from .report.figures import directivity as _directivity
 from .report.figures import (
+    baseline,
+    blocked_forces,
     forces,
     in_room,
     maps,
@@ -39,25 +40,36 @@ from .report.figures import (
     orders,
     paths,
     polar,
+    prediction,
     radiation,
     recorded_orders,
     run_up,
     sources,
+    speed_maps,
     stacked,
 )
+from .report.figures import campbell as _campbell
+from .report.figures import compared_orders as _compared_orders
+from .report.figures import curves as _curves
+from .report.figures import directivity as _directivity
+from .report.figures import levels_over_speed as _levels_over_speed
+from .report.figures import orders_over_speed as _orders_over_speed
 from .report.figures import scores as _scores
 from .report.figures import stopping as _stopping
 from .report.figures import transfer_vectors as _transfer_vectors
-from .report.figures.baseline import baseline_third_octaves
-from .report.figures.blocked_forces import blocked_force, blocked_validation
-from .report.figures.campbell import campbell
-from .report.figures.compared_orders import compared_orders, order_differences
-from .report.figures.curves import curves
-from .report.figures.levels_over_speed import levels_over_speed, source_levels_over_speed
-from .report.figures.orders_over_speed import orders_over_speed
-from .report.figures.prediction import predicted_levels
-from .report.figures.speed_maps import speed_frequency_map
 
+baseline_third_octaves = plotted(baseline.baseline_third_octaves)
+blocked_force = plotted(blocked_forces.blocked_force, "blocked_forces.nc")
+blocked_validation = plotted(blocked_forces.blocked_validation, "blocked_forces.nc")
+campbell = plotted(_campbell.campbell)
+compared_orders = plotted(_compared_orders.compared_orders, "compared_orders.nc")
+curves = plotted(_curves.curves, "curves.nc")
+levels_over_speed = plotted(_levels_over_speed.levels_over_speed)
+order_differences = plotted(_compared_orders.order_differences, "compared_orders.nc")
+orders_over_speed = plotted(_orders_over_speed.orders_over_speed, "orders.nc")
+predicted_levels = plotted(prediction.predicted_levels, "prediction.nc")
+source_levels_over_speed = plotted(_levels_over_speed.source_levels_over_speed)
+speed_frequency_map = plotted(speed_maps.speed_frequency_map, "speed_map.nc")
 directivity = plotted(_directivity.directivity, "transfer_vectors.nc")
 foot_force_orders = plotted(orders.foot_force_orders)
 force_orders = plotted(orders.force_orders)

@@ -59,6 +59,8 @@ def workplace(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name, dataset in datasets.items():
         storage.write_results(dataset, folder / name)
     _write_modes(folder / "modes.uff")
+    inner = va.curves(va.load_study(ROOT / "pipelines" / "copeland_thesis.toml"))
+    storage.write_results(inner, folder / "curves.nc")
     storage.write_results(_predicted(folder / "bench"), folder / "prediction.nc")
     (folder / "in_situ").mkdir()
     in_situ = in_situ_bench.write(folder / "in_situ", in_situ_bench.BELOW)

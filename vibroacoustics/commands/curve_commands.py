@@ -23,6 +23,7 @@ def curves_command(
 ) -> Outcome:
     """Show what goes on inside a machine: curves.nc, a table and a picture of each curve."""
     from .. import report
+    from ..report.charts.picture import picture
     from ..sources.curves import curves
     from ..study.loading import load_study_or_machine
     from . import outputs
@@ -33,7 +34,8 @@ def curves_command(
     outputs.check_folder(folder)
     inner = curves(study_or_machine, speed, option)
     tables = {f"{name}.csv": report.curve_csv(inner, str(name)) for name in inner.data_vars}
-    written = outputs.write_analysis(inner, folder, CURVES_NAME, tables, report.curve_figures)
+    pictures = map(picture, report.curve_charts(inner))
+    written = outputs.write_analysis(inner, folder, CURVES_NAME, tables, pictures)
     lines = [
         f"{name}: {curve.attrs['title']} ({curve.attrs['source']})" for name, curve in inner.items()
     ]

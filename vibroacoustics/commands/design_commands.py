@@ -71,7 +71,7 @@ def sweep_command(
         messages.warn(["no design meets the constraints: there is no report of the best"])
     else:
         tables |= outputs.with_pdf(_report(problem, search, study_file, folder), prints)
-    written = outputs.write_analysis(results, folder, SWEEP_NAME, tables, lambda _: [])
+    written = outputs.write_analysis(results, folder, SWEEP_NAME, tables)
     failed = int((results["failure"] > 0).sum())
     if failed:
         messages.warn([f"{failed} designs failed; {TABLE_NAME} tells why"])
@@ -105,7 +105,7 @@ def optimise_command(
     with _evaluating(problem, study_file, folder / SEARCH_CHUNKS, opened, plugin) as evaluate:
         search = searched_designs(problem, evaluate, progress)
     files = outputs.with_pdf(_report(problem, search, study_file, folder), prints)
-    written = outputs.write_analysis(search, folder, DESIGNS_NAME, files, lambda _: [])
+    written = outputs.write_analysis(search, folder, DESIGNS_NAME, files)
     return Outcome(
         report.designs_text(search),
         with_pdf({"designs": written}, folder / PAGE_NAME, prints),

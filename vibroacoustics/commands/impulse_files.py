@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.errors import ParameterError
-from ..report.figures.style import file_name
+from ..report.file_names import file_name
 from ..results import files
 from ..sound.files import at_gain, wav_bytes
 from ..sound.gain import next_full_scale

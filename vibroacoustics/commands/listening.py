@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from ..report.figures.style import file_name
+from ..report.file_names import file_name
 from ..results import files
 from ..sound.files import FORMATS, at_gain, calibration_tone
 from ..sound.gain import full_scale_of

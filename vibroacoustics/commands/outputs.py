@@ -1,7 +1,7 @@
 """What a run leaves on disk: the dataset, the report, its tables and figures."""
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
@@ -11,7 +11,7 @@ import xarray as xr
 from .. import report
 from ..base.errors import ParameterError, SchemaError, StorageError
 from ..base.folder import Folder, opened_folder
-from ..report.charts.picture import Picture
+from ..report.charts.picture import Picture, picture
 from ..results import manifest, storage
 from ..results.complete import check_run
 from ..results.figure_limits import CheckedFigure, Compared
@@ -198,7 +198,8 @@ def write_radiation(radiated: xr.Dataset, folder: str | Path) -> Path:
     -------
     path of the dataset
     """
-    return write_analysis(radiated, folder, TRANSFER_VECTORS_NAME, {}, report.radiation_figures)
+    pictures = report.radiation_figures(radiated)
+    return write_analysis(radiated, folder, TRANSFER_VECTORS_NAME, {}, pictures)
 
 
 def write_orders(results: xr.Dataset, folder: str | Path, printer: Printer | None = None) -> Path:
@@ -208,10 +209,10 @@ def write_orders(results: xr.Dataset, folder: str | Path, printer: Printer | Non
         tables["levels.csv"] = report.levels_csv(results)
     if "order_limit" in results:
         tables[LIMITS_NAME] = report.limits_csv(results)
-    pictures = report.recorded_order_figures(results)
-    tables[ORDERS_REPORT_NAME] = report.orders_html(results, pictures)
+    charts = report.recorded_order_charts(results)
+    tables[ORDERS_REPORT_NAME] = report.orders_html(results, charts)
     tables = with_pdf(tables, printer)
-    return write_analysis(results, folder, ORDERS_NAME, tables, lambda _: pictures)
+    return write_analysis(results, folder, ORDERS_NAME, tables, map(picture, charts))
 
 
 def write_comparison(
@@ -227,10 +228,10 @@ def write_comparison(
         tables[COMPARED_LIMITS_NAME] = report.limits_csv(orders)
     if figures:
         tables[COMPARED_FIGURES_NAME] = report.figure_limits_csv(figures)
-    pictures = report.compared_order_figures(orders)
-    tables[COMPARISON_REPORT_NAME] = report.comparison_html(compared, figures, pictures)
+    charts = report.compared_order_charts(orders)
+    tables[COMPARISON_REPORT_NAME] = report.comparison_html(compared, figures, charts)
     tables = with_pdf(tables, printer)
-    return write_analysis(orders, folder, COMPARISON_NAME, tables, lambda _: pictures)
+    return write_analysis(orders, folder, COMPARISON_NAME, tables, map(picture, charts))
 
 
 def write_analysis(
@@ -238,7 +239,7 @@ def write_analysis(
     folder: str | Path,
     name: str,
     tables: Mapping[str, bytes],
-    figures: Callable[[xr.Dataset], list[Picture]],
+    pictures: Iterable[Picture] = (),
 ) -> Path:
     """Write a dataset with tables and what was drawn of it, together or not at all.
 
@@ -246,13 +247,10 @@ def write_analysis(
     -------
     path of the dataset
     """
-    files = {
-        **tables,
-        **{f"{picture.name}.{picture.ending}": picture.content for picture in figures(results)},
-    }
+    drawn = {f"{each.name}.{each.ending}": each.content for each in pictures}
     with manifest.replacing(Path(folder), name) as staged:
         storage.stage_results(results, staged, name)
-        _stage(files, staged)
+        _stage({**tables, **drawn}, staged)
     return Path(folder) / name
 
 

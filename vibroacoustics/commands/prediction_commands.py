@@ -22,6 +22,7 @@ def predict_command(
     """Predict a change of mounts, masses or absorbers from measurements alone, with a band."""
     from .. import report
     from ..measured.prediction import predict
+    from ..report.charts.picture import picture
     from . import outputs
 
     folder = out or Path("reports") / file.stem
@@ -31,9 +32,8 @@ def predict_command(
         "prediction.csv": report.prediction_csv(predicted),
         "prediction.md": report.prediction_markdown(predicted),
     }
-    written = outputs.write_analysis(
-        predicted, folder, PREDICTION_NAME, tables, report.predicted_figures
-    )
+    pictures = map(picture, report.predicted_charts(predicted))
+    written = outputs.write_analysis(predicted, folder, PREDICTION_NAME, tables, pictures)
     return Outcome(report.prediction_text(predicted), {"prediction": written})
 
 
@@ -46,6 +46,7 @@ def blocked_forces_command(
     from .. import report
     from ..measured.blocked_forces import blocked_forces
     from ..measured.blocked_orders import blocked_orders_csv
+    from ..report.charts.picture import picture
     from . import outputs
 
     folder = out or Path("reports") / file.stem
@@ -60,5 +61,6 @@ def blocked_forces_command(
         orders = blocked_orders_csv(blocked)
     if orders is not None:
         tables["orders.csv"] = orders
-    written = outputs.write_analysis(blocked, folder, BLOCKED_NAME, tables, report.blocked_figures)
+    pictures = map(picture, report.blocked_charts(blocked))
+    written = outputs.write_analysis(blocked, folder, BLOCKED_NAME, tables, pictures)
     return Outcome(report.blocked_text(blocked), {"blocked forces": written})

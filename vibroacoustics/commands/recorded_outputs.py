@@ -6,6 +6,7 @@ from typing import Final
 import xarray as xr
 
 from .. import report
+from ..report.charts.picture import picture
 from .outputs import write_analysis
 from .tone_tables import tones_csv, tones_html
 
@@ -19,17 +20,18 @@ TONES_REPORT_NAME: Final = "tones.html"
 def write_tracked(tracked: xr.Dataset, folder: str | Path) -> Path:
     """Write tracked orders with table and figures; see `write_analysis`."""
     table = {"tracked_orders.csv": report.tracked_csv(tracked)}
-    return write_analysis(tracked, folder, TRACKED_NAME, table, report.tracked_order_figures)
+    pictures = map(picture, report.tracked_order_charts(tracked))
+    return write_analysis(tracked, folder, TRACKED_NAME, table, pictures)
 
 
 def write_speed_map(mapped: xr.Dataset, folder: str | Path) -> Path:
     """Write a speed-frequency map with page and figures; see `write_analysis`."""
-    pictures = report.speed_map_figures(mapped)
-    page = {SPEED_MAP_REPORT_NAME: report.speed_map_html(mapped, pictures)}
-    return write_analysis(mapped, folder, SPEED_MAP_NAME, page, lambda _: pictures)
+    charts = report.speed_map_charts(mapped)
+    page = {SPEED_MAP_REPORT_NAME: report.speed_map_html(mapped, charts)}
+    return write_analysis(mapped, folder, SPEED_MAP_NAME, page, map(picture, charts))
 
 
 def write_tones(tones: xr.Dataset, folder: str | Path) -> Path:
     """Write tones with table and page; see `write_analysis`."""
     files = {"tones.csv": tones_csv(tones), TONES_REPORT_NAME: tones_html(tones)}
-    return write_analysis(tones, folder, TONES_NAME, files, lambda _: [])
+    return write_analysis(tones, folder, TONES_NAME, files)

@@ -66,7 +66,7 @@ def sound_power_command(
         "sound_power.csv": report.measured_power_csv(measured),
         "sound_power.html": report.measured_power_html(measured),
     }
-    written = outputs.write_analysis(measured, folder, SOUND_POWER_NAME, tables, lambda _: [])
+    written = outputs.write_analysis(measured, folder, SOUND_POWER_NAME, tables)
     level = {
         "value": measured["measured_power_level_a"].item(),
         "unit": "dB(A)",

@@ -26,16 +26,16 @@ from .data_sheet import data_sheet_csv, data_sheet_html, data_sheet_json
 from .data_sheet import headline as data_sheet_headline
 from .designs.best import no_best
 from .designs.page import designs_json, designs_text, render_designs
-from .figures.blocked_forces import blocked_figures
-from .figures.compared_orders import compared_order_figures
-from .figures.curves import curve_figures
-from .figures.prediction import predicted_figures
+from .figures.blocked_forces import blocked_charts
+from .figures.compared_orders import compared_order_charts
+from .figures.curves import curve_charts
+from .figures.prediction import predicted_charts
 from .figures.recorded_orders import (
-    recorded_order_figures,
-    speed_map_figures,
-    tracked_order_figures,
+    recorded_order_charts,
+    speed_map_charts,
+    tracked_order_charts,
 )
-from .figures.style import file_name
+from .file_names import file_name
 from .html import html
 from .kept_columns import keep_columns
 from .kept_columns import kept as kept_columns
@@ -64,19 +64,19 @@ from .sections.sources.tables import sources_csv
 from .shown_speeds import over_speed
 
 __all__ = [
+    "blocked_charts",
     "blocked_csv",
-    "blocked_figures",
     "blocked_markdown",
     "blocked_text",
     "broken_lines",
     "check_kept",
-    "compared_order_figures",
+    "compared_order_charts",
     "comparison_html",
     "comparison_of_orders_csv",
     "comparison_of_orders_text",
     "comparison_text",
+    "curve_charts",
     "curve_csv",
-    "curve_figures",
     "data_sheet_csv",
     "data_sheet_headline",
     "data_sheet_html",
@@ -97,19 +97,19 @@ __all__ = [
     "orders_csv",
     "orders_html",
     "orders_text",
-    "predicted_figures",
+    "predicted_charts",
     "prediction_csv",
     "prediction_markdown",
     "prediction_text",
     "radiation_figures",
     "radiation_text",
-    "recorded_order_figures",
+    "recorded_order_charts",
     "render",
     "render_designs",
-    "speed_map_figures",
+    "speed_map_charts",
     "speed_map_html",
     "tracked_csv",
-    "tracked_order_figures",
+    "tracked_order_charts",
     "tracked_text",
     "validation_csv",
 ]

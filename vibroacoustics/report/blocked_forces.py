@@ -27,9 +27,9 @@ def blocked_markdown(blocked: xr.Dataset) -> bytes:
         f"# {escape_markdown(blocked.attrs['title'])}",
         f"Blocked forces (ISO 20270). Computed {blocked.attrs['created_utc']}.",
         to_markdown(_validation(blocked)),
-        "![On-board validation](validation.png)",
+        "![On-board validation](validation.svg)",
         to_markdown(_bands(blocked)),
-        "![Blocked forces](blocked_forces.png)",
+        "![Blocked forces](blocked_forces.svg)",
         to_markdown(_truncation(blocked)),
         "\n".join(f"- {note}" for note in _notes(blocked)),
     ]

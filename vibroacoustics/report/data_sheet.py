@@ -7,7 +7,7 @@ from ..base.decibel import NO_TONE_DB
 from ..results.data_sheet import BandPower, DataSheet, SoundPower, Tone, Vibration
 from ..results.estimates import Estimate
 from .blocks import Bullets, Pictures, Text
-from .figures.data_sheet import sheet_picture
+from .figures.data_sheet import sheet_chart
 from .html import html
 from .page import Page, Part
 from .sections.tones.tables import excess_words
@@ -31,7 +31,7 @@ def data_sheet_html(sheet: DataSheet) -> bytes:
     power = sheet.sound_power
     parts = (
         Part("level", "Sound power", (Text(headline(sheet), "headline"), *_words(power))),
-        Part("bands", "Third octaves", (Pictures((sheet_picture(power),)), _bands(power))),
+        Part("bands", "Third octaves", (Pictures((sheet_chart(power),)), _bands(power))),
         Part("tones", "Tones", _tones(sheet)),
         Part(
             "vibration",

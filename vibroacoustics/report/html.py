@@ -9,7 +9,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from .blocks import Text, drawn
-from .figures.style import Picture
+from .charts.picture import Picture
 from .live.assets import live_script, live_style, unpacking_script
 from .live.numbers import packed
 from .page import Page

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..base import rounding
 from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 from .blocks import Bullets, Pictures, Text
-from .figures.measured_power import power_picture
+from .figures.measured_power import power_chart
 from .html import html
 from .page import Page, Part
 from .tables import Table, to_csv, to_text
@@ -51,7 +51,7 @@ def measured_power_html(measured: xr.Dataset) -> bytes:
     """The page."""
     parts = (
         Part("level", "Sound power level", (Text(headline(measured), "headline"),)),
-        Part("bands", "Third octaves", (Pictures((power_picture(measured),)), _table(measured))),
+        Part("bands", "Third octaves", (Pictures((power_chart(measured),)), _table(measured))),
         Part("remarks", "Measurement", (Bullets(tuple(_remarks(measured))),)),
     )
     attrs = measured.attrs

@@ -9,8 +9,9 @@ from ..base.processes import side_by_side
 from ..results.stored_study import parameters
 from ..results.titles import titled
 from .blocks import Block, pictures
+from .charts.picture import Picture
 from .columns import COLUMNS
-from .figures.style import Picture, file_name
+from .file_names import file_name
 from .kept_columns import columns_of
 from .kept_sections import sections_of
 from .left_out import with_lines

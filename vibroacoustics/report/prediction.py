@@ -6,7 +6,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.decibel import SILENCE_DB
 from ..base.vocabulary import REFERENCE_OPTION
-from .figures.style import numbered
+from .file_names import numbered
 from .tables import Table, dataset_csv, escape_markdown, to_markdown, to_text
 
 
@@ -19,7 +19,7 @@ def prediction_text(predicted: xr.Dataset) -> str:
 def prediction_markdown(predicted: xr.Dataset) -> bytes:
     """A short report: tables, notes and the figures beside it."""
     pictures = [
-        f"![{escape_markdown(name)}](prediction_{file}.png)"
+        f"![{escape_markdown(name)}](prediction_{file}.svg)"
         for name, file in numbered(predicted, "receiver")
     ]
     parts = [

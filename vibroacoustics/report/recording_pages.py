@@ -9,23 +9,23 @@ from ..results.over_speed.avoid import recorded_speeds_to_avoid
 from ..results.over_speed.level_curves import is_run_up, recorded_curves
 from .avoid import RECORDED_RULE, recorded_avoid_table
 from .blocks import Block, Bullets, Pictures, Text
-from .figures.style import Picture
+from .charts.marks import Chart
 from .html import html
 from .limit_tables import order_limits_table
 from .order_tables import orders_facts, orders_tables
 from .page import Page, Part
 
 
-def orders_html(results: xr.Dataset, pictures: Sequence[Picture]) -> bytes:
+def orders_html(results: xr.Dataset, charts: Sequence[Chart]) -> bytes:
     """The page.
 
     Parameters
     ----------
     results : orders of a recording
-    pictures : of its channels
+    charts : of its channels
     """
     parts = [
-        Part("figures", "Orders by channel", (Pictures(tuple(pictures)),)),
+        Part("figures", "Orders by channel", (Pictures(tuple(charts)),)),
         Part("orders", "Orders and levels", tuple(orders_tables(results))),
         Part("settings", "Speed and resolution", (Bullets(tuple(orders_facts(results))),)),
     ]
@@ -36,15 +36,15 @@ def orders_html(results: xr.Dataset, pictures: Sequence[Picture]) -> bytes:
     return html(Page(str(attrs["title"]), "Recording", attrs["created_utc"], tuple(parts), about))
 
 
-def speed_map_html(mapped: xr.Dataset, pictures: Sequence[Picture]) -> bytes:
+def speed_map_html(mapped: xr.Dataset, charts: Sequence[Chart]) -> bytes:
     """The page.
 
     Parameters
     ----------
     mapped : of `speed_frequency_map`
-    pictures : of its channels
+    charts : of its channels
     """
-    parts = [Part("maps", "Over speed and frequency", (Pictures(tuple(pictures)),))]
+    parts = [Part("maps", "Over speed and frequency", (Pictures(tuple(charts)),))]
     if is_run_up(mapped["block_speed"]) and "block_level" in mapped:
         parts.insert(0, Part("avoid", "Speeds to avoid", tuple(_avoid(mapped))))
     about = f"Lines of {mapped.attrs['resolution_hz']:.3g} Hz, {mapped.attrs['window']} window."

@@ -3,14 +3,17 @@
 from collections.abc import Callable
 from functools import wraps
 from inspect import cleandoc
-from typing import Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import xarray as xr
-from matplotlib.figure import Figure
 
 from ...base.errors import ParameterError
 from ...base.vocabulary import VARIABLES
 from ..titles import titled
+from .marks import Chart
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Maker = TypeVar("Maker", bound=Callable[..., Any])
 
@@ -42,7 +45,7 @@ def needs(*variables: str, from_: str = "`run`", any_of: bool = False) -> Callab
     return guarded
 
 
-def plotted(make: Callable[..., Any], file: str = "results.nc") -> Callable[..., Figure]:
+def plotted(make: Callable[..., Chart], file: str = "results.nc") -> "Callable[..., Figure]":
     """Return a function that draws with matplotlib what another returns as a chart.
 
     Parameters
@@ -52,11 +55,10 @@ def plotted(make: Callable[..., Any], file: str = "results.nc") -> Callable[...,
     """
 
     @wraps(make)
-    def plot(*args: Any, **kwargs: Any) -> Figure:
+    def plot(*args: Any, **kwargs: Any) -> "Figure":
         from .figure import figure
 
-        made = make(*args, **kwargs)
-        return made if isinstance(made, Figure) else figure(made)
+        return figure(make(*args, **kwargs))
 
     plot.__doc__ = f"""{cleandoc(make.__doc__ or "")}
 

@@ -88,7 +88,8 @@ def _bars(mark: Bars, frame: Frame, look: Look) -> tuple[str, str]:
         first, last = (frame.points(x, y) for x, y in zip(along, across, strict=True))
     else:
         first, last = (frame.points(x, y) for x, y in zip(across, along, strict=True))
-    ends = zip(np.nan_to_num(first), np.nan_to_num(last), strict=True)
+    finite = np.isfinite(first).all(axis=1) & np.isfinite(last).all(axis=1)
+    ends = zip(first[finite], last[finite], strict=True)
     shape = "".join(f"M{x:.1f} {y:.1f}H{x2:.1f}V{y2:.1f}H{x:.1f}Z" for (x, y), (x2, y2) in ends)
     parts = [f'<path d="{shape}" fill="{colour}"/>']
     if mark.interval is not None:

@@ -67,6 +67,10 @@ def markers(points: Array, shape: str, size: float, colour: str, filled: bool) -
         looks = f'stroke="{colour}" stroke-width="{1.6 / size:.2g}"'
     elif not filled:
         looks += f' stroke-width="{1.3 if shape in "o." else 1.3 / size:.2g}"'
+    if shape in "o." and filled:
+        dots = "".join(f"M{x:.1f} {y:.1f}h0" for x, y in finite)
+        looks = f'stroke="{colour}" stroke-width="{2.0 * size:.3g}" stroke-linecap="round"'
+        return f'<path d="{dots}" {looks}/>'
     if shape in "o.":
         return "".join(
             f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{size:.3g}" {looks}/>' for x, y in finite

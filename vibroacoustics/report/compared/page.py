@@ -17,8 +17,8 @@ from ...results.validation import (
 )
 from ..bands import percent
 from ..blocks import Block, Details, Pictures, Text
-from ..figures.compared_orders import difference_picture
-from ..figures.style import Picture
+from ..charts.marks import Chart
+from ..figures.compared_orders import order_differences
 from ..html import html
 from ..page import Page, Part
 from ..sections.evidence.tables import validation_table
@@ -26,7 +26,7 @@ from ..tables import Table
 from .levels import levels_tables
 from .limits import limit_blocks, limits_sentence
 from .orders import is_pressure, known_channels, orders_table, summary
-from .over_speed import channel_pictures, over_speed_parts
+from .over_speed import channel_charts, over_speed_parts
 from .studies import inputs_table, key_figures
 from .validation import is_study, validations_of
 
@@ -35,7 +35,7 @@ MOST_ROWS: Final = 40
 
 
 def comparison_html(
-    compared: Compared, figures: Sequence[CheckedFigure], pictures: Sequence[Picture]
+    compared: Compared, figures: Sequence[CheckedFigure], charts: Sequence[Chart]
 ) -> bytes:
     """The page.
 
@@ -43,7 +43,7 @@ def comparison_html(
     ----------
     compared : two results, with what limits of orders say
     figures : other figures that have a limit
-    pictures : orders of each channel in both results
+    charts : orders of each channel in both results
     """
     orders = compared.orders
     parts = [
@@ -52,7 +52,7 @@ def comparison_html(
         *_figures_of_studies(compared),
         *over_speed_parts(compared),
         *_validation(compared),
-        Part("orders", "Orders", tuple(_orders(orders, pictures))),
+        Part("orders", "Orders", tuple(_orders(orders, charts))),
         *_levels(compared),
         *_runs(compared),
         *_inputs(compared),
@@ -112,23 +112,23 @@ def _validation(compared: Compared) -> list[Part]:
     return [Part("validation", "Validation", (Text(note, "note"), table))]
 
 
-def _orders(orders: xr.Dataset, pictures: Sequence[Picture]) -> list[Block]:
+def _orders(orders: xr.Dataset, charts: Sequence[Chart]) -> list[Block]:
     channels = known_channels(orders)
     if not channels:
         return [Text(summary(orders))]
-    drawn = dict(zip(_drawn_channels(orders), pictures, strict=True))
+    drawn = dict(zip(_drawn_channels(orders), charts, strict=True))
     loud = dict(zip(map(str, orders["channel"].values), is_pressure(orders), strict=True))
     first = [name for name in channels if loud[name]] or channels[:1]
-    blocks: list[Block] = [Pictures((difference_picture(orders),))]
+    blocks: list[Block] = [Pictures((order_differences(orders),))]
     for name in channels:
-        pictures_of = (*(channel_pictures(orders, name) if name in first else ()), drawn[name])
-        of_channel: tuple[Block, ...] = (orders_table(orders, name), Pictures(pictures_of))
+        charts_of = (*(channel_charts(orders, name) if name in first else ()), drawn[name])
+        of_channel: tuple[Block, ...] = (orders_table(orders, name), Pictures(charts_of))
         blocks += of_channel if name in first else [Details(name, of_channel)]
     return blocks
 
 
 def _drawn_channels(orders: xr.Dataset) -> list[str]:
-    """Channels that have a picture, in their order in the dataset."""
+    """Channels that have a chart, in their order in the dataset."""
     known = orders["order_difference"].notnull().any(("speed", "order")).values
     return [str(name) for name in orders["channel"].values[known]]
 

@@ -1,59 +1,65 @@
-"""Figures of many designs: front, parallel coordinates, main effects."""
+"""Charts of many designs: front, parallel coordinates, main effects."""
 
-from collections.abc import Sequence
-from typing import Final
+from collections.abc import Iterator, Sequence
+from typing import Final, Literal
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ...base.arrays import Array, IndexArray
-from ..figures.style import COLOURS, draw, legend_below, plain, shortened, wrap
+from ..charts.layout import COLOURS, shortened, wrapped
+from ..charts.marks import Axis, Chart, Line, Mark, Note, Panel, Points, named_axis
 from .evaluated import Column, Evaluated
 
-_MOST_POINTS: Final = 20_000
+_MOST_POINTS: Final = 5_000
 _MOST_LINES: Final = 200
 _BINS: Final = 12
-_GREY, _BLUE = "#bbbbbb", COLOURS[3]
+_GREY, _BLUE, _PALE = "#bbbbbb", COLOURS[3], "#8cb8d9"
 _OF_BEST: Final = (COLOURS[1], COLOURS[0], COLOURS[5], COLOURS[4], COLOURS[2])
+_PANELS: Final = 4
+"""Variables of a chart of main effects."""
 
 
-def front_figure(designs: Evaluated) -> Figure:
-    """Every objective over the first: all designs that meet the constraints, front, best few.
+def front_chart(designs: Evaluated) -> Chart:
+    """Return every objective over the first: allowed designs, front, best few.
 
     Parameters
     ----------
     designs : with two objectives or more
     """
     first, *others = designs.objectives
-    allowed = _thinned(np.flatnonzero(designs.met & ~designs.front))
     front = np.flatnonzero(designs.front)
-
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, other in zip(panels, others, strict=True):
-            pairs = ((allowed, _GREY, 3.0, "allowed designs"), (front, _BLUE, 8.0, "front"))
-            for rows, colour, size, label in pairs:
-                axes.scatter(
-                    first.values[rows], other.values[rows], s=size, color=colour, label=label,
-                    linewidths=0,
-                )  # fmt: skip
-            _number(axes, designs.best, first, other)
-            axes.set_xlabel(plain(first.heading))
-            axes.set_ylabel(wrap(other.heading, 34))
-            axes.set_xlim(*_near_front(first.values, front))
-            axes.set_ylim(*_near_front(other.values, front))
-        legend_below(panels[-1], 3)
-
-    return draw(len(others), 2.9, paint, 2 + len(designs.best) // 3)
-
-
-def _number(axes: Axes, best: IndexArray, first: Column, other: Column) -> None:
-    """The best few as open circles, each in its colour."""
-    for number, row in enumerate(best, 1):
-        axes.scatter(
-            first.values[row], other.values[row], s=34, facecolors="none",
-            edgecolors=_colour(number), linewidths=1.5, label=f"design {number}", zorder=3,
-        )  # fmt: skip
+    x_ends = _near_front(first.values, front)
+    panels = []
+    for other in others:
+        y_ends = _near_front(other.values, front)
+        is_shown = designs.met & ~designs.front
+        for column, (low, high) in ((first, x_ends), (other, y_ends)):
+            is_shown = is_shown & (column.values >= low) & (column.values <= high)
+        every = [
+            (_thinned(np.flatnonzero(is_shown)), _GREY, 3.0, "allowed designs"),
+            (front, _BLUE, 4.5, "front"),
+        ]
+        marks = [
+            Points(first.values[rows], other.values[rows], name, None, colour, "o", size)
+            for rows, colour, size, name in every
+        ]
+        marks += [
+            Points(
+                [first.values[row]], [other.values[row]], f"design {number}", None,
+                _colour(number), "o", 9.0, filled=False,
+            )
+            for number, row in enumerate(designs.best, 1)
+        ]  # fmt: skip
+        x = Axis(wrapped(first.heading, 60), limits=x_ends)
+        y = Axis(wrapped(shortened(other.heading, 64), 34), limits=y_ends)
+        panels.append(Panel(x, y, tuple(marks), height=3.1))
+    return Chart(
+        "front",
+        "Objectives of all allowed designs and of the front; the best few are in the table.",
+        f"Front of {int(designs.front.sum())} designs of which none is better in every "
+        "objective than another; the numbers are those of the table.",
+        tuple(panels),
+    )
 
 
 def _colour(number: int) -> str:
@@ -61,7 +67,7 @@ def _colour(number: int) -> str:
 
 
 def _near_front(values: Array, front: IndexArray) -> tuple[float, float]:
-    """Limits of an axis that show the front and what is near it."""
+    """Return limits of an axis that show the front and what is near it."""
     low, high = float(values[front].min()), float(values[front].max())
     span = max(high - low, 1e-3 * abs(low), 1e-12)
     more_is_better = np.median(values) < 0.5 * (low + high)
@@ -69,8 +75,8 @@ def _near_front(values: Array, front: IndexArray) -> tuple[float, float]:
     return (low - far, high + near) if more_is_better else (low - near, high + far)
 
 
-def parallel_figure(designs: Evaluated) -> Figure:
-    """Parallel coordinates of the front: a line a design over variables and objectives.
+def parallel_chart(designs: Evaluated) -> Chart:
+    """Return parallel coordinates of the front: a line a design over variables and objectives.
 
     Parameters
     ----------
@@ -80,60 +86,68 @@ def parallel_figure(designs: Evaluated) -> Figure:
     front = _thinned(np.flatnonzero(designs.front), _MOST_LINES)
     rows = np.flatnonzero(designs.met)
     scaled = np.stack([_share(column.values, rows) for column in columns])
-
-    def paint(panels: Sequence[Axes]) -> None:
-        (axes,) = panels
-        heights = np.arange(len(columns))
-        axes.plot(scaled[:, front], -heights, color=_BLUE, linewidth=0.6, alpha=0.45)
-        for number, row in enumerate(designs.best, 1):
-            axes.plot(
-                scaled[:, row], -heights, color=_colour(number), linewidth=1.4, marker=".",
-                label=f"design {number}",
-            )  # fmt: skip
-        axes.set_yticks(-heights, [wrap(shortened(column.heading, 60), 26) for column in columns])
-        for height, column in enumerate(columns):
-            for share, end in ((0.0, "nanmin"), (1.0, "nanmax")):
-                value = float(getattr(np, end)(column.values[rows]))
-                words = column.words[round(value)] if column.words else f"{value:.3g}"
-                axes.annotate(
-                    plain(words), (share, -height), xytext=(0, -10), textcoords="offset points",
-                    ha="left" if share == 0.0 else "right", fontsize=7.5, color="#555555",
-                )  # fmt: skip
-        axes.set_xlim(-0.03, 1.03)
-        axes.set_xticks([0.0, 1.0], ["least allowed", "greatest allowed"])
-        axes.grid(visible=True, axis="y")
-        legend_below(axes, 3)
-
-    return draw(1, 0.7 + 0.45 * len(columns), paint, 1 + len(designs.best) // 3)
+    height = np.arange(float(len(columns)))
+    gaps = np.full((1, front.size), np.nan)  # between designs
+    shares = np.concatenate([scaled[:, front], gaps]).T.ravel()
+    heights = np.tile([*height, np.nan], front.size)
+    best = (
+        Line(scaled[:, row], height, f"design {n}", None, _colour(n), "-", "o", 1.4)
+        for n, row in enumerate(designs.best, 1)
+    )
+    marks = (Line(shares, heights, "", None, _PALE, "-", width=0.6), *best, *_ends(columns, rows))
+    x = Axis(limits=(-0.03, 1.03), ticks=((0.0, "least allowed"), (1.0, "greatest allowed")))
+    y = named_axis([shortened(column.heading, 60) for column in columns], lambda w: wrapped(w, 26))
+    return Chart(
+        "parallel_coordinates",
+        "A line for each design of the front over all variables and objectives.",
+        "Parallel coordinates of the front: each scale goes from the least to the greatest "
+        "value of the allowed designs.",
+        (Panel(x, y, marks, height=0.7 + 0.45 * len(columns)),),
+    )
 
 
-def main_effects_figure(variables: Sequence[Column], objective: Column) -> Figure:
-    """An objective over variables: median of designs that fill the space, and 80 % of them.
+def _ends(columns: Sequence[Column], rows: IndexArray) -> Iterator[Mark]:
+    """Yield the least and the greatest value of each column below its scale."""
+    for row, column in enumerate(columns):
+        values = column.values[rows]
+        for share, value in ((0.0, np.nanmin(values)), (1.0, np.nanmax(values))):
+            words = column.words[round(float(value))] if column.words else f"{value:.3g}"
+            align: Literal["left", "right"] = "right" if share else "left"
+            yield Note(share, float(row), words, "#555555", align, (0.0, -12.0))
+
+
+def main_effects_charts(
+    variables: Sequence[Column], objective: Column, number: int
+) -> Iterator[Chart]:
+    """Yield an objective over variables: median of designs that fill the space, and 80 % of them.
 
     Parameters
     ----------
     variables, objective : of the same designs; those that failed are not numbers
+    number : of the objective
     """
-    sound = np.isfinite(objective.values)
+    for start in range(0, len(variables), _PANELS):
+        yield Chart(
+            f"main_effects_{number}_{start // _PANELS + 1}",
+            f"Median and middle 80 % of {objective.label} over each variable.",
+            f"{objective.heading} over each variable: median and middle 80 % of designs that fill "
+            "the design space evenly.",
+            tuple(_effect(each, objective) for each in variables[start : start + _PANELS]),
+        )
 
-    def paint(panels: Sequence[Axes]) -> None:
-        for axes, variable in zip(panels, variables, strict=True):
-            there = sound & np.isfinite(variable.values)
-            middle, quantiles = _by_bin(variable.values[there], objective.values[there])
-            axes.fill_between(middle, quantiles[0], quantiles[2], color=_BLUE, alpha=0.2,
-                              linewidth=0, label="middle 80 % of the designs")  # fmt: skip
-            axes.plot(middle, quantiles[1], color=_BLUE, marker=".", label="median")
-            axes.set_xlabel(plain(variable.heading))
-            axes.set_ylabel(wrap(shortened(objective.heading, 60), 24))
-            if variable.words:
-                axes.set_xticks(range(len(variable.words)), [wrap(w, 14) for w in variable.words])
-        legend_below(panels[-1])
 
-    return draw(len(variables), 1.6, paint, sharey=True)
+def _effect(variable: Column, objective: Column) -> Panel:
+    is_finite = np.isfinite(objective.values) & np.isfinite(variable.values)
+    middle, (low, median, high) = _by_bin(variable.values[is_finite], objective.values[is_finite])
+    line = Line(middle, median, "median, middle 80 % of the designs", (low, high), _BLUE, "-", "o")
+    words = tuple((float(n), wrapped(word, 14)) for n, word in enumerate(variable.words))
+    x = Axis(wrapped(variable.heading, 60), ticks=words or None)
+    y = Axis(wrapped(shortened(objective.heading, 48), 24))
+    return Panel(x, y, (line,), height=1.8)
 
 
 def _by_bin(values: Array, objective: Array) -> tuple[Array, Array]:
-    """Middles of the bins of a variable, and quantiles 10, 50 and 90 % in each, shape (3, bin)."""
+    """Return middles of the bins of a variable, and quantiles 10, 50 and 90 %, shape (3, bin)."""
     levels = np.unique(values)
     if len(levels) <= _BINS:
         groups = [objective[values == level] for level in levels]
@@ -147,13 +161,13 @@ def _by_bin(values: Array, objective: Array) -> tuple[Array, Array]:
 
 
 def _share(values: Array, rows: IndexArray) -> Array:
-    """Values from 0, the least of some rows, to 1, the greatest of them."""
+    """Return values from 0, the least of some rows, to 1, the greatest of them."""
     low, high = float(np.nanmin(values[rows])), float(np.nanmax(values[rows]))
     return (values - low) / (high - low) if high > low else np.full(len(values), 0.5)
 
 
 def _thinned(rows: IndexArray, most: int = _MOST_POINTS) -> IndexArray:
-    """At most so many rows, evenly chosen."""
+    """Return at most so many rows, evenly chosen."""
     if len(rows) <= most:
         return rows
     return rows[np.linspace(0, len(rows) - 1, most).round().astype(np.intp)]

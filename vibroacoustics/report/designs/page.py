@@ -1,7 +1,7 @@
 """The report of a search of designs as one page."""
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -9,7 +9,6 @@ import xarray as xr
 
 from ...results.stored_study import parameters
 from ..blocks import Block, Bullets, Details, Pictures, Text
-from ..figures.style import Picture, png
 from ..html import html
 from ..page import Page, Part
 from ..sections.unknowns.tables import NOT_RESOLVED, share_words
@@ -17,11 +16,10 @@ from ..tables import Table, to_text
 from .best import best_tables, limiting, no_best, shown
 from .csv import designs_csv
 from .evaluated import Column, Evaluated
-from .figures import front_figure, main_effects_figure, parallel_figure
+from .figures import front_chart, main_effects_charts, parallel_chart
 from .reading import evaluated, objectives_of, variable_label, variables_of
 
 _ENDS: Final = ("_low", "", "_high")
-_PANELS: Final = 4
 ABOUT: Final = "Designs, what each objective costs the others, and what built pieces will keep."
 
 
@@ -171,45 +169,17 @@ def _failed(search: xr.Dataset) -> str:
 def _front(designs: Evaluated) -> list[Block]:
     if len(designs.objectives) < 2:
         return []
-    pictures = (
-        Picture(
-            "front",
-            "Objectives of all allowed designs and of the front; the best few are in the table.",
-            f"Front of {int(designs.front.sum())} designs of which none is better in every "
-            "objective than another; the numbers are those of the table.",
-            png(front_figure(designs)),
-        ),
-        Picture(
-            "parallel_coordinates",
-            "A line for each design of the front over all variables and objectives.",
-            "Parallel coordinates of the front: each scale goes from the least to the greatest "
-            "value of the allowed designs.",
-            png(parallel_figure(designs)),
-        ),
-    )
-    return [Pictures(pictures)]
+    return [Pictures((front_chart(designs), parallel_chart(designs)))]
 
 
 def _deciding(search: xr.Dataset) -> list[Block]:
     variables = variables_of(search, "spread_value")
     first, *others = [
-        Pictures(tuple(_effects(variables, column, number)))
+        Pictures(tuple(main_effects_charts(variables, column, number)))
         for number, column in enumerate(objectives_of(search, "spread_wanted"), 1)
     ]
     more = [Details("Main effects of the other objectives", tuple(others))]
     return [_shares(search), first, *(more if others else [])]
-
-
-def _effects(variables: Sequence[Column], objective: Column, number: int) -> Iterator[Picture]:
-    """An objective over each variable, some variables a picture."""
-    for start in range(0, len(variables), _PANELS):
-        yield Picture(
-            f"main_effects_{number}_{start // _PANELS + 1}",
-            f"Median and middle 80 % of {objective.label} over each variable.",
-            f"{objective.heading} over each variable: median and middle 80 % of designs that fill "
-            "the design space evenly.",
-            png(main_effects_figure(variables[start : start + _PANELS], objective)),
-        )
 
 
 def _shares(search: xr.Dataset) -> Table:

@@ -9,7 +9,7 @@ from ...base import rounding
 from ...base.arrays import Array
 from ...base.ellipse import semi_major_axis
 from ...results.stored_study import parameters
-from ..figures.style import Picture
+from ..charts.picture import Picture
 from ..quantities import FOOT_FORCE, FORCE, MOMENT
 from . import svg
 from .loads import Loads, loads

@@ -1,13 +1,10 @@
 """Campbell diagram: lines of sound over the speed, natural frequencies, where both meet."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Final
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
@@ -15,9 +12,12 @@ from ...results.over_speed.avoid import LEVEL, speeds_to_avoid
 from ...results.over_speed.modes import KINDS, Crossing, Mode, crossings, modes_of
 from ...results.over_speed.sound_lines import SoundLine, loudest_lines
 from ...results.stored_study import catalogue_receiver
+from ..charts.axes import stacked
+from ..charts.layout import COLOURS, shortened
+from ..charts.marks import Axis, Chart, Line, Mark, Note, Panel, Points, Segments
 from ..charts.needs import needs
 from ..titles import chosen
-from .style import COLOURS, WIDTH_INCH, draw, shade, shortened
+from .levels_over_speed import SHADED, spans
 
 LOUD_DB: Final = 10.0
 """Crossings at which the line is within this of all that is modelled are marked large."""
@@ -25,6 +25,8 @@ _LOW_ORDERS: Final = (1.0, 2.0, 3.0, 4.0)
 """Drawn over the modes on the mounts."""
 _TONE: Final = "#777777"
 _COLOURS: Final = dict(zip(KINDS, (COLOURS[5], COLOURS[3], COLOURS[2]), strict=True))
+_WORDS: Final = {KINDS[0]: "on the mounts"}
+_HEIGHTS: Final = (3.6, 1.9)
 
 
 @needs("natural_frequency", "pressure_line")
@@ -33,13 +35,12 @@ def campbell(
     receiver: str | None = None,
     option: str = REFERENCE_OPTION,
     beside: xr.Dataset | None = None,
-    width_inch: float = WIDTH_INCH,
-) -> Figure:
+) -> Chart:
     """Campbell diagram: modes of shell and gas above, on the mounts below, lines of sound across.
 
     Lines are the eight loudest orders and four loudest other tones after weighting by A, below
     orders 1 to 4. Crossings are marked, large where the line is within 10 dB of the modelled level.
-    Speeds to avoid are shaded. Natural frequencies are those of the values as given, without loss.
+    Speeds to avoid are shaded. Natural frequencies are nominal values, without loss.
 
     Parameters
     ----------
@@ -48,49 +49,52 @@ def campbell(
     receiver : one of the microphones; default: that of the catalogue's noise
     option : one of the results
     beside : other results, whose modes are dashed
-    width_inch : of the figure
-
-    Raises
-    ------
-    ParameterError
-        The results hold none, or there is no such receiver or option.
-
-    Examples
-    --------
-    >>> results = va.open_results("results.nc")
-    >>> va.plot.campbell(results).savefig("campbell.png")
     """
-    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    microphone = chosen(results, "receiver", receiver or catalogue_receiver(results))
     option = chosen(results, "option", option)
     sorted_by_speed = results.sortby("speed")
     speed = sorted_by_speed["speed"].values
-    level = sorted_by_speed["level_modelled"].sel(option=option, receiver=at, weighting="A")
+    level = sorted_by_speed["level_modelled"].sel(option=option, receiver=microphone, weighting="A")
     modes, others = modes_of(results), [] if beside is None else modes_of(beside)
-    above = [mode for mode in modes if mode.kind != KINDS[0]]
-    below = [mode for mode in modes if mode.kind == KINDS[0]]
-    avoided = speeds_to_avoid(results, at, [option])
-    causes = {one.line for one in avoided if one.quantity == LEVEL}
-    lines, low = loudest_lines(results, at, option, causes), _low_orders(speed)
-    parts = [(above, lines)] * bool(above) + [(below, low)]
+    avoided = speeds_to_avoid(results, microphone, [option])
+    causes = {each.line for each in avoided if each.quantity == LEVEL}
+    lines = loudest_lines(results, microphone, option, causes)
+    room = 0.0 if speed.size > 1 else 0.1 * speed[0]
+    x = Axis("Speed, rpm", limits=(float(speed.min() - room), float(speed.max() + room)))
+    shaded = spans([each.range for each in avoided])
+    panels: list[Panel] = []
+    for is_low, drawn in ((False, lines), (True, _low_orders(speed))):
+        of_panel, dashed = ([m for m in some if (m.kind == KINDS[0]) == is_low]
+                            for some in (modes, others))  # fmt: skip
+        if not (of_panel or is_low):
+            continue
+        top = _highest(of_panel, drawn, is_low)
+        met = crossings(drawn, of_panel, speed, level.values)
+        rows = (_modes(of_panel, "-"), _modes(dashed, "--"), _lines(drawn, speed, top))
+        marks = (*shaded, *(m for row in rows for m in row), *_marks(met, all_alike=is_low))
+        title = "" if panels else shortened(f"{microphone}, option {option}", 90)
+        y = Axis("Frequency, Hz", limits=(0.0, top))
+        panels.append(Panel(x, y, marks, title, _HEIGHTS[is_low]))
+    return Chart(*_words(microphone, option, beside is not None), stacked(panels), wide=True)
 
-    def paint(panels: Sequence[Axes]) -> None:
-        loud = False
-        for axes, (of_panel, drawn) in zip(panels, parts, strict=True):
-            is_low = drawn is low
-            dashed = [mode for mode in others if (mode.kind == KINDS[0]) == is_low]
-            _modes(axes, of_panel, dashed, speed)
-            _lines(axes, drawn, speed, _highest(of_panel, drawn, is_low))
-            met = crossings(drawn, of_panel, speed, level.values)
-            loud = _marks(axes, met, all_alike=is_low) or loud
-            for one in avoided:
-                shade(axes, one.range.from_rpm, one.range.to_rpm)
-            axes.set_ylabel("Frequency, Hz")
-        panels[0].set_title(shortened(f"{at}, option {option}"), loc="left")
-        panels[-1].set_xlabel("Speed, rpm")
-        _legend(panels[0], [mode.kind for mode in modes], loud)
 
-    heights = {"height_ratios": [2.2, 1.0]} if above else {}
-    return draw(len(parts), 2.6, paint, 1, width_inch, sharex=True, gridspec_kw=heights)
+def _words(microphone: str, option: str, of_two: bool) -> tuple[str, str, str]:
+    """Return name, text in its place and caption."""
+    if of_two:
+        return (
+            "compared_campbell",
+            "Campbell diagram: lines of A over the speed, natural frequencies of both results.",
+            f"Campbell diagram: lines, crossings and speeds to avoid of A, option {option}. "
+            "Natural frequencies: solid of A, dashed of B.",
+        )
+    return (
+        "campbell",
+        "Campbell diagram: orders and tones over the speed, natural frequencies of mounts, shell "
+        "and gas as level lines.",
+        "Campbell diagram: level lines are natural frequencies, sloping ones orders, dotted ones "
+        f"other tones, the loudest at {microphone}. Large dots: crossings where the line is within "
+        f"{LOUD_DB:g} dB of all that is modelled. {SHADED}",
+    )
 
 
 def _low_orders(speed_rpm: Array) -> list[SoundLine]:
@@ -99,70 +103,45 @@ def _low_orders(speed_rpm: Array) -> list[SoundLine]:
 
 
 def _highest(modes: Sequence[Mode], lines: Sequence[SoundLine], is_low: bool) -> float:
-    """Top of a panel, Hz: above the modes; on the mounts above order 1 too."""
+    """Return the top of a panel, Hz: above the modes; on the mounts above order 1 too."""
     highest = max((mode.frequency_hz for mode in modes), default=0.0)
     first = float(lines[0].frequency_hz.max()) if lines else 0.0
     return 1.15 * max(highest, first) if is_low else 1.03 * highest
 
 
-def _modes(axes: Axes, modes: Sequence[Mode], others: Sequence[Mode], speed_rpm: Array) -> None:
-    for some, dash in ((modes, "-"), (others, "--")):
-        for mode in some:
-            axes.axhline(
-                mode.frequency_hz, color=_COLOURS[mode.kind], linestyle=dash, lw=0.8, alpha=0.75
-            )
-    room = 0.0 if speed_rpm.size > 1 else 0.1 * speed_rpm[0]
-    axes.set_xlim(speed_rpm.min() - room, speed_rpm.max() + room)
+def _modes(modes: Sequence[Mode], dash: str) -> Iterator[Segments]:
+    """Yield the natural frequencies of each kind as level lines."""
+    for kind in KINDS:
+        level_hz = [mode.frequency_hz for mode in modes if mode.kind == kind]
+        ends = np.full(len(level_hz), np.nan)
+        if level_hz:
+            words = _WORDS.get(kind, kind) if dash == "-" else ""
+            yield Segments(ends, level_hz, ends, level_hz, words, _COLOURS[kind], dash, 0.8)
 
 
-def _lines(axes: Axes, lines: Sequence[SoundLine], speed_rpm: Array, highest_hz: float) -> None:
-    """Orders and tones, each with its name where it leaves the panel."""
-    axes.set_ylim(0.0, highest_hz)
-    axes.grid(visible=False)
+def _lines(lines: Sequence[SoundLine], speed_rpm: Array, highest_hz: float) -> Iterator[Mark]:
+    """Yield orders and tones, each with its name where it leaves the panel."""
     for line in lines:
-        is_tone = np.isnan(line.order)
-        colour, dash = (_TONE, ":") if is_tone else (COLOURS[0], "-")
-        axes.plot(speed_rpm, line.frequency_hz, dash, color=colour, lw=0.9, label=line.name)
+        colour, dash = (_TONE, ":") if np.isnan(line.order) else (COLOURS[0], "-")
+        yield Line(speed_rpm, line.frequency_hz, colour=colour, dash=dash, width=0.9)
         within = np.flatnonzero(line.frequency_hz <= highest_hz)
-        if not within.size:
-            continue
-        last = within[-1]
-        leaves = last < speed_rpm.size - 1  # through the top
-        axes.annotate(
-            shortened(line.name, 22), (speed_rpm[last], line.frequency_hz[last]),
-            xytext=(-7, -1) if leaves else (-3, 1), textcoords="offset points", fontsize=6.5,
-            ha="right", va="top" if leaves else "bottom", color=colour,
-        )  # fmt: skip
+        if within.size:
+            last = within[-1]
+            leaves = last < speed_rpm.size - 1  # through the top
+            shift = (-7.0, -8.0) if leaves else (-3.0, 3.0)
+            x, y = float(speed_rpm[last]), float(line.frequency_hz[last])
+            yield Note(x, y, shortened(line.name, 22), colour, "right", shift)
 
 
-def _marks(axes: Axes, met: Sequence[Crossing], all_alike: bool) -> bool:
-    """Dots where lines meet modes; whether there are loud ones."""
-    is_loud = [not all_alike and one.below_modelled_db <= LOUD_DB for one in met]
-    loud, quiet = (
-        [one for one, is_it in zip(met, is_loud, strict=True) if is_it == wanted]
-        for wanted in (True, False)
-    )
-    for some, size, colour, words in (
-        (quiet, 2.5, COLOURS[0], "crossings"),
-        (loud, 5.5, COLOURS[1], "loud crossings"),
+def _marks(met: Sequence[Crossing], all_alike: bool) -> Iterator[Points]:
+    """Yield dots where lines meet modes, large where they are loud."""
+    for is_loud, size, colour, words in (
+        (False, 3.0, COLOURS[0], "crossing"),
+        (True, 6.5, COLOURS[1], "loud crossing"),
     ):
-        axes.plot(
-            [one.speed_rpm for one in some], [one.mode.frequency_hz for one in some],
-            linestyle="none", marker="o", markersize=size, color=colour, label=words,
-        )  # fmt: skip
-    return bool(loud)
-
-
-def _legend(axes: Axes, kinds: Sequence[str], loud: bool) -> None:
-    """What the colours are."""
-    words = {"mounts": "on the mounts", "shell": "shell", "gas": "gas"}
-    handles = [
-        Line2D([], [], color=_COLOURS[kind], label=words[kind]) for kind in KINDS if kind in kinds
-    ]
-    if loud:
-        dot = Line2D([], [], linestyle="none", marker="o", markersize=5.5)
-        dot.set(color=COLOURS[1], label="loud crossing")
-        handles.append(dot)
-    figure = axes.get_figure()
-    if figure is not None:
-        figure.legend(handles=handles, loc="outside lower center", ncols=4, frameon=False)
+        some = [each for each in met
+                if (not all_alike and each.below_modelled_db <= LOUD_DB) == is_loud]  # fmt: skip
+        if some:
+            speeds = [each.speed_rpm for each in some]
+            hertz = [each.mode.frequency_hz for each in some]
+            yield Points(speeds, hertz, words, colour=colour, marker="o", size=size)

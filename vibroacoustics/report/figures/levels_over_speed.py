@@ -5,11 +5,10 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ...base.rounding import LEVEL_FLOOR_DB
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.estimates import has_samples
 from ...results.over_speed.avoid import LEVEL, Range, recorded_speeds_to_avoid, speeds_to_avoid
 from ...results.over_speed.level_curves import (
     LevelCurve,
@@ -19,14 +18,19 @@ from ...results.over_speed.level_curves import (
     source_curves,
 )
 from ...results.stored_study import catalogue_receiver
+from ..bands import INTERVAL
+from ..charts.axes import stacked
+from ..charts.layout import shortened, wrapped
+from ..charts.marks import Axis, Chart, Line, Mark, Panel, Span
 from ..charts.needs import needs
+from ..file_names import numbered
 from ..titles import chosen, titled
-from .panels import each_panel, one_panel
-from .style import WIDTH_INCH, line_looks, shade, shortened, wrap
 
-_FEW_POINTS: Final = 12
+FEW_POINTS: Final = 12
+"""Points of a line that have a marker each."""
+SHADED: Final = "Shaded: speeds to avoid without a balancer."
 _RANGE_DB: Final = 60.0
-"""Levels further below the highest are not drawn."""
+"""Levels further below the highest are not shown."""
 Panels = dict[str, list[LevelCurve]]
 
 
@@ -40,8 +44,7 @@ def levels_over_speed(
     options: Sequence[str] = (),
     beside: xr.Dataset | None = None,
     beside_options: Sequence[str] = (),
-    width_inch: float = WIDTH_INCH,
-) -> Figure:
+) -> Chart:
     """A-weighted level over the speed, total and modelled: a line an option, of one its band.
 
     Of a recording a line a weighting. Speeds to avoid are shaded. A recording without a run-up is
@@ -56,19 +59,6 @@ def levels_over_speed(
     options : of a study, the first with its band; default: the first eight
     beside : other results, whose lines are dashed
     beside_options : options of these
-    width_inch : of the figure
-
-    Raises
-    ------
-    ParameterError
-        The dataset holds none, or there is no such receiver or option.
-
-    Examples
-    --------
-    >>> results = va.open_results("results.nc")
-    >>> va.plot.levels_over_speed(results).savefig("levels_over_speed.png")
-    >>> mapped = va.open_results("speed_map.nc")
-    >>> va.plot.levels_over_speed(mapped).savefig("run_up.png")
     """
     panels, xlabel = _curves(results, receiver, options)
     solid = {title: len(curves) for title, curves in panels.items()}
@@ -77,29 +67,44 @@ def levels_over_speed(
         beside = titled(beside)
         others, _ = _curves(beside, receiver if _has(beside, receiver) else None, beside_options)
         panels = {title: [*curves, *_like(others, title)] for title, curves in panels.items()}
-    shaded = _shaded(results, receiver, options)
-
-    def paint(axes: Axes, title: str) -> None:
-        _panel(axes, panels[title], solid[title])
-        for span in shaded:
-            shade(axes, span.from_rpm, span.to_rpm)
-
-    columns = 4 if width_inch > WIDTH_INCH else 2
-    rows = -(-max(len(curves) for curves in panels.values()) // columns)
-    y = "Level, dB(A)" if "level_total" in results else "Level, dB re 20 µPa"
-    return each_panel(
-        list(panels), 2.3, paint, xlabel, y, lambda title: shortened(title, 60), columns, rows,
-        width_inch, sharex=True,
+    avoided = spans(_avoided(results, receiver, options))
+    x, y = Axis(xlabel), Axis("Level, dB(A)" if "level_total" in results else "Level, dB re 20 µPa")
+    shown = stacked(
+        Panel(x, y, _marks(avoided, curves, solid[title]), shortened(title, 90), 2.7)
+        for title, curves in panels.items()
+    )
+    if beside is not None:
+        first, second = (named[0] if named else "all" for named in (options, beside_options))
+        return Chart(
+            "compared_levels_over_speed",
+            "A-weighted level over the speed in both results, total and modelled.",
+            f"A-weighted level over the speed. Solid: A, option {first}; dashed: B, option "
+            f"{second}. Shaded: speeds to avoid of A.",
+            shown, wide=True,
+        )  # fmt: skip
+    if "level_total" not in results:
+        channel = next(iter(panels))
+        return Chart(
+            f"levels_{dict(numbered(results, 'channel'))[channel]}",
+            f"Level of {channel} over the speed.",
+            f"Level of {channel} over the speed, block by block. Shaded: speeds to avoid by the "
+            "A-weighted level.",
+            shown, wide=True,
+        )  # fmt: skip
+    microphone = receiver or catalogue_receiver(results)
+    return Chart(
+        "levels_over_speed",
+        f"A-weighted level at {microphone} over the speed, total and modelled, for every option.",
+        f"A-weighted level at {microphone}: total, with what is not modelled, and modelled sources "
+        f"alone.{_bands(results)} {SHADED}",
+        shown, wide=True,
     )  # fmt: skip
 
 
 @needs("source_level")
 def source_levels_over_speed(
-    results: xr.Dataset,
-    receiver: str | None = None,
-    option: str = REFERENCE_OPTION,
-    width_inch: float = WIDTH_INCH,
-) -> Figure:
+    results: xr.Dataset, receiver: str | None = None, option: str = REFERENCE_OPTION
+) -> Chart:
     """A-weighted level of each source alone over the speed, with its band, and of all of them.
 
     Parameters
@@ -107,46 +112,47 @@ def source_levels_over_speed(
     results : of `run`; needs `source_level` (speed, option, sound_source, receiver), dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     option : one of the results
-    width_inch : of the figure
-
-    Raises
-    ------
-    ParameterError
-        The results hold none, or there is no such receiver or option.
-
-    Examples
-    --------
-    >>> results = va.open_results("results.nc")
-    >>> va.plot.source_levels_over_speed(results).savefig("sources_over_speed.png")
     """
     option = chosen(results, "option", option)
     curves = source_curves(results, receiver, option)
     (modelled,) = option_curves(results, "level_modelled", receiver, [option])
     every = [modelled._replace(label="all modelled", band_db=None), *curves]
     audible = [curve for curve in every if curve.level_db.max() > LEVEL_FLOOR_DB]
-    shaded = [
-        one.range for one in speeds_to_avoid(results, receiver, [option]) if one.quantity == LEVEL
-    ]
-
-    def paint(axes: Axes) -> None:
-        _panel(axes, audible, len(audible))
-        for span in shaded:
-            shade(axes, span.from_rpm, span.to_rpm)
-
-    columns = 3 if width_inch > WIDTH_INCH else 1
+    marks = _marks(spans(_avoided(results, receiver, [option])), audible, len(audible))
     title = f"Each source alone, option {shortened(option, 30)}"
-    rows = -(-len(audible) // columns)
-    return one_panel(2.8, paint, "Speed, rpm", "Level, dB(A)", title, columns, rows, width_inch)
+    microphone = receiver or catalogue_receiver(results)
+    return Chart(
+        "sources_over_speed",
+        f"A-weighted level of each source at {microphone} over the speed.",
+        f"Each source alone at {microphone}, option {option}, and all that is modelled, A-"
+        f"weighted.{_bands(results)} {SHADED}",
+        (Panel(Axis("Speed, rpm"), Axis("Level, dB(A)"), marks, title, 3.2),),
+        wide=True,
+    )
+
+
+def spans(ranges: Sequence[Range]) -> tuple[Span, ...]:
+    """Return speeds to avoid as shaded ranges."""
+    return tuple(Span(each.from_rpm, each.to_rpm) for each in ranges)
+
+
+def _bands(results: xr.Dataset) -> str:
+    if not has_samples(results):
+        return ""
+    return (
+        f" Lines: medians. Bands: {INTERVAL} of the samples, which count by how well they agree "
+        "with what was published or measured."
+    )
 
 
 def _curves(
     results: xr.Dataset, receiver: str | None, options: Sequence[str]
 ) -> tuple[Panels, str]:
-    """Curves by title of their panel, and what they are drawn over."""
+    """Return curves by title of their panel, and what they are drawn over."""
     if "level_total" in results:
-        at = receiver or catalogue_receiver(results)
+        microphone = receiver or catalogue_receiver(results)
         return {
-            f"{words} at {at}": option_curves(results, name, receiver, options)
+            f"{words} at {microphone}": option_curves(results, name, receiver, options)
             for words, name in (("Total", "level_total"), ("Modelled sources", "level_modelled"))
         }, "Speed, rpm"
     curves = recorded_curves(results, receiver)
@@ -161,12 +167,12 @@ def _curves(
 
 
 def _like(others: Panels, title: str) -> list[LevelCurve]:
-    """Curves of the other results that belong into a panel; of a recording those weighted by A."""
+    """Return curves of the other results for a panel; of a recording those weighted by A."""
     first = title.partition(" at ")[0]
     named = [curves for name, curves in others.items() if name.partition(" at ")[0] == first]
     curves = named[0] if named else next(iter(others.values()))
     if not named:
-        curves = [one for one in curves if one.label == "A-weighted"] or curves[:1]
+        curves = [curve for curve in curves if curve.label == "A-weighted"] or curves[:1]
     return _lettered("B", curves)
 
 
@@ -179,30 +185,28 @@ def _has(results: xr.Dataset, receiver: str | None) -> bool:
     return receiver in results[dim].values
 
 
-def _shaded(results: xr.Dataset, receiver: str | None, options: Sequence[str]) -> list[Range]:
-    """Speeds to avoid, of the first option or the level weighted by A."""
+def _avoided(results: xr.Dataset, receiver: str | None, options: Sequence[str]) -> list[Range]:
+    """Return speeds to avoid, of the first option or the level weighted by A."""
     if "level_total" in results:
         option = chosen(results, "option", options[0] if options else REFERENCE_OPTION)
         avoided = speeds_to_avoid(results, receiver, [option])
-        return [one.range for one in avoided if one.quantity == LEVEL]
+        return [each.range for each in avoided if each.quantity == LEVEL]
     if not is_run_up(results["block_speed"]):
         return []
-    weighted = {one.label: one for one in recorded_curves(results, receiver)}["A-weighted"]
+    weighted = {curve.label: curve for curve in recorded_curves(results, receiver)}["A-weighted"]
     return recorded_speeds_to_avoid(weighted.speed_rpm, weighted.level_db)
 
 
-def _panel(axes: Axes, curves: Sequence[LevelCurve], solid: int) -> None:
-    """Lines with their bands; those behind the first few dashed."""
-    top = max(float(curve.level_db.max()) for curve in curves)
-    looks = line_looks(len(curves))
-    for number, (curve, look) in enumerate(zip(curves, looks, strict=True)):
-        marker = "o" if curve.speed_rpm.size <= _FEW_POINTS else ""
-        dash = {"linestyle": "-" if number < solid else "--"} if solid < len(curves) else {}
-        shown = np.where(curve.level_db > top - _RANGE_DB, curve.level_db, np.nan)
-        axes.plot(
-            curve.speed_rpm, shown, label=wrap(curve.label, 24),
-            **{**look, **dash, "marker": marker, "markersize": 3.0},
-        )  # fmt: skip
-        if curve.band_db is not None:
-            low, high = np.maximum(curve.band_db, top - _RANGE_DB)
-            axes.fill_between(curve.speed_rpm, low, high, color=look["color"], alpha=0.12, lw=0)
+def _marks(avoided: Sequence[Span], curves: Sequence[LevelCurve], solid: int) -> tuple[Mark, ...]:
+    """Return lines with their bands, those after the first few dashed, on shaded ranges."""
+    marks: list[Mark] = [*avoided]
+    bottom = max(float(curve.level_db.max()) for curve in curves) - _RANGE_DB
+    for number, curve in enumerate(curves):
+        dash = ("-" if number < solid else "--") if solid < len(curves) else ""
+        low, high = (None, None) if curve.band_db is None else np.maximum(curve.band_db, bottom)
+        marks.append(Line(
+            curve.speed_rpm, np.where(curve.level_db > bottom, curve.level_db, np.nan),
+            wrapped(curve.label, 24), None if low is None else (low, high), dash=dash,
+            marker="o" if curve.speed_rpm.size <= FEW_POINTS else "",
+        ))  # fmt: skip
+    return tuple(marks)

@@ -2,27 +2,23 @@
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 
-from .panels import one_panel, third_octave_ticks
-from .style import COLOURS, Picture, png
+from ..charts.axes import band_axis
+from ..charts.layout import COLOURS
+from ..charts.marks import Axis, Bars, Chart, Panel, Points
 
 
-def power_picture(measured: xr.Dataset) -> Picture:
-    """Sound power level by band, beside what it would be without corrections."""
-    bands = measured["band"].values
-    at = np.arange(bands.size)
-    level = measured["measured_power_level"].values
+def power_chart(measured: xr.Dataset) -> Chart:
+    """Return the sound power level by band, beside what it would be without corrections."""
+    number, level = np.arange(measured.sizes["band"]), measured["measured_power_level"].values
     corrections = measured["background_correction"] + measured["environment_correction"]
-
-    def paint(axes: Axes) -> None:
-        uncorrected = level + corrections.values
-        axes.plot(at, uncorrected, "o", mfc="none", color=COLOURS[3], label="without K1 and K2")
-        axes.bar(at, level, color=COLOURS[6], label="L_W")
-        known = uncorrected[np.isfinite(uncorrected)]
-        axes.set_ylim(max(known.min() - 10.0, 0.0), known.max() + 3.0)
-        third_octave_ticks(axes, bands)
-
+    uncorrected = level + corrections.values
+    bottom = max(float(np.nanmin(uncorrected)) - 10.0, 0.0)
+    y = Axis("Level, dB re 1 pW", limits=(bottom, float(np.nanmax(uncorrected)) + 3.0))
+    marks = (
+        Bars(number, level - bottom, bottom, "L_W", colour=COLOURS[6], upright=True),
+        Points(number, uncorrected, "without K1 and K2", None, COLOURS[3], "o", filled=False),
+    )
     words = "Sound power level in third octaves."
-    figure = one_panel(2.6, paint, "Third octave, Hz", "Level, dB re 1 pW", columns=2, rows=1)
-    return Picture("sound_power", words, words, png(figure))
+    panel = Panel(band_axis(measured["band"].values.tolist()), y, marks, height=2.8)
+    return Chart("sound_power", words, words, (panel,))

@@ -1,40 +1,36 @@
 """Charts of a recording: order spectrum, orders over speed, order map, levels, tracked orders."""
 
-from functools import partial
 from typing import Final
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
 from ...results.map_levels import map_level
 from ...results.over_speed.level_curves import is_run_up
-from ..charts.layout import shortened
+from ..charts.axes import amplitude_axis
+from ..charts.layout import COLOURS, shortened
 from ..charts.marks import Axis, Chart, Image, Panel, Segments, lines
 from ..charts.marks import Line as Curve
 from ..charts.needs import needs
-from ..charts.picture import Picture, picture
+from ..file_names import numbered
 from ..titles import chosen
 from .levels_over_speed import levels_over_speed
-from .orders_over_speed import over_speed_picture
-from .speed_maps import MAP_RANGE_DB, speed_frequency_map
-from .style import COLOURS, in_both_widths, numbered
+from .orders_over_speed import orders_over_speed
+from .speed_maps import speed_frequency_map
 
 _MAP_RANGE_DB: Final = 60.0
-_QUIETEST: Final = 1e-5
-"""Lowest amplitude of a logarithmic axis, as a share of the largest."""
 
 
-def recorded_order_figures(results: xr.Dataset) -> list[Picture]:
-    """For each channel: mean spectrum, orders over speed in a run-up, and map if there is one."""
-    pictures = []
-    for channel, name in numbered(results, "channel"):
-        pictures.append(picture(order_spectrum(results, channel)))
+def recorded_order_charts(results: xr.Dataset) -> list[Chart]:
+    """Return for each channel: mean spectrum, orders over speed in a run-up, map if present."""
+    charts = []
+    for channel in map(str, results["channel"].values):
+        charts.append(order_spectrum(results, channel))
         if _is_run_up(results):
-            pictures.append(over_speed_picture(results, f"orders_{name}", channel))
+            charts.append(orders_over_speed(results, channel))
         if "order_map" in results:
-            pictures.append(picture(order_map(results, channel)))
-    return pictures
+            charts.append(order_map(results, channel))
+    return charts
 
 
 def _is_run_up(results: xr.Dataset) -> bool:
@@ -98,25 +94,15 @@ def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Chart:
     limits = _steady_limits(of_channel)
     marks = [Curve(spectrum["map_order"], spectrum)]
     others = () if limits is None else (_limit_marks(limits, of_channel.attrs["band_order"]),)
-    y = Axis(f"RMS of a line, {_unit(of_channel)}", "log", _amplitude_limits(spectrum, limits))
+    y = amplitude_axis(
+        f"RMS of a line, {_unit(of_channel)}", spectrum, () if limits is None else limits
+    )
     return Chart(
         f"spectrum_{file}",
         f"Mean order spectrum of {title}, to order {float(orders['map_order'][-1]):g}.",
         f"Mean order spectrum of {title}: root of the mean power over the blocks.",
         (Panel(Axis("Shaft order", integer=True), y, (*marks, *others), shortened(title)),),
     )
-
-
-def _amplitude_limits(
-    sizes: xr.DataArray, limits: xr.DataArray | None
-) -> tuple[float, float] | None:
-    """Ends of a logarithmic axis over sizes and their limits; None where all are zero."""
-    highest = float(sizes.max())
-    if not highest > 0.0:
-        return None
-    allowed = [] if limits is None else limits.values.ravel().tolist()
-    lowest = max(0.5 * float(sizes.min()), _QUIETEST * highest)
-    return min([lowest, *(0.5 * limit for limit in allowed)]), 2.0 * max([highest, *allowed])
 
 
 @needs("order_map", from_="`analyse_orders(..., with_map=True)`, command `orders --map`")
@@ -174,40 +160,16 @@ def tracked_orders(tracked: xr.Dataset, channel: str | None = None) -> Chart:
     )
 
 
-def tracked_order_figures(tracked: xr.Dataset) -> list[Picture]:
-    """For each channel: tracked orders over the speed."""
-    names = map(str, tracked["channel"].values)
-    return [picture(tracked_orders(tracked, name)) for name in names]
+def tracked_order_charts(tracked: xr.Dataset) -> list[Chart]:
+    """Return for each channel the tracked orders over the speed."""
+    return [tracked_orders(tracked, str(name)) for name in tracked["channel"].values]
 
 
-def speed_map_figures(mapped: xr.Dataset) -> list[Picture]:
-    """For each channel the map; of sound pressure its level too."""
-    pictures = []
-    for name, file in numbered(mapped, "channel"):
-        pictures.append(
-            in_both_widths(
-                f"speed_map_{file}",
-                f"Spectra of {name} over speed and frequency.",
-                f"{name} over speed and frequency: level of each line, {MAP_RANGE_DB:g} dB shown.",
-                partial(_map, mapped, name),
-            )
-        )
-        if mapped["channel_unit"].sel(channel=name) == "Pa":
-            pictures.append(
-                in_both_widths(
-                    f"levels_{file}",
-                    f"Level of {name} over the speed.",
-                    f"Level of {name} over the speed, block by block. Shaded: speeds to avoid by "
-                    "the A-weighted level.",
-                    partial(_levels, mapped, name),
-                )
-            )
-    return pictures
-
-
-def _map(mapped: xr.Dataset, channel: str, width_inch: float) -> Figure:
-    return speed_frequency_map(mapped, channel, width_inch=width_inch)
-
-
-def _levels(mapped: xr.Dataset, channel: str, width_inch: float) -> Figure:
-    return levels_over_speed(mapped, channel, width_inch=width_inch)
+def speed_map_charts(mapped: xr.Dataset) -> list[Chart]:
+    """Return for each channel the map; of sound pressure its level too."""
+    charts = []
+    for name, unit in zip(mapped["channel"].values, mapped["channel_unit"].values, strict=True):
+        charts.append(speed_frequency_map(mapped, str(name)))
+        if unit == "Pa":
+            charts.append(levels_over_speed(mapped, str(name)))
+    return charts

@@ -14,7 +14,7 @@ from ...results.stored_study import catalogue_receiver, source_name
 from ..charts.layout import COLOURS
 from ..charts.marks import Axis, Bars, Chart, Panel
 from ..charts.needs import needs
-from ..source_words import UNMODELLED
+from ..sections.sources.words import UNMODELLED
 from ..titles import chosen
 
 DEPTH_DB: Final = 40.0

@@ -9,7 +9,6 @@ from typing import Any, Final
 
 import matplotlib
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -19,6 +18,8 @@ from PIL import Image
 
 from ...base.arrays import Array
 from ..charts.picture import Picture as Picture  # noqa: PLC0414
+from ..file_names import file_name as file_name  # noqa: PLC0414
+from ..file_names import numbered as numbered  # noqa: PLC0414
 
 WIDTH_INCH: Final = 4.6
 FULL_WIDTH_INCH: Final = 9.2
@@ -213,19 +214,3 @@ def plain(text: str) -> str:
 def shortened(text: str, width: int = 50) -> str:
     """Text for a title or a legend: a name without end leaves no room for the figure."""
     return plain(text if len(text) <= width else f"{text[: width - 1]}…")
-
-
-def file_name(name: str) -> str:
-    """A name that is safe in a path."""
-    return re.sub(r"[^A-Za-z0-9_-]+", "_", name)
-
-
-def numbered_file_name(number: int, name: str) -> str:
-    """A name that is safe in a path, and another one for each number; at most about 60 letters."""
-    return f"{number}_{file_name(name)[:60]}"
-
-
-def numbered(results: xr.Dataset, dimension: str) -> list[tuple[str, str]]:
-    """Labels of a dimension, each with the name of its file without ending."""
-    names = map(str, results[dimension].values)
-    return [(name, numbered_file_name(number, name)) for number, name in enumerate(names, 1)]

@@ -4,7 +4,7 @@ import xarray as xr
 
 from ....base.registry import register
 from ...blocks import Block, Bullets, Pictures, Text
-from ...figures.baseline import baseline_figures
+from ...figures.baseline import baseline_third_octaves
 from ...shown_speeds import chosen_speeds
 from .. import Section
 from . import tables as baseline
@@ -12,12 +12,13 @@ from .tables import order_tables
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
+    drawn = results["baseline_band_level"].notnull().any()
     return [
         Text(baseline.summary(results)),
         Bullets(baseline.limits(results)),
         *chosen_speeds(results, "results.nc"),
         *order_tables(results),
-        Pictures(tuple(baseline_figures(results))),
+        *([Pictures((baseline_third_octaves(results),))] if drawn else []),
     ]
 
 

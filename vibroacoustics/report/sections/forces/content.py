@@ -2,9 +2,9 @@
 
 import xarray as xr
 
-from ...drawing import section_picture
 from ....base.registry import register
 from ...blocks import Block, Pictures, Text
+from ...drawing import section_picture
 from ...figures.forces import force_over_revolution
 from ...shown_speeds import chosen_speeds, few_speeds
 from .. import Section

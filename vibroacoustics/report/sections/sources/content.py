@@ -2,13 +2,13 @@
 
 import xarray as xr
 
-from ...figures.stacked import stacked_lines, stacked_third_octaves
 from ....base.registry import register
 from ....results.sample_words import prior_words
 from ....results.stored_study import has_sources
 from ...blocks import Block, Bullets, Heading, Pictures, Text
 from ...charts.marks import Chart
 from ...figures.sources import changing_options, option_third_octaves, source_third_octaves
+from ...figures.stacked import stacked_lines, stacked_third_octaves
 from ...remainder import total_sentence
 from ...shown_speeds import chosen_speeds, few_speeds
 from .. import Section
