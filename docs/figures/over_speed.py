@@ -29,7 +29,7 @@ def main() -> None:
     }
     results = va.run(study.replace(values), radiation=rough_radiation)
     for verb in VERBS:
-        figure = getattr(va.plot, verb)(results, width_inch=8.0)
+        figure = getattr(va.plot, verb)(results)
         figure.savefig(ROOT / "docs" / "figures" / f"{verb}.png", dpi=100)
 
 

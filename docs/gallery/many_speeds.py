@@ -24,24 +24,24 @@ print(results.sizes["speed"], "speeds,", results.sizes["order"] - 1, "orders at 
 # The spring-mass is tuned to 3500 rpm: a narrow valley there, and a hill at 2000 rpm, where mass
 # and ring swing against each other. A counterweight does the same at every speed. The total hardly
 # follows: most of it is not modelled.
-figure = va.plot.levels_over_speed(results, width_inch=8.0)
+figure = va.plot.levels_over_speed(results)
 
 # %%
 # Orders over the speed
 # ---------------------
 # Any channel of a study: sound pressure, forces, moments, feet.
-figure = va.plot.orders_over_speed(results, "foot force rear_left z", "spring-mass", width_inch=8.0)
+figure = va.plot.orders_over_speed(results, "foot force rear_left z", "spring-mass")
 
 # %%
 # Campbell diagram
 # ----------------
 # Of a rigid machine the modes on the mounts alone, far below 1×. Shell and gas need sources that
 # drive them: :doc:`/over_speed`.
-figure = va.plot.campbell(results, option="spring-mass", width_inch=8.0)
+figure = va.plot.campbell(results, option="spring-mass")
 
 # %%
 # Speeds to avoid
 # ---------------
 # Where level or foot force stands out by 3 dB; shaded here, in the report also a table and
 # ``speeds.csv``.
-figure = va.plot.levels_over_speed(results, options=["spring-mass"], width_inch=8.0)
+figure = va.plot.levels_over_speed(results, options=["spring-mass"])

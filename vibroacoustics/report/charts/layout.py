@@ -31,6 +31,7 @@ COLOURS: Final = (
 NOTHING_TO_DRAW: Final = "Every value is too small to draw."
 _KEY: Final = 40.0
 """Width of what the legend draws before a name."""
+_GAP: Final = 14.0
 _BAR: Final = 66.0
 _STEPS: Final = (1.0, 2.0, 2.5, 5.0, 10.0)
 _FEW_DECADES: Final = 100.0
@@ -131,9 +132,10 @@ def _keys(names: Sequence[str], width: float, top: float) -> tuple[Key, ...]:
         return ()
     each = _KEY + LETTER * max(map(letters, names))
     columns = max(1, min(len(names), int((width - 12.0) / each)))
+    wide = (width - 12.0) / columns
     height = ROW * max(map(lines, names))
     return tuple(
-        Key(name, 10.0 + (number % columns) * (width - 12.0) / columns, top + row * height)
+        Key(name, 10.0 + (number % columns) * min(wide, each + _GAP), top + row * height)
         for number, name in enumerate(names)
         for row in [number // columns]
     )
@@ -146,7 +148,9 @@ def margins(panel: Panel) -> tuple[float, float, float, float]:
         return 34.0, 34.0, 24.0, 26.0 + title
     named = [letters(word) for _, word in panel.y.ticks or ()]
     ticks = 8.0 + LETTER * max(named, default=5 if panel.y.ticks is None else 0)
+    last = letters(panel.x.ticks[-1][1]) if panel.x.ticks else 0
     right = _BAR if any(isinstance(mark, Image) for mark in panel.marks) else 14.0
+    right = max(right, 0.5 * LETTER * last + 4.0)
     words = max((lines(word) for _, word in panel.x.ticks or ()), default=1)
     below = 8.0 + 14.0 * words + ROW * lines(panel.x.label)
     return ticks + ROW * lines(panel.y.label) + 4.0, right, below, 8.0 + title

@@ -142,8 +142,9 @@ def _effect(variable: Column, objective: Column) -> Panel:
     line = Line(middle, median, "median, middle 80 % of the designs", (low, high), _BLUE, "-", "o")
     words = tuple((float(n), wrapped(word, 14)) for n, word in enumerate(variable.words))
     x = Axis(wrapped(variable.heading, 60), ticks=words or None)
-    y = Axis(wrapped(shortened(objective.heading, 48), 24))
-    return Panel(x, y, (line,), height=1.8)
+    y = Axis(wrapped(shortened(objective.heading, 50), 18))
+    further_lines = max((word.count("\n") for _, word in words), default=0)
+    return Panel(x, y, (line,), height=1.8 + 0.15 * further_lines)
 
 
 def _by_bin(values: Array, objective: Array) -> tuple[Array, Array]:

@@ -126,11 +126,19 @@ def _lines(lines: Sequence[SoundLine], speed_rpm: Array, highest_hz: float) -> I
         yield Line(speed_rpm, line.frequency_hz, colour=colour, dash=dash, width=0.9)
         within = np.flatnonzero(line.frequency_hz <= highest_hz)
         if within.size:
-            last = within[-1]
-            leaves = last < speed_rpm.size - 1  # through the top
-            shift = (-7.0, -8.0) if leaves else (-3.0, 3.0)
-            x, y = float(speed_rpm[last]), float(line.frequency_hz[last])
-            yield Note(x, y, shortened(line.name, 22), colour, "right", shift)
+            yield _name(line, within[-1], speed_rpm, highest_hz, colour)
+
+
+def _name(
+    line: SoundLine, last: int, speed_rpm: Array, highest_hz: float, colour: str
+) -> Note:
+    """Return the name of a line below the top that it leaves through, or above its end."""
+    words, pair = shortened(line.name, 22), slice(last, last + 2)
+    hertz, speed = line.frequency_hz[pair], speed_rpm[pair]
+    if hertz.size > 1 and np.isfinite(hertz[1]):
+        x = float(np.interp(highest_hz, hertz, speed))
+        return Note(x, highest_hz, words, colour, "left", (2.0, -9.0))
+    return Note(float(speed[0]), float(hertz[0]), words, colour, "right", (-3.0, 3.0))
 
 
 def _marks(met: Sequence[Crossing], all_alike: bool) -> Iterator[Points]:

@@ -52,10 +52,12 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Chart:
         x = _order_axis(float(of_channel["order"].max()))
     label = f"Peak, {of_channel['channel_unit'].item()}"
     y = amplitude_axis(label, np.stack(sizes), () if limits is None else limits)
-    across = "speed" if by_speed else "order"
+    across, along = ("speed", "order") if by_speed else ("order", "speed")
+    is_shown = (np.maximum(*sizes) > (y.limits or (0.0,))[0]).any(along)
+    shown = of_channel[across].where(is_shown, drop=True).values[:_MOST_PANELS]
     named = (of_channel.attrs["first"], of_channel.attrs["second"])
     panels = []
-    for value in of_channel[across].values[:_MOST_PANELS].tolist():
+    for value in shown.tolist():
         some = [
             size.sel({across: value}) for size in (*sizes, *([] if limits is None else [limits]))
         ]

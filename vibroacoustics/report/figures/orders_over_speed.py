@@ -71,7 +71,7 @@ def _lines(cuts: OrderCuts) -> Iterator[Line]:
             yield Line(cuts.speed_rpm, rms, name, None, *looks, marker)
         if cuts.limits is not None:
             name, shown = "" if number else "limits", cuts.shown(cuts.limits[number])
-            yield Line(cuts.speed_rpm, shown, name, None, colour, "-", "_", 0.8)
+            yield Line(cuts.speed_rpm, shown, name, None, colour, "-", marker and "_", 0.8)
 
 
 def _axis(cuts: OrderCuts) -> Axis:
