@@ -62,6 +62,7 @@ from .sections.paths.tables import has_paths, paths_csv
 from .sections.scores.tables import scores_csv
 from .sections.sources.tables import sources_csv
 from .shown_speeds import over_speed
+from .side_tables import side_files
 
 __all__ = [
     "blocked_charts",
@@ -137,6 +138,7 @@ def _rendered(results: xr.Dataset, results_sha256: str) -> dict[str, bytes]:
         **({"sources.csv": sources_csv(results)} if has_sources(results) else {}),
         **({"paths.csv": paths_csv(results)} if has_paths(results) else {}),
         **({"speeds.csv": avoid_csv(avoided(results))} if over_speed(results) else {}),
+        **side_files(results),
         **{file: picture.content for file, picture in page.pictures().items()},
     }
 

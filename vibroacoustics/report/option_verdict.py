@@ -11,22 +11,21 @@ from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from ..results.stored_study import (
     balancers,
-    catalogue_receiver,
     has_sources,
     other_receivers,
     words,
 )
-from .quantities import JUDGED, LINE, TOLERANCE_DB, TOTAL
-from .sections.sources.changes import change_sentences
+from .quantities import JUDGED, LINE
+from .sections.sources.changes import key_impacts
 from .shifts import Shift, shift
 
 BETTER: Final = "better"
 WORSE: Final = "worse"
 MIXED: Final = "mixed"
-NO_CHANGE: Final = "no difference that could be measured"
+NO_CHANGE: Final = "no measurable change"
 
 
-_IN_A_TABLE: Final = {NO_CHANGE: "no difference"}
+_IN_A_TABLE: Final = {NO_CHANGE: "no change"}
 
 
 class OptionVerdict(NamedTuple):
@@ -64,11 +63,8 @@ def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
     worse_in = _worse_in(shifts, elsewhere)
     better = any(quantity_shift.improves for quantity_shift in shifts)
     judgement = judge(bool(worse_in), better)
-    of_level = change_sentences if has_sources(results) else _total
     sentences = [
-        _shift_sentence(shifts, catalogue_receiver(results)),
-        _elsewhere(shifts[-1], elsewhere),
-        *of_level(results, option),
+        *(key_impacts(results, option) if has_sources(results) else ()),
         *words(results)["sentences"][option],
         _mass(results, option),
     ]
@@ -89,10 +85,7 @@ def _reason(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift], judgement: 
     """What makes the option better or worse, with its size."""
     if judgement == NO_CHANGE:
         least = shifts[0].least
-        return (
-            f"levels change by less than {least.level_db:g} dB, forces by less than "
-            f"{100.0 * least.force_ratio:g} %"
-        )
+        return f"levels < {least.level_db:g} dB, forces < {100.0 * least.force_ratio:g} %"
     louder = {} if shifts[-1].worsens else elsewhere
     worse = [one.short() for one in shifts if one.worsens]
     worse += [f"{one.short()} at {at}" for at, one in louder.items() if one.worsens]
@@ -103,23 +96,6 @@ def _reason(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift], judgement: 
     return "; ".join(f"{word}: {', '.join(of_word)}" for word, of_word in parts.items())
 
 
-def _shift_sentence(shifts: Sequence[Shift], receiver: str) -> str:
-    sentences = {quantity_shift.sentence() for quantity_shift in shifts}
-    if sentences == {"stays the same"}:
-        *words, last = (quantity_shift.quantity.words for quantity_shift in shifts)
-        return f"{', '.join(words)} and {last} stay the same."
-    mechanical = [
-        quantity_shift for quantity_shift in shifts if not quantity_shift.quantity.is_level
-    ]
-    parts = [
-        f"the {quantity_shift.quantity.words} {quantity_shift.sentence()}"
-        for quantity_shift in mechanical
-    ]
-    return f"At 1×, {'; '.join(parts)}. ".replace("the 1× ", "the ") + (
-        f"At {receiver} the 1× line {shifts[-1].sentence()}."
-    )
-
-
 def _worse_in(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift]) -> tuple[str, ...]:
     """What the option makes worse; the line elsewhere if it is not worse here already."""
     worse = [quantity_shift.quantity.words for quantity_shift in shifts if quantity_shift.worsens]
@@ -127,26 +103,6 @@ def _worse_in(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift]) -> tuple[
     if louder and LINE.words not in worse:
         worse.append(f"{LINE.words} at {', '.join(louder)}")
     return tuple(worse)
-
-
-def _elsewhere(here: Shift, elsewhere: Mapping[str, Shift]) -> str:
-    """Warn of microphones at which the line rises although it does not at the catalogue's."""
-    louder = (
-        {}
-        if here.worsens
-        else {at: line_shift for at, line_shift in elsewhere.items() if line_shift.worsens}
-    )
-    at_receivers = "; ".join(
-        f"at {receiver} it {line_shift.sentence()}" for receiver, line_shift in louder.items()
-    )
-    return f"Not so elsewhere: {at_receivers}." if louder else ""
-
-
-def _total(results: xr.Dataset, option: str) -> list[str]:
-    gain = shift(results, TOTAL, option).gain_db
-    if abs(gain).max() < TOLERANCE_DB:
-        return [f"The total level changes by less than {TOLERANCE_DB:g} dB."]
-    return [f"The total level changes by {rounding.span(gain, rounding.signed)} dB."]
 
 
 def _mass(results: xr.Dataset, option: str) -> str:

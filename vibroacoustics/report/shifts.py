@@ -17,7 +17,7 @@ from ..results.stored_study import catalogue_receiver, parameters, speeds
 from ..study.scoring import Measurable
 from .bands import FINEST_RATIO, Band, band, hull, written
 from .column_values import column
-from .quantities import TOLERANCE_DB, Quantity
+from .quantities import Quantity
 
 _ALL: Final = 0.995
 """Probability that reads as one."""
@@ -63,9 +63,7 @@ class Shift:
             return f"{self.quantity.words} appears"
         size = f"{self.quantity.words} {self.size()}"
         share = self.grown if self.worsens else self.fallen
-        if share > _ALL:
-            return size
-        return f"{size} (measurable in {100.0 * share:.0f} % of the samples at a speed)"
+        return size if share > _ALL else f"{size} ({100.0 * share:.0f} % of samples)"
 
     def size(self) -> str:
         """`+22 to +24 %` of forces, `+2.2 to +25.2 dB` of levels: over samples and speeds."""
@@ -79,40 +77,6 @@ class Shift:
     def unit(self) -> str:
         """Unit of a change."""
         return "dB" if self.quantity.is_level else "%"
-
-    def sentence(self) -> str:
-        """`grows by 81 % (to at most 120 N)` and the like, without the quantity's name."""
-        gain = self.gain_db
-        if abs(gain).max() <= TOLERANCE_DB:
-            return "stays the same"
-        if self.after.max() < self.quantity.floor:
-            return f"vanishes (was up to {self.quantity.write(self.before.max())})"
-        if self.before.min() < self.quantity.floor:
-            return f"appears (at most {self.quantity.write(self.after.max())})"
-        size = self._level_words() if self.quantity.is_level else self._ratio_words()
-        return f"{size} (to at most {self.quantity.write(self.after.max())})"
-
-    @property
-    def _both_ways(self) -> bool:
-        return bool(self.gain_db.max() > TOLERANCE_DB and self.gain_db.min() < -TOLERANCE_DB)
-
-    def _level_words(self) -> str:
-        gain = self.gain_db
-        if self._both_ways:
-            return f"changes by {rounding.span(gain, rounding.signed)} dB, depending on the speed"
-        verb = "rises" if gain.max() > TOLERANCE_DB else "falls"
-        return f"{verb} by {rounding.span(abs(gain), rounding.fixed)} dB"
-
-    def _ratio_words(self) -> str:
-        ratio = self.after / self.before
-        if self._both_ways:
-            change = rounding.span(100.0 * (ratio - 1.0), _percent)
-            return f"changes by {change} %, depending on the speed"
-        if ratio.max() >= 2.0:
-            return f"grows {rounding.span(ratio, lambda value: rounding.fixed(value, 2))}-fold"
-        verb = "grows" if ratio.max() > 1.0 else "falls"
-        size = rounding.span(100.0 * abs(ratio - 1.0), lambda value: rounding.fixed(value, 0))
-        return f"{verb} by {size} %"
 
 
 @remembered

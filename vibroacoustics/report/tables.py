@@ -9,6 +9,8 @@ import xarray as xr
 
 from ..base.csv_text import csv_bytes
 
+DataTable: TypeAlias = Mapping[str, Sequence[str | float]]
+"""Values by machine-readable names of columns; an empty text is no value."""
 Record: TypeAlias = Mapping[str, Any]
 """Values of a row by their names."""
 Columns: TypeAlias = Sequence[tuple[str, str, Callable[[Any], str]]]
@@ -32,6 +34,13 @@ def to_csv(columns: Sequence[str], rows: Iterable[Sequence[str | float]]) -> byt
     return csv_bytes(columns, rows, lambda number: f"{number:.9g}")
 
 
+def columns_of(head: Sequence[str], rows: Iterable[Sequence[str | float]]) -> DataTable:
+    """Return rows as columns."""
+    listed = list(rows)
+    columns = zip(*listed, strict=True) if listed else ([] for _ in head)
+    return dict(zip(head, columns, strict=True))
+
+
 def table_of(
     caption: str,
     rows: Iterable[Record],
@@ -51,14 +60,51 @@ def records(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> list[Re
     dims : all dimensions of the columns
     columns : values by name, over some of the dimensions each
     """
-    arrays = xr.broadcast(*columns.values())
-    values = [array.transpose(*dims).values.ravel().tolist() for array in arrays]
+    values = data_table(dims, columns).values()
     return [dict(zip(columns, row, strict=True)) for row in zip(*values, strict=True)]
 
 
 def dataset_csv(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> bytes:
     """CSV of the records of some columns."""
     return to_csv(list(columns), (list(row.values()) for row in records(dims, columns)))
+
+
+def data_table(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> DataTable:
+    """Return a table with a row for each point of some dimensions, the last of which runs fastest.
+
+    Parameters
+    ----------
+    dims : all dimensions of the columns
+    columns : values by name, over some of the dimensions each
+    """
+    arrays = xr.broadcast(*columns.values())
+    values = [array.transpose(*dims).values.ravel().tolist() for array in arrays]
+    return dict(zip(columns, values, strict=True))
+
+
+def long_table(results: xr.Dataset, names: Iterable[str], **labels: Any) -> DataTable:
+    """Return variables of any dimensions below one another, a row for each value that is a number.
+
+    Parameters
+    ----------
+    results : with the variables, of which some may be missing
+    names : variables
+    labels : of dimensions that are selected
+    """
+    arrays = [
+        results[name].sel({dim: labels[dim] for dim in results[name].dims if dim in labels})
+        for name in names
+        if name in results
+    ]
+    dims = list(dict.fromkeys(str(dim) for array in arrays for dim in array.dims))
+    rows: list[list[str | float]] = []
+    for array in arrays:
+        unit = str(array.attrs.get("units", ""))
+        for at in np.argwhere(np.isfinite(array.values)):
+            point = array[tuple(at)]
+            cells = [point[dim].item() if dim in array.dims else "" for dim in dims]
+            rows.append([str(array.name), unit, *cells, point.item()])
+    return columns_of(("quantity", "unit", *dims, "value"), rows)
 
 
 def phase_deg(peaks: xr.DataArray) -> xr.DataArray:

@@ -78,6 +78,15 @@ def overall_noise(results: xr.Dataset) -> dict[str, float] | None:
     return noise
 
 
+def assumed_level(results: xr.Dataset) -> bool:
+    """Whether the level of the machine that the study gives is assumed, not published."""
+    return any(
+        record["field"].endswith("overall_noise.level_dba")
+        and str(record["source"]).startswith("assumed")
+        for record in parameters(results)["records"]
+    )
+
+
 def quoted_speed(results: xr.Dataset) -> float:
     """The speed at which the overall level is published; the first one where none is."""
     noise = overall_noise(results)

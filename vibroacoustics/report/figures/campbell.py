@@ -129,9 +129,7 @@ def _lines(lines: Sequence[SoundLine], speed_rpm: Array, highest_hz: float) -> I
             yield _name(line, within[-1], speed_rpm, highest_hz, colour)
 
 
-def _name(
-    line: SoundLine, last: int, speed_rpm: Array, highest_hz: float, colour: str
-) -> Note:
+def _name(line: SoundLine, last: int, speed_rpm: Array, highest_hz: float, colour: str) -> Note:
     """Return the name of a line below the top that it leaves through, or above its end."""
     words, pair = shortened(line.name, 22), slice(last, last + 2)
     hertz, speed = line.frequency_hz[pair], speed_rpm[pair]

@@ -1,6 +1,9 @@
-"""Sections of the report, each in one file: it says when it applies and of what it consists."""
+"""Sections of the report, each in a folder or a file: blocks of the page, tables beside it.
 
-from collections.abc import Callable, Sequence
+`content.py` of a folder registers the section, `tables.py` makes its tables and sentences.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -8,10 +11,15 @@ import xarray as xr
 
 from ...base.registry import LAST, Registry
 from ..blocks import Block
+from ..tables import DataTable
 
 
 def _always(results: xr.Dataset) -> bool:
     return True
+
+
+def _no_tables(results: xr.Dataset) -> Mapping[str, DataTable]:
+    return {}
 
 
 @dataclass(frozen=True)
@@ -26,6 +34,7 @@ class Section:
     applies : whether results have such a section
     position : from top to bottom; a stranger's are the last
     folded : below its heading, to be opened by the reader
+    tables : columns of numbers beside the page, by the name of their file
 
     Examples
     --------
@@ -42,6 +51,7 @@ class Section:
     applies: Callable[[xr.Dataset], bool] = _always
     position: float = LAST
     folded: bool = True
+    tables: Callable[[xr.Dataset], Mapping[str, DataTable]] = _no_tables
 
 
 SECTIONS: Final[Registry[Section]] = Registry(

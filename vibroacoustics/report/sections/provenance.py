@@ -7,8 +7,8 @@ import xarray as xr
 
 from ...base.registry import register
 from ...results.stored_study import parameters
-from ..blocks import Block
-from ..tables import Table
+from ..blocks import Block, Text
+from ..tables import DataTable, Table, columns_of
 from . import Section
 
 _ATTRIBUTES: Final = {
@@ -23,19 +23,30 @@ _ATTRIBUTES: Final = {
 }
 
 NOT_STATED: Final = "not stated"
+SHOWN: Final = 8
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    """Everything that is needed to make the results again."""
-    rows = [("Study file", parameters(results)["source_file"] or NOT_STATED)]
-    rows += [
-        (label, str(results.attrs.get(key, "")) or NOT_STATED) for key, label in _ATTRIBUTES.items()
-    ]
+    rows = tuple(_rows(results))[:SHOWN]
+    table = Table("Provenance", ("Item", "Value"), rows, frozenset({0, 1}))
+    return [table, Text("Settings and versions of packages are in provenance.csv.", "note")]
+
+
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    return {"provenance.csv": columns_of(("item", "value"), _rows(results))}
+
+
+def _rows(results: xr.Dataset) -> list[tuple[str, str]]:
+    """All that is needed to make the results again."""
     radiation = json.loads(results.attrs.get("radiation") or "{}")
-    rows += [("Radiation method", _settings(radiation) or NOT_STATED)]
-    rows += [("Radiation settings", _settings(parameters(results)["radiation"]))]
-    rows += [(f"{name} version", version) for name, version in sorted(_packages(results).items())]
-    return [Table("Provenance", ("Item", "Value"), tuple(rows), frozenset({0, 1}))]
+    rows = {
+        "Study file": parameters(results)["source_file"],
+        **{label: str(results.attrs.get(key, "")) for key, label in _ATTRIBUTES.items()},
+        "Radiation method": _settings(radiation),
+        "Radiation settings": _settings(parameters(results)["radiation"]),
+        **{f"{name} version": version for name, version in sorted(_packages(results).items())},
+    }
+    return [(label, text or NOT_STATED) for label, text in rows.items()]
 
 
 def _packages(results: xr.Dataset) -> dict[str, str]:
@@ -46,4 +57,4 @@ def _settings(settings: dict[str, Any]) -> str:
     return "; ".join(f"{name}: {value}" for name, value in sorted(settings.items()))
 
 
-register(Section("provenance", "Provenance", _blocks, position=120.0))
+register(Section("provenance", "Provenance", _blocks, position=120.0, tables=_data))

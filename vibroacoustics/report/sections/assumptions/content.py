@@ -5,6 +5,7 @@ import xarray as xr
 from ....base.registry import register
 from ....results.stored_study import overall_noise
 from ...blocks import Block, Bullets, Heading, Text
+from ...tables import DataTable
 from .. import Section
 from . import tables as assumptions
 
@@ -16,14 +17,13 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Heading("What is not modelled"),
         Bullets(tuple(assumptions.not_modelled(results))),
         *([Text(assumptions.structure_borne_sentence(results))] if published else []),
-        Heading("The remainder"),
+        Heading("Unmodelled noise"),
         Text(assumptions.remainder_sentence(results)),
         *_of_discrepancy(results),
         Heading("Inputs"),
         Text(
-            f"{assumed} of {recorded} recorded values are assumed; they come first. Where a range "
-            "is given, the true value is believed to lie in it. Files are written in the units "
-            "shown."
+            f"{assumed} of {recorded} recorded values are assumed; all are in inputs.csv. A range "
+            "is expected to hold the true value."
         ),
         assumptions.records_table(results),
     ]
@@ -34,7 +34,11 @@ def _of_discrepancy(results: xr.Dataset) -> list[Block]:
     return [Heading("Model discrepancy"), Text(sentence)] if sentence else []
 
 
-register(Section("assumptions", "Assumptions", _blocks, position=100.0))
+def _inputs(results: xr.Dataset) -> dict[str, DataTable]:
+    return {"inputs.csv": assumptions.inputs_data(results)}
+
+
+register(Section("assumptions", "Assumptions", _blocks, position=100.0, tables=_inputs))
 
 
 def _errata(results: xr.Dataset) -> list[Block]:

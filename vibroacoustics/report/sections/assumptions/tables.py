@@ -8,6 +8,7 @@ from ....base import rounding
 from ....base.decibel import level_of_power, power_of_level
 from ....results.estimates import has_samples
 from ....results.stored_study import (
+    assumed_level,
     catalogue_receiver,
     operating_points,
     overall_noise,
@@ -17,55 +18,51 @@ from ....results.stored_study import (
 )
 from ...bands import INTERVAL, band
 from ...remainder import growth_sentence
-from ...tables import Table
+from ...tables import DataTable, Table, columns_of
+from ..unknowns.words import dotted, in_si
 
 ASSUMED: Final = "assumed"
+SHOWN: Final = 5
+"""Inputs on the page."""
 
 LOUD_LINE_BELOW_TOTAL_DB: Final = 11.0
 """A pessimistic structure-borne 1x line: 45 of 56 dB(A)."""
 
 RIGID_SHELL: Final = (
-    "The shell is rigid. Its elastic modes and the gas, contact and bearing forces that drive them "
-    "are not modelled; these forces are internal and do not shake the "
-    "rigid machine, but they make most of its sound.",
+    "The shell is rigid: its elastic modes and the internal forces that drive them, which make "
+    "most of the sound, are not modelled.",
 )
 
 ELASTIC_SHELL: Final = (
-    "Gas forces, Oldham keys and motor torque drive the modes of an elastic shell, which is empty: "
-    "oil and gas inside are not in its modes, but for a range of their frequencies and mobility. "
-    "The parts inside are rigid and touch the shell at welds only; they load it through the "
-    "machine's frame where its file has one. Feet, tubes and terminal box are left out.",
-    "Contact of the wraps' flanks and tips, noise of the bearings, magnetic forces of the motor "
-    "other than its torque, jets of the gas, and sound in the gas of the shell where the machine's "
-    "file has no table of it are not modelled; they are {rest}.",
+    "The elastic shell is empty, without feet, tubes and terminal box. The parts inside are rigid "
+    "and touch it at welds only.",
+    "Contacts of the wraps, bearing noise, magnetic forces other than the torque and jets of the "
+    "gas are {unmodelled}.",
 )
 """Instead of RIGID_SHELL where sources drive the shell."""
 
 RIGID_FLOOR: Final = "rigid for the mounts and hard"
 YIELDING_FLOOR: Final = (
-    "not rigid: the floor under the feet gives way each for itself, without sound of its own; "
-    "natural frequencies are those on a rigid one. It is hard"
+    "compliant under each foot by itself and silent; natural frequencies are those on a rigid "
+    "floor. It is hard"
 )
 NOT_MODELLED: Final = (
     "Gas pulsation in the suction and discharge pipes is not modelled.",
-    "Structure-borne sound is not modelled: the forces into the feet are reported, the floor, "
-    "panel and pipes that they would excite are not. A change of the foot force may be heard "
-    "there before it is heard through the air.",
-    "The floor is {floor} for the sound; there are no other walls. The "
-    "scattering of sound between shell and floor is included.",
-    "Levels hold at the study's microphones; a rocking machine sounds louder in other directions.",
-    "The weight of moving parts times their sideways shift is left out of the moment: some mN m.",
+    "Structure-borne sound of floor, panels and pipes is not modelled; forces into the feet are "
+    "reported.",
+    "The floor is {floor} for the sound; there are no other walls.",
+    "Levels are those at the study's microphones; a rocking machine is louder elsewhere.",
 )
 
 
 def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
     """What the results leave out, one sentence or two each."""
     of_shell = ELASTIC_SHELL if words(results)["shell_bends"] else RIGID_SHELL
-    rest = "in no level" if overall_noise(results) is None else "part of the remainder"
+    unmodelled = "in no level" if overall_noise(results) is None else "unmodelled noise"
     machine = parameters(results)["machine"]
     gives_way = machine.get("floor") or machine.get("floor_mobility")
     everywhere = tuple(
-        text.format(floor=YIELDING_FLOOR if gives_way else RIGID_FLOOR, rest=rest)
+        text.format(floor=YIELDING_FLOOR if gives_way else RIGID_FLOOR, unmodelled=unmodelled)
         for text in (*of_shell, *NOT_MODELLED)
     )
     return (*everywhere, *_mounts_held(machine), *words(results)["leaves_out"])
@@ -80,18 +77,61 @@ def _mounts_held(machine: dict[str, Any]) -> tuple[str, ...]:
         return ()
     lowest, highest = max(each[0] for each in known), min(each[-1] for each in known)
     return (
-        f"Stiffness and loss of the mounts are known from {lowest:g} to {highest:g} Hz; they are "
-        "held below and above.",
+        f"Stiffness and loss of the mounts are known from {lowest:g} to {highest:g} Hz, and "
+        "constant below and above.",
     )
 
 
+def inputs_data(results: xr.Dataset) -> DataTable:
+    """Every recorded value with its range, the range in SI, and why a range is not sampled."""
+    held = {dotted(item): item for item in parameters(results).get("held_ranges", ())}
+    sampled = {dotted(item): item for item in parameters(results).get("ranges", ())}
+    rows = []
+    for record in parameters(results)["records"]:
+        name = in_si(record["field"])
+        item = sampled.get(name) or held.get(name) or {}
+        use = item.get("reason", "sampled") if item else ""
+        ends = [record[end] for end in ("lowest", "highest")] + [
+            item.get(end) for end in ("lowest", "highest")
+        ]
+        rows.append(
+            (
+                record["field"],
+                record["value"],
+                record["unit"] or "1",
+                *("" if end is None else end for end in ends),
+                use,
+                record["source"],
+                record["file"],
+            )
+        )
+    head = ("field", "value", "unit", "lowest", "highest", "lowest_si", "highest_si", "use",
+            "source", "file")  # fmt: skip
+    return columns_of(head, rows)
+
+
 def records_table(results: xr.Dataset) -> Table:
-    """Every recorded value, the assumed ones first."""
-    records = parameters(results)["records"]
-    ordered = sorted(records, key=lambda record: not _is_assumed(record))
-    head = ("Value of", "Value", "Unit", "Range", "Source", "File")
-    rows = tuple(_record_row(record) for record in ordered)
-    return Table("Inputs with their sources", head, rows, frozenset({0, 2, 4, 5}))
+    """Recorded values that the level depends on most, or with the widest ranges."""
+    shares = _shares(results)
+
+    def weight(record: dict[str, Any]) -> tuple[float, float]:
+        low, high = (record[end] or 0.0 for end in ("lowest", "highest"))
+        width = (high - low) / (max(abs(low), abs(high)) or 1.0)
+        return shares.get(in_si(record["field"]), 0.0), width
+
+    ordered = sorted(parameters(results)["records"], key=weight, reverse=True)
+    head = ("Value of", "Value", "Unit", "Range", "Source")
+    rows = tuple(_record_row(record) for record in ordered[:SHOWN])
+    what = "that the level depends on most" if shares else "with the widest ranges"
+    return Table(f"Inputs {what}", head, rows, frozenset({0, 2, 4}))
+
+
+def _shares(results: xr.Dataset) -> dict[str, float]:
+    """Share of each uncertain parameter in the variance of the level, before any data."""
+    if "level_share" not in results:
+        return {}
+    share = results["level_share"].isel(knowledge=0)
+    return dict(zip(share["uncertain_parameter"].values, share.values.tolist(), strict=True))
 
 
 def assumed_count(results: xr.Dataset) -> tuple[int, int]:
@@ -113,23 +153,16 @@ def remainder_sentence(results: xr.Dataset) -> str:
     noise = overall_noise(results)
     if noise is None:
         return growth_sentence(results)
-    assumed = any(
-        record["field"].endswith("overall_noise.level_dba") and _is_assumed(record)
-        for record in parameters(results)["records"]
-    )
-    who = "The catalogue gives" if not assumed else "The level of the whole machine is assumed:"
+    kind = "assumed" if assumed_level(results) else "published"
     if has_samples(results):
-        rest = band(results, "level_unmodelled")
-        left = f"{rest.ends(rounding.fixed)} dB(A) ({INTERVAL})"
+        unmodelled = f"{band(results, 'level_unmodelled').ends(rounding.fixed)} dB(A) ({INTERVAL})"
     else:
-        left = f"{rounding.fixed(results['level_unmodelled'].item())} dB(A)"
+        unmodelled = f"{rounding.fixed(results['level_unmodelled'].item())} dB(A)"
     return (
-        f"{who} {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
-        f"{noise['speed_rpm']:g} rpm{_point_words(results)}. What the model leaves of "
-        f"it at {catalogue_receiver(results)} "
-        f"without a balancer, {left}, is "
-        "added as energy to the modelled level at every option and microphone; an option with an "
-        f"insertion loss takes it off each third octave. {growth_sentence(results)}"
+        f"The {kind} level is {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
+        f"{noise['speed_rpm']:g} rpm{_point_words(results)}. What the model does not explain of it "
+        f"at {catalogue_receiver(results)} without a balancer is {unmodelled}: it is added as "
+        f"energy at every option and microphone. {growth_sentence(results)}"
     )
 
 
@@ -142,12 +175,9 @@ def discrepancy_sentence(results: xr.Dataset) -> str:
         f"{settings[f'{name}_deviation_db']:g} dB" for name in ("path", "source", "band", "added")
     )
     return (
-        f"Each sample deviates from the model by {path} common to all sources, {source} of each "
-        f"source, {band_db} of each third octave of a source (correlation exp(−octaves)) and "
-        f"{added} of what an option adds to a source (standard deviations). A deviation is the "
-        "same for all options, speeds and microphones. The four figures are judgement: chosen "
-        "among some 25 settings so that intervals hold the truth of machines that the model does "
-        "not describe."
+        f"Standard deviations of each sample from the model: {path} common to all sources, "
+        f"{source} of each source, {band_db} of each third octave of a source, {added} of what an "
+        "option adds. They are the same for all options, speeds and microphones, and judgement."
     )
 
 
@@ -166,9 +196,8 @@ def structure_borne_sentence(results: xr.Dataset) -> str:
     total = quoted_dba(results)
     gain = level_of_power(1.0 - power_of_level(-LOUD_LINE_BELOW_TOTAL_DB))
     return (
-        f"To see what such sound could change: a 1× line of {total - LOUD_LINE_BELOW_TOTAL_DB:g} "
-        f"dB(A), far above the airborne one, removed altogether, would lower {total:g} dB(A) by "
-        f"{rounding.fixed(abs(gain), 2)} dB."
+        f"A 1× line of {total - LOUD_LINE_BELOW_TOTAL_DB:g} dB(A) through the feet, removed "
+        f"altogether, would lower {total:g} dB(A) by {rounding.fixed(abs(gain), 2)} dB."
     )
 
 
@@ -183,7 +212,6 @@ def _record_row(record: dict[str, Any]) -> tuple[str, ...]:
         record["unit"] or "1",
         _range(record),
         record["source"],
-        record["file"],
     )
 
 

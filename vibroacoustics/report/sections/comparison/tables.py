@@ -14,6 +14,7 @@ from ....results.estimates import has_samples
 from ....results.stored_study import (
     catalogue_receiver,
     first_order_hz,
+    nearest_speed,
     options,
     overall_noise,
     speeds,
@@ -51,9 +52,11 @@ def comparison_csv(results: xr.Dataset) -> bytes:
     return dataset_csv(_DIMENSIONS, {**columns, **values})
 
 
-def comparison_tables(results: xr.Dataset, receiver: str) -> list[Table]:
-    """One table per speed that is shown, rounded for reading."""
-    return _tables(results, receiver, lambda column: column.head, ends_only=False)
+def comparison_table(results: xr.Dataset) -> Table:
+    """Return the comparison at speed and microphone of the published level."""
+    here = results.sel(speed=[nearest_speed(results)])
+    (table,) = _tables(here, catalogue_receiver(results), lambda column: column.head, False)
+    return table
 
 
 def comparison_text(results: xr.Dataset) -> str:

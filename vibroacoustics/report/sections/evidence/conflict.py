@@ -21,27 +21,9 @@ def applies(results: xr.Dataset) -> bool:
     return "datum_tail" in results
 
 
-def conflict_sentence(results: xr.Dataset) -> str:
-    """What the model expects before any datum, what is published, and whether both conflict."""
-    names = list(map(str, results["datum"].values))
-    expected = " and ".join(
-        f"{_expected(results, name).ends(_number(name))}{_unit(results, name)}" for name in names
-    )
-    published = " and ".join(_published(results, name) for name in names)
-    tails = _tails(results)
-    against = [name for name, tail in tails.items() if tail < CONFLICT]
-    of_tails = ", ".join(f"{rounding.fixed(tail, 2)} ({name})" for name, tail in tails.items())
-    verdict = f"In conflict with the model: {', '.join(against)}." if against else "No conflict."
-    return (
-        f"Before any published datum the model expects {expected} (80 % of the "
-        f"samples, without discrepancy); published are {published}. Tail of the prior predictive: "
-        f"{of_tails}. {verdict}"
-    )
-
-
 def conflict_table(results: xr.Dataset) -> Table:
     """A row for each published datum, and one for all together."""
-    head = ("Datum", "Published", "Expected by the model", "Tail of the prior predictive", "")
+    head = ("Datum", "Published", "Expected by the model", "Tail of the prior", "")
     rows = []
     for name, tail in _tails(results).items():
         expected = published = ""
@@ -50,7 +32,12 @@ def conflict_table(results: xr.Dataset) -> Table:
             expected = _expected(results, name).middle_and_ends(_number(name))
         word = "conflict" if tail < CONFLICT else "no conflict"
         rows.append((name, published, expected, rounding.fixed(tail, 3), word))
-    return Table("Published data before they weigh samples", head, tuple(rows), frozenset({0, 4}))
+    return Table(
+        "Published data beside the prior predictive distribution, median (80 % interval)",
+        head,
+        tuple(rows),
+        frozenset({0, 4}),
+    )
 
 
 def _tails(results: xr.Dataset) -> dict[str, float]:

@@ -12,36 +12,46 @@ from ....results.validation import (
 )
 from ...bands import percent
 from ...blocks import Block, Text
+from ...tables import DataTable, long_table
 from .. import Section
 from . import conflict
-from .tables import evidence_table
+from .tables import agreement_sentence, evidence_table
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     return [
+        *_agreement(results),
+        evidence_table(results),
         Text(
-            "Simulation S beside data D, in the form of ASME V&V 20: the error E = S − D, and the "
-            "standard uncertainties of the numerics, of the inputs (all values with a range, "
-            "sampled evenly before any data are used) and of the data; u is the root of the sum of "
-            f"their squares. S agrees with D within a tolerance T where |E| + {ONE_SIDED:g} u ≤ T, "
-            f"with T = {LEVEL_TOLERANCE_DB:g} dB for levels and {percent(FORCE_TOLERANCE)} for "
-            f"forces; it differs where |E| > {COVERAGE:g} u; else that is undecided. A force that "
-            "is printed is no measurement.",
+            "E is simulation minus data, u the root of the sum of squared standard uncertainties "
+            "of numerics, inputs and data (ASME V&V 20). They agree within a tolerance T where "
+            f"|E| + {ONE_SIDED:g} u ≤ T ({LEVEL_TOLERANCE_DB:g} dB, {percent(FORCE_TOLERANCE)} of "
+            f"a force) and differ where |E| > {COVERAGE:g} u.",
             "note",
         ),
-        evidence_table(results),
-        *_conflict(results),
+        *([conflict.conflict_table(results)] if conflict.applies(results) else []),
     ]
 
 
-def _conflict(results: xr.Dataset) -> list[Block]:
-    if not conflict.applies(results):
-        return []
-    return [Text(conflict.conflict_sentence(results)), conflict.conflict_table(results)]
+def _agreement(results: xr.Dataset) -> list[Block]:
+    sentence = agreement_sentence(results)
+    return [Text(sentence, "strong")] if sentence else []
+
+
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    """Every validation, and published data beside what the model expects before them."""
+    shown = validations(results)
+    names = ("quantity", "unit", "simulation", "data", "error", "numerical", "inputs",
+             "published", "uncertainty", "tolerance", "verdict", "source")  # fmt: skip
+    conflicts = ("datum_value", "datum_deviation", "datum_expected", "datum_tail", "conflict_tail")
+    return {
+        "evidence.csv": {name: [getattr(each, name) for each in shown] for name in names},
+        "conflict.csv": long_table(results, conflicts),
+    }
 
 
 def _applies(results: xr.Dataset) -> bool:
     return bool(validations(results))
 
 
-register(Section("evidence", "Evidence", _blocks, _applies, 95.0))
+register(Section("evidence", "Evidence", _blocks, _applies, 95.0, tables=_data))

@@ -6,16 +6,15 @@ from ....base.registry import register
 from ...blocks import Block, Pictures, Text
 from ...drawing import section_picture
 from ...figures.forces import force_over_revolution
-from ...shown_speeds import chosen_speeds, few_speeds
 from .. import Section
-from .tables import facts_table
+from .tables import figures_data
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    facts = facts_table(few_speeds(results))
+    note = "Figures of machine, sources and options at all speeds are in figures.csv."
     section = section_picture(results)
-    shown = [_figure(results), *([Pictures((section,))] if section else [])]
-    return [*shown, *chosen_speeds(results, "results.nc"), facts] if facts else shown
+    pictures = [Pictures((section,))] if section else []
+    return [_figure(results), *pictures, Text(note, "note")]
 
 
 def _figure(results: xr.Dataset) -> Block:
@@ -25,4 +24,4 @@ def _figure(results: xr.Dataset) -> Block:
     return Pictures((force_over_revolution(results),))
 
 
-register(Section("forces", "Force over a revolution", _blocks, position=50.0))
+register(Section("forces", "Force over a revolution", _blocks, position=50.0, tables=figures_data))

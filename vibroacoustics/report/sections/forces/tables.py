@@ -1,37 +1,30 @@
-"""The figures that the options report of themselves."""
+"""Figures that the machine, its sources and the options report."""
 
 import numpy as np
 import xarray as xr
 
-from ....base import rounding
-from ....base.vocabulary import REFERENCE_OPTION
 from ....results import labels
-from ....results.stored_study import balancers, speeds, words
-from ...tables import Table
+from ....results.stored_study import words
+from ...tables import DataTable, columns_of
 
 
-def facts_table(results: xr.Dataset) -> Table | None:
-    """One row per figure of the machine or an option, one column per speed; None without any."""
+def figures_data(results: xr.Dataset) -> dict[str, DataTable]:
+    """Return every reported figure by option and speed."""
     known = words(results)
-    facts = results["reported_figure"].transpose("option", "figure", "speed")
-    kept = [name not in known["source_figures"] for name in facts["figure"].values]
-    facts = facts.isel(figure=kept)
-    rows = tuple(
+    figures = results["reported_figure"].transpose("option", "figure", "speed")
+    rows = [
         (
             option,
-            labels.name(str(fact), known),
-            labels.unit(str(fact), known) or "1",
-            *(rounding.significant(value) for value in values),
+            name,
+            labels.name(name, known),
+            labels.unit(name, known) or "1",
+            speed,
+            float(figures.values[at]),
         )
-        for option in [REFERENCE_OPTION, *balancers(results)]
-        for fact, values in zip(
-            facts["figure"].values, facts.sel(option=option).values, strict=True
-        )
-        if np.isfinite(values).any() and (option, fact) != (REFERENCE_OPTION, "added_mass_kg")
-    )
-    head = ("Option", "Figure", "Unit", *(f"At {speed:g} rpm" for speed in speeds(results)))
-    return (
-        Table("Figures of the machine (none) and of the options", head, rows, frozenset({0, 1, 2}))
-        if rows
-        else None
-    )
+        for at in map(tuple, np.argwhere(np.isfinite(figures.values)))
+        for option, name, speed in [
+            tuple(figures[dim].values[k].item() for dim, k in zip(figures.dims, at, strict=True))
+        ]
+    ]
+    head = ("option", "figure", "words", "unit", "speed_rpm", "value")
+    return {"figures.csv": columns_of(head, rows)}

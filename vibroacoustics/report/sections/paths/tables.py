@@ -1,6 +1,5 @@
 """Transfer paths: sources, where they act and in which direction, in words and tables."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -12,9 +11,9 @@ from ....base.decibel import amplitude_of_level, power_of_level, sound_pressure_
 from ....base.remembered import remembered
 from ....base.vocabulary import REFERENCE_OPTION
 from ....results.labels import DOF_WORDS
-from ....results.stored_study import options, quoted_speed, source_name
+from ....results.stored_study import quoted_speed, source_name
 from ...bands import percent
-from ...tables import Table, dataset_csv
+from ...tables import DataTable, Table, data_table, dataset_csv, phase_deg
 
 LEADING: Final = 10
 """Paths that are shown."""
@@ -80,18 +79,18 @@ def relation(share: float, alone_db: float, total_db: float) -> str:
 
 
 def leading_sentence(results: xr.Dataset, receiver: str) -> str:
-    """The two paths with the largest shares, and the one that works against most."""
+    """The two paths with the largest shares, and that with the most negative one."""
     share = at_path_speed(results, receiver)["path_share"].values
     first = " and ".join(with_share(results, row, share) for row in leading(share, 2))
     against = int(np.argmin(share))
     less = (
-        f" Against it works most: {with_share(results, against, share)}."
+        f" Most negative: {with_share(results, against, share)}."
         if share[against] <= -LEAST
         else ""
     )
     return (
-        f"Of the modelled A-weighted energy at {receiver} and {path_speed(results):g} rpm without "
-        f"a balancer most comes by: {first}.{less}"
+        f"Dominant paths to {receiver} at {path_speed(results):g} rpm without a balancer: "
+        f"{first} of the modelled energy.{less}"
     )
 
 
@@ -112,72 +111,34 @@ def signed_percent(share: float) -> str:
     return f"−{percent(-share)}" if share < 0.0 else percent(share)
 
 
-def modelled_level(results: xr.Dataset, receiver: str, option: str) -> float:
-    """A-weighted level of all modelled sources at the speed that is shown, dB."""
-    level = results["level_modelled"].sel(receiver=receiver, option=option, weighting="A")
-    return float(level.sel(speed=path_speed(results)))
-
-
-def loudest_order(results: xr.Dataset, receiver: str) -> float:
-    """Of the orders at which paths are told apart, after weighting by A."""
-    orders = results["path_order"].values
-    there = results["order_level"].sel(receiver=receiver, option=REFERENCE_OPTION, weighting="A")
-    level = there.sel(speed=path_speed(results), order=orders)
-    return float(orders[int(np.argmax(level.values))])
-
-
-_NAMED: Final = 2
-"""Paths in a row of a table by order or band."""
+_SHOWN: Final = 5
 _ORDERS: Final = 6
-_HEAD: Final = ("first path", "second path", "works against most")
+_NAMED: Final = ("path_source", "path_port", "path_direction")
 
 
 def paths_table(results: xr.Dataset, receiver: str) -> Table:
     """The leading paths of the A-weighted level."""
     there = at_path_speed(results, receiver)
     share, alone = there["path_share"].values, there["path_level"].values
-    total = modelled_level(results, receiver, REFERENCE_OPTION)
+    total = _modelled_level(results, receiver)
     bands = there["path_band_share"].transpose("path", "band")
     energy = np.abs(bands.values) * power_of_level(there["modelled_band_level"].values)
-    rows, so_far = [], 0.0
-    for row in leading(share):
-        so_far += share[row]
-        loudest = bands["band"].values[int(energy[row].argmax())]
-        rows.append(
-            (
-                *path_words(results, row),
-                rounding.level(float(alone[row])),
-                signed_percent(share[row]),
-                signed_percent(so_far),
-                relation(share[row], float(alone[row]), total),
-                f"{loudest:g}",
-            )
+    rows = tuple(
+        (
+            *path_words(results, row),
+            rounding.level(float(alone[row])),
+            signed_percent(share[row]),
+            relation(share[row], float(alone[row]), total),
+            f"{bands['band'].values[int(energy[row].argmax())]:g}",
         )
-    head = (
-        "Source", "acts on", "Alone, dB(A)", "Share", "Shares so far", "Phase to the sum",
-        "Most in band, Hz",
-    )  # fmt: skip
-    caption = (
-        f"{receiver}, {path_speed(results):g} rpm, option {REFERENCE_OPTION}: the leading paths of "
-        f"{len(share)}; all modelled sound is {rounding.level(total)} dB(A)"
+        for row in leading(share, _SHOWN)
     )
-    return Table(caption, head, tuple(rows), frozenset({0, 1, 5}))
-
-
-def motions_table(results: xr.Dataset, receiver: str) -> Table:
-    """The leading motions that radiate: of the housing as a rigid body, modes of its shell."""
-    there = at_path_speed(results, receiver)
-    share, alone = there["motion_share"].values, there["motion_level"].values
-    rows, so_far = [], 0.0
-    for row in leading(share):
-        so_far += share[row]
-        name = str(there["radiating_motion"].values[row])
-        words = f"housing {DOF_WORDS[name]}" if name in DOF_WORDS else f"shell mode {name}"
-        cells = rounding.level(float(alone[row])), signed_percent(share[row])
-        rows.append((words, *cells, signed_percent(so_far)))
-    head = ("Motion", "Alone, dB(A)", "Share", "Shares so far")
-    caption = f"{receiver}: motions that radiate the lines of all sources; noise is not in it"
-    return Table(caption, head, tuple(rows))
+    head = ("Source", "acts on", "Alone, dB(A)", "Share", "Phase to the sum", "Most in band, Hz")
+    caption = (
+        f"{receiver}, {path_speed(results):g} rpm, without a balancer: {len(rows)} of {len(share)} "
+        f"paths; all modelled sound is {rounding.level(total)} dB(A)"
+    )
+    return Table(caption, head, rows, frozenset({0, 1, 4}))
 
 
 def orders_table(results: xr.Dataset, receiver: str) -> Table:
@@ -185,92 +146,100 @@ def orders_table(results: xr.Dataset, receiver: str) -> Table:
     there = at_path_speed(results, receiver)["path_pressure"].transpose("path", "path_order")
     level = sound_pressure_level(there.values.sum(axis=0))
     loudest = np.argsort(-level, kind="stable")[:_ORDERS]
-    shown = sorted(at for at in loudest if level[at] >= rounding.LEVEL_FLOOR_DB)
-    rows = [
-        (f"{there['path_order'].values[at]:g}×", rounding.level(float(level[at])), *named)
-        for at in shown
-        for named in [_named(results, phasor_shares(there.values[:, at]))]
-    ]
-    caption = f"{receiver}: paths of the loudest orders, with their share of its energy"
-    return Table(caption, ("Order", "Level, dB", *_HEAD), tuple(rows), frozenset({0, 2, 3, 4}))
-
-
-def bands_table(results: xr.Dataset, receiver: str) -> Table:
-    """The leading paths of each third octave."""
-    there = at_path_speed(results, receiver)
-    share = there["path_band_share"].transpose("band", "path").values
-    rows = [
-        (f"{band:g}", rounding.level(float(level)), *_named(results, of_band))
-        for band, level, of_band in zip(
-            there["band"].values, there["modelled_band_level"].values, share, strict=True
-        )
-        if of_band.any()
-    ]
-    caption = f"{receiver}: paths of each third octave, with their share of its energy"
-    return Table(caption, ("Band, Hz", "Level, dB", *_HEAD), tuple(rows),
-                 frozenset({2, 3, 4}))  # fmt: skip
-
-
-def partial_sums_table(results: xr.Dataset, receiver: str, order: float) -> Table:
-    """Phasors of an order, the largest share first, and the level of their sum so far."""
-    pressure = at_path_speed(results, receiver)["path_pressure"].sel(path_order=order).values
-    share, total = phasor_shares(pressure), pressure.sum()
-    rows, so_far = [], 0j
-    for row in leading(share):
-        so_far += pressure[row]
-        turned = float(np.degrees(np.angle(pressure[row] * np.conj(total))))
-        rows.append(
-            (
-                *path_words(results, row),
-                _level(pressure[row]),
-                f"{rounding.signed(turned, 0)}°",
-                signed_percent(share[row]),
-                _level(so_far),
-            )
-        )
-    head = ("Source", "acts on", "Alone, dB", "Phase to the sum", "Share",
-            "Sum so far, dB")  # fmt: skip
-    caption = f"{receiver}: order {order:g} as a sum of phasors, {_level(complex(total))} dB"
-    return Table(caption, head, tuple(rows), frozenset({0, 1}))
-
-
-def options_table(results: xr.Dataset, receiver: str) -> Table:
-    """What each option leaves of the leading paths."""
     rows = []
-    for option in options(results):
-        share = at_path_speed(results, receiver, option)["path_share"].values
-        level = rounding.level(modelled_level(results, receiver, option))
-        rows.append((option, level, *_named(results, share)))
-    caption = f"{receiver}, {path_speed(results):g} rpm: the leading paths with each option"
-    return Table(caption, ("Option", "Modelled, dB(A)", *_HEAD), tuple(rows),
-                 frozenset({0, 2, 3, 4}))  # fmt: skip
+    for at in sorted(at for at in loudest if level[at] >= rounding.LEVEL_FLOOR_DB):
+        share = phasor_shares(there.values[:, at])
+        order, first = f"{there['path_order'].values[at]:g}×", int(np.argmax(share))
+        rows.append((order, rounding.level(float(level[at])), with_share(results, first, share)))
+    head = ("Order", "Level, dB", "Path with the largest share")
+    return Table(f"{receiver}: loudest orders", head, tuple(rows), frozenset({0, 2}))
+
+
+def path_data(results: xr.Dataset) -> dict[str, DataTable]:
+    """Return bands, orders and motions of all microphones without a balancer, forces into feet."""
+    here = results.sel(option=REFERENCE_OPTION, path_speed=path_speed(results))
+    named = {name: here[name] for name in _NAMED}
+    pressure = here["path_pressure"].transpose("receiver", "path_order", "path")
+    total = pressure.sum("path")
+    size = abs(total) ** 2
+    share = (pressure * np.conj(total)).real / size.where(size > 0.0)
+    files = {
+        "path_bands.csv": data_table(
+            ("receiver", "band", "path"),
+            {
+                "receiver": here["receiver"],
+                "band_hz": here["band"],
+                **named,
+                "level_db": here["path_band_level"],
+                "share": here["path_band_share"],
+                "band_level_db": here["modelled_band_level"],
+            },
+        ),
+        "path_orders.csv": data_table(
+            ("receiver", "path_order", "path"),
+            {
+                "receiver": here["receiver"],
+                "order": here["path_order"],
+                **named,
+                "level_db": _levels(pressure),
+                "phase_to_sum_deg": phase_deg(pressure * np.conj(total)),
+                "share": share,
+                "sum_so_far_db": _levels(_so_far(pressure, share)),
+                "order_level_db": _levels(total),
+            },
+        ),
+        "feet.csv": _feet(results),
+    }
+    if has_motions(results):
+        columns = {"receiver": here["receiver"], "motion": here["radiating_motion"]}
+        share = here["motion_share"].transpose("receiver", "radiating_motion")
+        values = {"level_dba": here["motion_level"], "share": share}
+        values["share_so_far"] = _so_far(share, share)
+        dims = ("receiver", "radiating_motion")
+        files["path_motions.csv"] = data_table(dims, {**columns, **values})
+    return files
+
+
+def _feet(results: xr.Dataset) -> DataTable:
+    forces = foot_forces(results, path_speed(results))
+    columns = {dim: forces[dim] for dim in ("foot", "axis", "order", "source")}
+    values = {"peak_n": abs(forces), "all_sources_peak_n": abs(forces.sum("source"))}
+    return data_table(tuple(columns), {**columns, **values})
+
+
+def _so_far(values: xr.DataArray, share: xr.DataArray) -> xr.DataArray:
+    """Running sums along the last dimension, the largest shares of whatever sign first."""
+    order = np.argsort(-np.abs(share.values), axis=-1, kind="stable")
+    running = np.cumsum(np.take_along_axis(values.values, order, -1), axis=-1)
+    return values.copy(data=np.take_along_axis(running, np.argsort(order, axis=-1), -1))
+
+
+def _levels(pressure: xr.DataArray) -> xr.DataArray:
+    return pressure.copy(data=sound_pressure_level(pressure.values))
+
+
+def _modelled_level(results: xr.Dataset, receiver: str) -> float:
+    at = {"receiver": receiver, "option": REFERENCE_OPTION, "weighting": "A"}
+    return float(results["level_modelled"].sel(at).sel(speed=path_speed(results)))
 
 
 def paths_csv(results: xr.Dataset) -> bytes:
     """One row per option, speed, microphone and path, to nine significant digits."""
+    dims = ("option", "path_speed", "receiver", "path")
+    share = results["path_share"].transpose(*dims)
+    level = results["level_modelled"].sel(weighting="A", drop=True).rename(speed="path_speed")
+    total = level.sel(path_speed=results["path_speed"])
     columns = {
         "option": results["option"],
         "speed_rpm": results["path_speed"],
         "receiver": results["receiver"],
         **{name: results[f"path_{name}"] for name in ("source", "port", "direction")},
         "level_dba": results["path_level"],
-        "share_of_modelled_energy": results["path_share"],
+        "share_of_modelled_energy": share,
+        "share_so_far": _so_far(share, share),
+        "cosine_to_sum": share * 10.0 ** (0.05 * (total - results["path_level"])),
     }
-    return dataset_csv(("option", "path_speed", "receiver", "path"), columns)
-
-
-def _named(results: xr.Dataset, share: Array) -> Sequence[str]:
-    """The paths with the largest shares, and the one that works against most."""
-    with_it = [row for row in np.argsort(-share, kind="stable")[:_NAMED] if share[row] >= LEAST]
-    cells = [with_share(results, int(row), share) for row in with_it]
-    cells += [rounding.NOTHING] * (_NAMED - len(cells))
-    against = int(np.argmin(share))
-    has_one = share[against] <= -LEAST
-    return *cells, with_share(results, against, share) if has_one else rounding.NOTHING
-
-
-def _level(pressure: complex) -> str:
-    return rounding.level(float(sound_pressure_level(np.asarray(pressure))))
+    return dataset_csv(dims, columns)
 
 
 def foot_orders(results: xr.Dataset, speed: float) -> list[int]:

@@ -26,12 +26,12 @@ def receivers_table(results: xr.Dataset) -> Table:
         (
             str(name),
             *(rounding.fixed(receivers[str(name)][key], 3) for key in ("x_m", "y_m", "height_m")),
-            *methods.get(str(name), ("–", "–")),
+            methods.get(str(name), (rounding.NOTHING,))[0],
         )
         for name in results["receiver"].values
     )
-    head = ("Microphone", "x, m", "y, m", "Height above the floor, m", "Method", "Why not k-Wave")
-    return Table("Microphones; x and y from the shaft", head, rows, frozenset({0, 4, 5}))
+    head = ("Microphone", "x, m", "y, m", "Height above the floor, m", "Method")
+    return Table("Microphones; x and y from the shaft", head, rows, frozenset({0, 4}))
 
 
 def line_difference_sentence(results: xr.Dataset) -> str:

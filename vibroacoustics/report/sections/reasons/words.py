@@ -6,11 +6,9 @@ from typing import Final
 import xarray as xr
 
 from ....base import rounding
-from ....results.estimates import has_samples
 from ....results.sample_words import not_sampled_sentence
 from ....results.stored_study import (
     at_catalogue,
-    balancers,
     catalogue_receiver,
     first_order_hz,
     has_sources,
@@ -20,64 +18,35 @@ from ....results.stored_study import (
     speeds,
 )
 from ...column_values import column
-from ...option_verdict import MIXED, NO_CHANGE, WORSE, OptionVerdict
+from ...option_verdict import OptionVerdict
 from ...quantities import FOOT_FORCE, FORCE, MOMENT
 from ...remainder import growth_sentence, measured_rpm, remainder_band
-from ...shifts import shift
 from ...shown_speeds import many_speeds
 from ...tables import Table
 from ..baseline.tables import not_measured
 from ..comparison.tables import comparison
-from ..evidence import conflict
-from ..evidence.tables import agreement_sentence
-from ..scores.words import ranking_sentence
-from ..sources.changes import changes_sentence
-from ..sources.energy import spectrum_sentence
-from ..sources.words import carrier_sentence, samples_sentence, shares_sentence
-from ..unknowns.tables import measure_next_sentence
 
 _HALF: Final = 0.5
 """Of the energy of the total level, from which on it is not called measured."""
 
 
-def reasons(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> list[str]:
-    """Return the sentences that explain the summary, with the verdicts on the options."""
-    with_sources = has_sources(results)
-    texts = [_as_it_is(results)]
-    if with_sources:
-        texts += [shares_sentence(results), spectrum_sentence(results)]
-        texts += [*_of_evidence(results), samples_sentence(results)]
-        texts[:0] = _of_sources(results)
-    else:
-        texts += filter(None, [_remainder(results), not_sampled_sentence(results)])
-    texts = [text for text in texts if text]
-    if not verdicts:
-        return texts
-    return [*texts, _forces(results), *_warnings(verdicts), ranking_sentence(results, verdicts)]
-
-
-def _of_sources(results: xr.Dataset) -> list[str]:
-    """What the options change, what carries the level, what to measure next."""
-    changes = [changes_sentence(results)] if balancers(results) else []
-    if not has_samples(results):
-        return changes
-    sentences = [*changes, carrier_sentence(results), measure_next_sentence(results)]
-    return [sentence for sentence in sentences if sentence]
-
-
-def _of_evidence(results: xr.Dataset) -> list[str]:
-    """Whether the level agrees with the published one, and prior-data conflict."""
-    conflict_words = conflict.conflict_sentence(results) if conflict.applies(results) else ""
-    return [agreement_sentence(results), conflict_words]
+def reasons(results: xr.Dataset) -> list[str]:
+    """Return forces and level without an option, and what limits the effect of the options."""
+    if has_sources(results):
+        return [_as_it_is(results)]
+    texts = [_as_it_is(results), _remainder(results), not_sampled_sentence(results)]
+    return [text for text in texts if text]
 
 
 def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:
     """The word on each option, with its reason beside it."""
     if not verdicts:
         return None
-    rows = tuple((one.option, one.judgement, one.reason) for one in verdicts)
-    head = ("Option", "Verdict", "Because")
-    return Table("Each option against no balancer", head, rows, frozenset({0, 1, 2}))
+    rows = tuple(
+        (one.option, one.judgement, one.reason, " ".join(one.sentences)) for one in verdicts
+    )
+    head = ("Option", "Verdict", "Because", "Remarks")
+    return Table("Each option against no balancer", head, rows, frozenset({0, 1, 2, 3}))
 
 
 def _as_it_is(results: xr.Dataset) -> str:
@@ -89,11 +58,10 @@ def _as_it_is(results: xr.Dataset) -> str:
         else _shaken_by_speed(results, reference)
     )
     return (
-        f"Without a balancer the moving parts shake the {_body(results)} at 1× with {shaken}; "
-        f"at 2× with {_twice(float(reference['force_2x_n'].max()))}. A foot passes on at most "
-        f"{FOOT_FORCE.write(float(reference['foot_force_1x_n'].max()))}; at "
-        f"{reference['receiver'].item()} the 1× line has "
-        f"{rounding.span(reference['level_1x_db'].values, rounding.level)} dB or "
+        f"Without a balancer the moving parts excite the {_body(results)} at 1× with {shaken}. "
+        f"The largest 2× force is {_twice(float(reference['force_2x_n'].max()))}, the largest 1× "
+        f"foot force {FOOT_FORCE.write(float(reference['foot_force_1x_n'].max()))}. At "
+        f"{reference['receiver'].item()} the 1× line is "
         f"{rounding.span(reference['level_1x_dba'].values, rounding.level)} dB(A)."
     )
 
@@ -126,7 +94,7 @@ def _body(results: xr.Dataset) -> str:
 
 
 def _twice(force_n: float) -> str:
-    return "nothing" if force_n < rounding.FORCE_FLOOR else f"up to {FORCE.write(force_n)}"
+    return "0 N" if force_n < rounding.FORCE_FLOOR else FORCE.write(force_n)
 
 
 def _remainder(results: xr.Dataset) -> str:
@@ -160,41 +128,6 @@ def _remainder(results: xr.Dataset) -> str:
         f"dB(A) at {quoted_speed(results):g} rpm, comes from sources that balancing "
         f"does not touch. {growth_sentence(results)}"
     )
-
-
-def _forces(results: xr.Dataset) -> str:
-    """What each option does to the forces, as far as it could be measured."""
-    texts = []
-    for quantity in (FORCE, FOOT_FORCE):
-        shifts = [(name, shift(results, quantity, name)) for name in balancers(results)]
-        changed = [
-            f"{one.size()} with {name}" for name, one in shifts if one.worsens or one.improves
-        ]
-        if changed:
-            texts.append(f"the {quantity.words} changes by {', '.join(changed)}")
-    if not texts:
-        return "No option changes a force by what could be measured."
-    return f"Against no balancer {'; '.join(texts)}."
-
-
-def _warnings(verdicts: Sequence[OptionVerdict]) -> list[str]:
-    """Name the options that make something worse, and those that do nothing."""
-    worse = [verdict.option for verdict in verdicts if verdict.judgement == WORSE]
-    idle = [verdict.option for verdict in verdicts if verdict.judgement == NO_CHANGE]
-    mixed = [
-        f"{verdict.option} (worse: {', '.join(verdict.worse_in)})"
-        for verdict in verdicts
-        if verdict.judgement == MIXED
-    ]
-    texts = [
-        f"Worse than no balancer: {', '.join(worse)}." if worse else "",
-        f"Better in one respect, worse in another: {'; '.join(mixed)}." if mixed else "",
-        f"With {NO_CHANGE} in force, feet and sound: {', '.join(idle)}." if idle else "",
-        ""
-        if worse or mixed
-        else "No option makes the force, the feet or the sound measurably worse.",
-    ]
-    return [text for text in texts if text]
 
 
 def _total_dba(results: xr.Dataset) -> float:

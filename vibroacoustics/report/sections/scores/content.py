@@ -4,10 +4,11 @@ import xarray as xr
 
 from ....base.registry import register
 from ....results.stored_study import parameters
-from ...blocks import Block, Heading, Pictures, Text
+from ...blocks import Block, Pictures, Text
 from ...charts.marks import Chart
 from ...figures.scores import rank_acceptability
 from ...figures.scores import scores as score_bars
+from ...tables import DataTable, long_table
 from .. import Section
 from . import tables as scores
 
@@ -16,22 +17,24 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     weightings = parameters(results)["scoring"]["random_weightings"]
     return [
         Text(
-            "Each criterion gives a utility from 0 (worst) to 1 (best) on a fixed scale. The "
-            "weighted sum adds the utilities times their weights; TOPSIS measures closeness to "
-            "the ideal option. Scale and weights are a choice of the study, not a "
-            f"result.{scores.scope_words(results)} So each rank has a probability: of each sample "
-            f"of the values that are not known, by its weight, with {weightings} weightings "
-            "sampled evenly from all that there are (stochastic multicriteria acceptability "
-            "analysis, SMAA-2)."
+            "Each criterion gives a utility from 0 (worst) to 1 (best); scale and weights are a "
+            f"choice of the study.{scores.scope_words(results)} Probabilities of ranks are over "
+            f"the samples and {weightings} random weightings (SMAA-2)."
         ),
         scores.scores_table(results),
-        *filter(None, [scores.acceptability_table(results)]),
         *_too_close(results),
         Pictures((score_bars(results), *_ranks(results))),
         scores.criteria_table(results),
-        scores.values_table(results),
+        Text("Values of the criteria are in scores.csv, all other values in scoring.csv.", "note"),
         *_published(results),
     ]
+
+
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    """Weights and scales, ranks in the samples, published scores."""
+    names = ("weight", "criterion_best", "criterion_worst", "rank_acceptability",
+             "published_score", "published_sum", "recomputed_sum")  # fmt: skip
+    return {"scoring.csv": long_table(results, names)}
 
 
 def _ranks(results: xr.Dataset) -> list[Chart]:
@@ -44,16 +47,11 @@ def _too_close(results: xr.Dataset) -> list[Block]:
 
 
 def _published(results: xr.Dataset) -> list[Block]:
-    table = scores.published_table(results)
-    if table is None:
-        return []
     wrong = ", ".join(scores.wrong_sums(results))
-    return [
-        Heading("Published scores"),
-        Text(scores.published_source(results)),
-        *([Text(f"The printed sum does not add up for {wrong}.", "strong")] if wrong else []),
-        table,
-    ]
+    if not wrong:
+        return []
+    source = scores.published_source(results)
+    return [Text(f"Published scores ({source}): the printed sum does not add up for {wrong}.")]
 
 
-register(Section("scores", "Scores", _blocks, position=90.0))
+register(Section("scores", "Scores", _blocks, position=90.0, tables=_data))

@@ -7,7 +7,6 @@ import numpy as np
 import xarray as xr
 
 from ....base import rounding
-from ....base.vocabulary import REFERENCE_OPTION
 from ....results import labels
 from ....results.estimates import has_samples
 from ....results.run_variables import ANY_WEIGHTS, OF_THE_STUDY
@@ -65,26 +64,6 @@ def criteria_table(results: xr.Dataset) -> Table:
     )
 
 
-def values_table(results: xr.Dataset) -> Table:
-    """Value of every criterion for every option."""
-    criteria = _criteria(results)
-    rows = tuple(
-        (
-            option,
-            *(
-                rounding.significant(
-                    results["criterion_value"].sel(option=option, criterion=criterion).item()
-                )
-                for criterion, _, _ in criteria
-            ),
-        )
-        for option in options(results)
-    )
-    head = ("Option", *(f"{label}, {unit}" if unit else label for _, label, unit in criteria))
-    sampled = ", medians of the samples" if has_samples(results) else ""
-    return Table(f"Values of the criteria{sampled}", head, rows)
-
-
 def scores_table(results: xr.Dataset) -> Table:
     """Score and rank by method and the probability of the first rank."""
     methods = _names(results, "scoring_method")
@@ -106,7 +85,7 @@ def scope_words(results: xr.Dataset) -> str:
     if not has_sources(results):
         return ""
     where = "in each sample" if has_samples(results) else "with nominal values"
-    return f" The change of level in the scores counts all sources, {where}."
+    return f" The change of level counts all sources, {where}."
 
 
 def criteria_of_advantage(results: xr.Dataset, option: str, other: str) -> list[str]:
@@ -120,19 +99,6 @@ def criteria_of_advantage(results: xr.Dataset, option: str, other: str) -> list[
     lead = results["weight"].values * (better - worse)
     labels_of = results["criterion_label"].values
     return [str(labels_of[at]) for at in np.argsort(-lead, kind="stable") if lead[at] > ROUNDING]
-
-
-def published_table(results: xr.Dataset) -> Table | None:
-    """The published scores as printed, with the sums that they really have; None if not given."""
-    if "published_score" not in results:
-        return None
-    rows = tuple(
-        _published_row(results.sel(published_option=option), option)
-        for option in _names(results, "published_option")
-    )
-    criteria = _names(results, "published_criterion")
-    head = ("Option", *criteria, "Sum as printed", "Sum added up", "Check")
-    return Table("Published scores, as printed", head, rows, frozenset({0, len(head) - 1}))
 
 
 def wrong_sums(results: xr.Dataset) -> list[str]:
@@ -161,13 +127,6 @@ def _scores_row(of_option: xr.Dataset, option: str, methods: list[str]) -> tuple
             rounding.fixed(of_method["rank"].item(), 0),
         ]
     return (*cells, f"{100.0 * of_option['first_place_share'].item():.1f} %")
-
-
-def _published_row(printed: xr.Dataset, option: str) -> tuple[str, ...]:
-    scores = [f"{score:g}" for score in printed["published_score"].values]
-    claimed, real = printed["published_sum"].item(), printed["recomputed_sum"].item()
-    verdict = "adds up" if abs(claimed - real) <= SUM_TOLERANCE else "does not add up"
-    return (option, *scores, f"{claimed:g}", f"{real:g}", verdict)
 
 
 def ranked(results: xr.Dataset) -> list[str]:
@@ -209,22 +168,4 @@ def too_close_words(results: xr.Dataset) -> str:
     ]
     if not texts:
         return ""
-    return (
-        f"First by differences from {REFERENCE_OPTION} too small to be measured: "
-        f"{', '.join(texts)}. Ranks count every difference; read these with those of "
-        f"{REFERENCE_OPTION}."
-    )
-
-
-def acceptability_table(results: xr.Dataset) -> Table | None:
-    """Probability of each rank of each option; None in files of older versions."""
-    if "rank_acceptability" not in results:
-        return None
-    probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
-    rows = tuple(
-        (option, *(percent(float(one)) for one in probability.sel(option=option).values))
-        for option in ranked(results)
-    )
-    head = ("Option", *(f"Rank {number:g}" for number in probability["rank_position"].values))
-    sampled = "over samples and weights together" if has_samples(results) else "over the weights"
-    return Table(f"Probability of each rank, {sampled}", head, rows)
+    return f"First by differences too small to be measured: {', '.join(texts)}."

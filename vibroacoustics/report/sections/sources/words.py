@@ -9,7 +9,6 @@ from ....base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
 from ....results.estimates import has_samples, prior_ensemble, sample_numbers
 from ....results.stored_study import (
     at_catalogue,
-    catalogue_receiver,
     first_order_hz,
     nearest_speed,
     operating_points,
@@ -19,7 +18,7 @@ from ....results.stored_study import (
     source_name,
     speeds,
 )
-from ...bands import INTERVAL, Band, band, percent
+from ...bands import Band, band, percent
 from ...shown_speeds import many_speeds
 from ..unknowns.words import sampled_sentences
 
@@ -31,11 +30,6 @@ def elsewhere(results: xr.Dataset) -> str:
     """Words for the operating point of the overall noise, where the machine runs at another one."""
     runs_at, point = operating_points(results)
     return "" if point == runs_at else f" at the operating point {point}"
-
-
-def total_of(results: xr.Dataset) -> str:
-    """What the total level is the level of."""
-    return "all that is modelled" if overall_noise(results) is None else "the whole machine"
 
 
 def source_share(results: xr.Dataset, source: str, speed: float) -> Band:
@@ -53,33 +47,6 @@ def ranked(results: xr.Dataset, speed: float) -> list[str]:
     """Return the sources without a balancer by their share of the energy, the largest first."""
     names = [str(source) for source in results["sound_source"].values]
     return sorted(names, key=lambda name: -source_share(results, name, speed).middle)
-
-
-def carrier_sentence(results: xr.Dataset) -> str:
-    """Return a sentence on the source with the largest share of the energy."""
-    speed = nearest_speed(results)
-    source = ranked(results, speed)[0]
-    share = source_share(results, source, speed)
-    level = band(results, "source_level", **at_catalogue(results, sound_source=source, speed=speed))
-    return (
-        f"The dominant modelled source at {catalogue_receiver(results)} and {speed:g} rpm is "
-        f"{source_name(results, source)}: {share.in_percent()} of the energy of "
-        f"{total_of(results)}, alone {level.middle_and_ends(rounding.level)} dB(A)."
-    )
-
-
-def shares_sentence(results: xr.Dataset) -> str:
-    """Return the shares of all sources and of unmodelled noise in the energy of the machine."""
-    speed = nearest_speed(results)
-    shares = [
-        f"{source_name(results, source)} {source_share(results, source, speed).in_percent()}"
-        for source in ranked(results, speed)
-    ]
-    if overall_noise(results) is not None:
-        shares.append(f"{UNMODELLED} {unmodelled_share(results, speed).in_percent()}")
-    what = f"means with their {INTERVAL}; they add up to 100 %" if has_samples(results) else ""
-    how = f" ({what})" if what else ""
-    return f"Shares of the sound energy{how}: {', '.join(shares)}."
 
 
 def certainty_sentences(results: xr.Dataset) -> list[str]:
@@ -145,10 +112,7 @@ def _ranking(results: xr.Dataset) -> str:
 def _up_to(results: xr.Dataset) -> str:
     highest = parameters(results)["radiation"]["maximum_frequency_hz"]
     above = "in no level" if overall_noise(results) is None else "part of the unmodelled noise"
-    return (
-        f"Sources are modelled up to {highest:g} Hz. Their sound above is {above}: an option with "
-        "key impacts can be louder than shown here."
-    )
+    return f"Sources are modelled up to {highest:g} Hz; their sound above is {above}."
 
 
 def _not_an_order(results: xr.Dataset) -> str:
@@ -157,13 +121,10 @@ def _not_an_order(results: xr.Dataset) -> str:
         return ""
     figures = results["reported_figure"].sel(option=REFERENCE_OPTION)
     motor = float(figures.sel(figure=LINE_FIGURE).max())
-    foot = results["foot_force_amplitude"].sel(order=1, option=REFERENCE_OPTION)
     return (
-        "The motor's line at twice the line frequency is no order of the shaft: "
-        f"{_twice_line(results)}. It and its sidebands count as motor, never as 2×. "
-        f"{_derived_supply(results)}Into a foot it passes at most "
-        f"{rounding.significant(motor)} N, beside {rounding.significant(float(foot.max()))} N at "
-        "1×: what it does to floor and pipes is not modelled."
+        f"Twice the line frequency is no order of the shaft: {_twice_line(results)}. "
+        f"{_derived_supply(results)}It is a source of its own; its foot force is at most "
+        f"{rounding.significant(motor)} N."
     )
 
 

@@ -7,7 +7,7 @@ from ...blocks import Block, Pictures, Text
 from ...figures.stopping import stopping, stopping_order_map
 from ...shown_speeds import chosen_speeds, few_speeds
 from .. import Section
-from .tables import forces_table, sentences, sound_table
+from .tables import forces_table, sentences, stopping_data
 
 
 def _applies(results: xr.Dataset) -> bool:
@@ -20,9 +20,9 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         *(Text(sentence) for sentence in sentences(results)),
         *chosen_speeds(results, "results.nc"),
         forces_table(shown),
-        sound_table(shown),
+        Text("Levels at all microphones are in stopping.csv.", "note"),
         Pictures((stopping(shown), stopping_order_map(shown))),
     ]
 
 
-register(Section("stopping", "Stopping", _blocks, _applies, 80.0))
+register(Section("stopping", "Stopping", _blocks, _applies, 80.0, tables=stopping_data))

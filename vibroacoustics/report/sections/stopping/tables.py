@@ -9,7 +9,7 @@ from ....base import rounding
 from ....base.arrays import Array
 from ....base.vocabulary import REFERENCE_OPTION
 from ....results.stored_study import parameters, speeds
-from ...tables import Table
+from ...tables import DataTable, Table, long_table
 from ..sources.words import LINE_FIGURE
 
 
@@ -46,16 +46,15 @@ _PHASES: Final = ("steady", "stopping")
 def _finding(results: xr.Dataset) -> str:
     steady, stopping = results["stopping_foot_force"].sel(stopping_phase=list(_PHASES)).values
     speed = int(np.argmax(stopping))
-    whose = "The representative sample is meant. " if "representative_value" in results else ""
+    whose = "Representative sample: switched" if "representative_value" in results else "Switched"
     return (
-        f"{whose}Switched off at {speeds(results)[speed]:g} rpm the shaft comes to rest in "
+        f"{whose} off at {speeds(results)[speed]:g} rpm the shaft comes to rest in "
         f"{rounding.significant(results['stopping_duration'].values[speed])} s, after "
         f"{rounding.fixed(results['stopping_revolutions'].values[speed])} revolutions. The largest "
         f"force into a foot is {rounding.significant(stopping[speed])} N, against "
         f"{rounding.significant(steady[speed])} N in steady running without torque ripple and "
         f"{rounding.significant(_line_foot_force_n(results, speed))} N by the motor's torque at "
-        "twice the line frequency: without the motor, all that slows the shaft reaches the housing "
-        "as roll moment. "
+        "twice the line frequency. "
     ) + _loudest(results.isel(speed=speed))
 
 
@@ -83,13 +82,12 @@ def _map_sentence(results: xr.Dataset) -> str:
     turned = rounding.span(results["stopping_revolutions"].values, rounding.fixed)
     if "stopping_order_map" not in results:
         return (
-            f"The shaft turns {turned} times while it stops. There is no order map: even without "
-            "gas load the shaft turns too few times, or has next to no friction to stop it."
+            f"The shaft turns {turned} times while it stops, too few for an order map even without "
+            "gas load."
         )
     return (
-        f"The shaft turns {turned} times while it stops; a block of an order map needs 8. The map "
-        "is that of a stop from the highest speed without gas load, as after the pressures have "
-        "equalised."
+        f"The shaft turns {turned} times while it stops. The order map is that of a stop from the "
+        "highest speed without gas load."
     )
 
 
@@ -100,7 +98,7 @@ def _limits(results: xr.Dataset) -> str:
         f"Assumed: the orbiting set turns by {rounding.fixed(np.degrees(stop['shift_rad']))}° "
         f"against its counterweights within {rounding.significant(1e3 * stop['shift_duration_s'])} "
         f"ms; the gas keeps {rounding.fixed(100.0 * stop['gas_share_ratio'], 0)} % of its torque "
-        f"until the shaft stands; the motor's torque is gone at once. {left_out}"
+        f"until the shaft is at rest; the motor's torque ends at once. {left_out}"
     )
 
 
@@ -120,14 +118,12 @@ def _turned_back(results: xr.Dataset) -> tuple[str, ...]:
 
 
 _NOT_TURNED_BACK: Final = (
-    "Sound is that of the rigid housing alone. Left out: the knock of the set at the end of its "
-    "turn, gas that flows back and turns the shaft backwards, valves, and the shell's own "
-    "vibration."
+    "Sound is that of the rigid housing. Neglected: the impact at the end of the turn, gas that "
+    "turns the shaft back, valves, the elastic shell."
 )
 _TURNED_BACK: Final = (
-    "Sound is that of the rigid housing and, where a source drives it, of the elastic shell under "
-    "gas, brake and valve. Left out: the knock of the set at the end of its turn, and keys and "
-    "motor in the shell."
+    "Sound is that of the housing and, where a source drives it, of the shell under gas, brake and "
+    "valve. Neglected: the impact at the end of the turn, keys and motor in the shell."
 )
 
 
@@ -150,28 +146,9 @@ def forces_table(results: xr.Dataset) -> Table:
     return Table(caption, ("Speed", "Time to rest, s", "Revolutions", *head), rows)
 
 
-def sound_table(results: xr.Dataset) -> Table:
-    """Greatest levels before and after switch-off, a row per microphone."""
-    kinds = ("stopping_fast_maximum_level", "stopping_peak_level")
-    rows = tuple(
-        (
-            str(receiver),
-            *(
-                rounding.level(
-                    float(results[kind].sel(receiver=receiver, speed=speed, stopping_phase=phase))
-                )
-                for speed in speeds(results)
-                for kind in kinds
-                for phase in _PHASES
-            ),
-        )
-        for receiver in results["receiver"].values
-    )
-    head = [
-        f"{what} at {speed:g} rpm, {phase}"
-        for speed in speeds(results)
-        for what in ("Fast, dB(A)", "peak, dB")
-        for phase in _PHASES
-    ]
-    caption = "Greatest Fast level and level of the largest unweighted pressure, re 20 µPa"
-    return Table(caption, ("Microphone", *head), rows)
+def stopping_data(results: xr.Dataset) -> dict[str, DataTable]:
+    """Return durations, largest foot forces and greatest levels of the stop."""
+    names = ("stopping_duration", "stopping_revolutions", "stopping_turned_back_angle",
+             "stopping_brake_force", "stopping_foot_force", "stopping_fast_maximum_level",
+             "stopping_peak_level")  # fmt: skip
+    return {"stopping.csv": long_table(results, names)}

@@ -1,6 +1,7 @@
 """Tables of prominent tones, loudness and sharpness."""
 
 import math
+from itertools import product
 from typing import Final
 
 import xarray as xr
@@ -8,9 +9,9 @@ import xarray as xr
 from ....base import rounding
 from ....results.estimates import Estimate, estimate, is_sampled
 from ....results.prominent_tones import ProminentTone, listed_tones, nearest_tone
-from ....results.stored_study import catalogue_receiver, options, speeds
+from ....results.stored_study import catalogue_receiver, nearest_speed, options, speeds
 from ...shown_speeds import few_speeds
-from ...tables import Table
+from ...tables import DataTable, Table, columns_of
 
 MOST_NAMES: Final = 3
 HEAD: Final = ("Option", "Prominent tones", "Tone", "Hz", "dB", "excess, dB")
@@ -34,13 +35,9 @@ def excess_words(excess_db: Estimate) -> str:
     return ends[0] if ends[0] == ends[1] else " to ".join(ends)
 
 
-def tone_tables(results: xr.Dataset) -> list[Table]:
-    """Return tones, loudness and sharpness of every option at the published receiver, by speed."""
-    name = catalogue_receiver(results)
-    return [_table(results, name, speed) for speed in speeds(few_speeds(results))]
-
-
-def _table(results: xr.Dataset, microphone: str, speed: float) -> Table:
+def tone_table(results: xr.Dataset) -> Table:
+    """Return tones, loudness and sharpness of every option at microphone and published speed."""
+    microphone, speed = catalogue_receiver(results), nearest_speed(results)
     loud = _loudness(results, microphone, speed)
     sampled = is_sampled(results, "tone_excess")
     rows = tuple(
@@ -58,6 +55,29 @@ def _table(results: xr.Dataset, microphone: str, speed: float) -> Table:
     head = (*HEAD, *of_samples, *with_loudness)
     caption = f"Prominent tones, and the tone with the largest excess, {microphone}, {speed:g} rpm"
     return Table(caption, head, rows, frozenset({0, 1, 2}))
+
+
+def tone_data(results: xr.Dataset) -> dict[str, DataTable]:
+    """Return the tone with the largest excess, and the loudness, by option, speed, microphone."""
+    rows: list[tuple[str | float, ...]] = []
+    chosen = few_speeds(results)
+    cases = product(options(results), speeds(chosen), map(str, results["receiver"].values))
+    for option, speed, microphone in cases:
+        tone = nearest_tone(results, option, microphone, speed)
+        case = {"option": option, "speed": speed, "receiver": microphone}
+        values = (
+            float(results[name].sel(case)) if name in results else ""
+            for name in ("any_tone_probability", "loudness", "sharpness")
+        )
+        cells: tuple[str | float, ...] = ("",) * 7
+        if tone is not None:
+            excess, share = tone.excess_db, tone.probability
+            cells = (tone.name, tone.frequency_hz, tone.level_db, *excess, share)
+        rows.append((option, speed, microphone, *cells, *values))
+    head = ("option", "speed_rpm", "receiver", "tone", "frequency_hz", "level_db",
+            "excess_10_percent_db", "excess_db", "excess_90_percent_db", "probability",
+            "some_tone_probability", "loudness_sone", "sharpness_acum")  # fmt: skip
+    return {"tones.csv": columns_of(head, rows)}
 
 
 def _cells(tone: ProminentTone | None, sampled: bool) -> tuple[str, ...]:

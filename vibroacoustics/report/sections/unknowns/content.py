@@ -4,17 +4,12 @@ import xarray as xr
 
 from ....base.registry import register
 from ...blocks import Block, Text
+from ...tables import DataTable, long_table
 from .. import Section
 from . import tables as unknowns
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    samples = (
-        "No level is published: all samples count alike."
-        if list(results["level_share"]["knowledge"].values) == [unknowns.BEFORE]
-        else "Values before and after are those of all samples at the point of the published "
-        "level, after by their weights."
-    )
     sentence = unknowns.measure_next_sentence(results)
     table = unknowns.unknowns_table(results)
     return [
@@ -22,16 +17,24 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(unknowns.resolved_sentence(results)),
         *([table] if table else []),
         Text(
-            "A share is what the variance is expected to lose once the unknown is known (first "
-            "order), with its 80 % bootstrap interval. It is resolved where this interval lies "
-            f"above what chance gives the largest share. {samples}",
+            "A share is the expected loss of variance once the parameter is known, with its 80 % "
+            "bootstrap interval. It is resolved where this interval is above what chance gives. "
+            "All shares are in uncertainty.csv.",
             "note",
         ),
     ]
+
+
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    """Shares of all parameters, values of measurements, levels with less evidence."""
+    stems = ("level_share", "parameter_information", "perfect_information", "alternative_",
+             "projection_error")  # fmt: skip
+    names = [name for name in map(str, results.data_vars) if name.startswith(stems)]
+    return {"uncertainty.csv": long_table(results, names)}
 
 
 def _applies(results: xr.Dataset) -> bool:
     return "level_share" in results
 
 
-register(Section("unknowns", "What the level depends on", _blocks, _applies, 35.0))
+register(Section("unknowns", "Sensitivity", _blocks, _applies, 35.0, tables=_data))

@@ -58,9 +58,8 @@ def resolved_sentence(results: xr.Dataset) -> str:
         for name, count in zip(shares["knowledge"].values, counts, strict=True)
     ]
     return (
-        f"Number of the {shares.sizes['uncertain_parameter']} unknowns with a resolved share in "
-        f"the variance of the modelled level at {catalogue_receiver(results)} without a balancer: "
-        f"{', '.join(words)}."
+        f"Resolved shares in the variance of the modelled level at {catalogue_receiver(results)}, "
+        f"of {shares.sizes['uncertain_parameter']} uncertain parameters: {', '.join(words)}."
     )
 
 
@@ -85,9 +84,9 @@ def unknowns_table(results: xr.Dataset) -> Table | None:
         return None
     words = [_knowledge(results, name) for name in knowledge]
     return Table(
-        f"Unknowns that the modelled level depends on: median of the values with {INTERVAL}",
+        f"Parameters that the modelled level depends on: median of the values with {INTERVAL}",
         (
-            "Unknown",
+            "Parameter",
             *(f"value {word}" for word in words),
             *(f"share of the variance {words[number]}" for number in columns),
         ),
@@ -141,8 +140,8 @@ def _most_valuable(results: xr.Dataset) -> str:
             f"{rounding.fixed(float(gain[best]))} dB in the mean, all values {everything}"
         )
     return (
-        f"All unknown values together are worth {everything} for a choice on {choice}; which one "
-        f"to measure, {sample_numbers(results).computed} samples do not show"
+        f"All unknown values together are worth {everything} for a choice on {choice}; "
+        f"{sample_numbers(results).computed} samples do not show which one to measure"
     )
 
 
