@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from judged_results import judged
+from vibroacoustics.report.sections.reasons.tables import extremes_table
 
 from vibroacoustics.base.rounding import (
     level,
@@ -40,7 +41,6 @@ from vibroacoustics.report.sections.comparison.tables import (
 )
 from vibroacoustics.report.sections.mounts.tables import isolation_sentence, shape_words
 from vibroacoustics.report.sections.radiation.tables import grid_error_sentence
-from vibroacoustics.report.sections.reasons.tables import extremes_table
 from vibroacoustics.report.sections.reasons.words import reasons
 from vibroacoustics.report.sections.scores.tables import published_table, scores_csv, wrong_sums
 from vibroacoustics.report.sections.verdict.words import sentences
@@ -328,9 +328,9 @@ def test_silence_is_never_shown_as_a_number(results: xr.Dataset, files: dict[str
         (3.0, "worse", "the force grows 3.00-fold"),
         (0.5, "better", "the force falls by 50 %"),
         (0.0, "better", "the force vanishes"),
-        (1.0, "no difference that could be measured", "stay the same"),
-        (1.04, "no difference that could be measured", "the force grows by 4 %"),
-        (0.96, "no difference that could be measured", "the force falls by 4 %"),
+        (1.0, "no measurable change", "stay the same"),
+        (1.04, "no measurable change", "the force grows by 4 %"),
+        (0.96, "no measurable change", "the force falls by 4 %"),
     ],
 )
 def test_the_verdict_follows_the_sign(factor: float, judgement: str, words: str) -> None:
@@ -342,7 +342,7 @@ def test_the_verdict_follows_the_sign(factor: float, judgement: str, words: str)
 def test_options_that_worsen_are_named_so(results: xr.Dataset) -> None:
     texts = " ".join(reasons(results, option_verdicts(results)))
     assert "Worse than no balancer: louder." in texts
-    assert "With no difference that could be measured in force, feet and sound: idle." in texts
+    assert "With no measurable change in force, feet and sound: idle." in texts
     halved = make_results({"none": 1.0, "halved": 0.5})
     better = " ".join(reasons(halved, option_verdicts(halved)))
     assert "Worse" not in better

@@ -23,7 +23,7 @@ from vibroacoustics.report.tables import Table
 from vibroacoustics.results.stored_study import speeds
 
 PNG = b"\x89PNG and so on"
-LIGHT = blocks.Light("not sure", "−7 to 0", (-0.07, 0.0), 0.05)
+LIGHT = blocks.Light("uncertain", "−7 to 0", (-0.07, 0.0), 0.05)
 EVERY_BLOCK = (
     blocks.Text("see there", "note", (("there", "scores"),)),
     blocks.Text("It is loud.", "headline"),
@@ -124,9 +124,9 @@ def test_every_block_is_in_both_forms() -> None:
     assert "- a\\|b" in in_markdown
     assert "![alt](figures/one.png)" in in_markdown
     assert "| none | 1 |" in in_markdown
-    assert "| half: mixed | not sure (−7 to 0) |" in in_markdown
+    assert "| half: mixed | uncertain (−7 to 0) |" in in_markdown
     assert re.search(r'<div class="beside"><div>\s*<p>narrow</p>', in_html)
-    assert 'aria-label="not sure"' in in_html
+    assert 'aria-label="uncertain"' in in_html
     assert 'class="bar not-sure"' in in_html
     assert page.pictures()["figures/one.png"].content == PNG
 

@@ -10,13 +10,13 @@ import pytest
 import xarray as xr
 from judged_results import _nominal, judged, restated
 from test_report import PUBLISHED_DBA, make_results
+from vibroacoustics.report.sections.reasons.tables import extremes_table
 
 from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTINGS, check, stamp
 from vibroacoustics.report import comparison_text, render
 from vibroacoustics.report.bands import Band, percent
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.sections.assumptions.tables import not_modelled, remainder_sentence
-from vibroacoustics.report.sections.reasons.tables import extremes_table
 from vibroacoustics.report.sections.reasons.words import reasons
 from vibroacoustics.report.sections.scores.tables import too_close_words
 from vibroacoustics.report.sections.sources.changes import changes_sentence
@@ -307,7 +307,7 @@ def test_an_option_that_rattles_is_not_better(results: xr.Dataset) -> None:
     assert "The ring's keys strike 12.0 times a revolution, with up to 70.0 N" in text
     assert "0.001 dB" not in text
     idle = option_verdict(results, "idle")
-    assert idle.judgement == "no difference that could be measured"
+    assert idle.judgement == "no measurable change"
     assert "modelled level stay" not in idle.sentences[0]
 
 
@@ -326,7 +326,7 @@ def test_a_band_on_both_sides_of_zero_judges_nothing() -> None:
             coords={"sample": results["sample"]},
         )
     results = restated(results)
-    assert option_verdict(results, "idle").judgement == "no difference that could be measured"
+    assert option_verdict(results, "idle").judgement == "no measurable change"
     assert "In most samples no option changes the level" in changes_sentence(results)
     assert "measured: idle by −0.3 to +0.2 dB." in changes_sentence(results)
 
@@ -334,8 +334,8 @@ def test_a_band_on_both_sides_of_zero_judges_nothing() -> None:
 @pytest.mark.parametrize(
     ("change_db", "judgement"),
     [
-        ([-9.0, 0.4, 0.4], "no difference that could be measured"),
-        ([-9.0, 0.6, 0.4], "no difference that could be measured"),  # 5 of 11 samples up, 3 down
+        ([-9.0, 0.4, 0.4], "no measurable change"),
+        ([-9.0, 0.6, 0.4], "no measurable change"),  # 5 of 11 samples up, 3 down
         ([0.0, 0.6, 0.6], "worse"),
         ([-0.6, -0.6, 9.0], "better"),
     ],
@@ -357,7 +357,7 @@ def test_the_smallest_change_that_counts_is_a_setting() -> None:
     scoring = json.loads(results.attrs["parameters"])["scoring"]
     blunt = with_parameters(results, scoring={**scoring, "measurable": {"level_db": 1.0}})
     blunt = restated(blunt)
-    assert option_verdict(blunt, "it").judgement == "no difference that could be measured"
+    assert option_verdict(blunt, "it").judgement == "no measurable change"
 
 
 def test_tables_markdown_and_csv_have_the_same_verdicts(
@@ -370,7 +370,7 @@ def test_tables_markdown_and_csv_have_the_same_verdicts(
     for option, (word, reason) in verdicts.items():
         assert f"| {option} | {word} | {reason} |" in text
         assert f"**{option}** ({word})" in text
-        short = "no difference" if word.startswith("no difference") else word
+        short = "no change" if word.startswith("no measurable") else word
         assert text.count(f"| {option} | {short} |") >= 2  # a table a speed
     table = extremes_table(results)
     assert table is not None
@@ -414,9 +414,7 @@ def test_forces_count_and_show_in_the_samples_where_they_were_sampled(results: x
     fewer = sampled.copy(deep=True)
     fewer["sample_weight"][:, 3:] = 0.0
     fewer["sample_weight"][:, :3] = 1.0 / 3.0
-    assert (
-        option_verdict(restated(fewer), "idle").judgement == "no difference that could be measured"
-    )
+    assert option_verdict(restated(fewer), "idle").judgement == "no measurable change"
 
 
 def test_the_first_reason_names_what_becomes_louder(results: xr.Dataset) -> None:

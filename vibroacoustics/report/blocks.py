@@ -105,7 +105,7 @@ class Light:
     zone : up to which a change could not be measured, of the same scale
     """
 
-    word: Literal["better", "worse", "mixed", "not sure", "no difference"]
+    word: Literal["better", "worse", "mixed", "uncertain", "no change"]
     change: str
     band: tuple[float, float]
     zone: float
@@ -116,7 +116,7 @@ class LightRow:
     """An option with the sign of its verdict and a light for each quantity."""
 
     name: str
-    word: Literal["better", "worse", "mixed", "not sure", "no difference"]
+    word: Literal["better", "worse", "mixed", "uncertain", "no change"]
     lights: tuple[Light, ...]
 
 

@@ -1,6 +1,6 @@
 """The chart that opens the report: what each option does to each quantity, as traffic lights."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
@@ -12,15 +12,21 @@ from ...blocks import Light, LightRow, Lights
 from ...option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
 from ...quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
 from ...shifts import Shift, extent, measurable, shift
+from .words import word
 
 FULL_SCALE: Final = {"%": 100.0, "dB": 20.0}
 """Change at which a bar reaches the end of its cell."""
 _SURE: Final = QUANTILES[0]
 """Share of the samples with a measurable change from which on it is not said that there is none."""
 
-Word: TypeAlias = Literal["better", "worse", "mixed", "not sure", "no difference"]
+Word: TypeAlias = Literal["better", "worse", "mixed", "uncertain", "no change"]
 _WORDS: Final[dict[str, Word]] = {
-    BETTER: "better", WORSE: "worse", MIXED: "mixed", NO_CHANGE: "no difference",
+    BETTER: "better", WORSE: "worse", MIXED: "mixed", NO_CHANGE: "no change",
+}  # fmt: skip
+
+
+_OF_TOTAL: Final[Mapping[str, Word]] = {
+    "louder": "worse", "quieter": "better", "uncertain": "uncertain", "no change": "no change",
 }  # fmt: skip
 
 
@@ -67,9 +73,11 @@ def _row(results: xr.Dataset, option: str) -> tuple[Light, ...]:
 
 
 def _word(shifts: Sequence[Shift]) -> Word:
+    if shifts[0].quantity == TOTAL:
+        return _OF_TOTAL[word(shifts[0])]
     judgement = judge(any(one.worsens for one in shifts), any(one.improves for one in shifts))
     unsure = any(max(one.grown, one.fallen) > _SURE for one in shifts)
-    return "not sure" if judgement == NO_CHANGE and unsure else _WORDS[judgement]
+    return "uncertain" if judgement == NO_CHANGE and unsure else _WORDS[judgement]
 
 
 def _change(shifts: Sequence[Shift]) -> str:
@@ -84,12 +92,9 @@ def _change(shifts: Sequence[Shift]) -> str:
 
 def _note(results: xr.Dataset) -> str:
     least = measurable(results)
-    over = (
-        "10 to 90 % of the samples at all speeds" if has_samples(results) else "all speeds, nominal"
-    )
+    over = "80 % intervals at all speeds" if has_samples(results) else "all speeds, nominal"
     return (
         f"Numbers and bars: {over}; bars end at ±100 % and ±20 dB. Grey: less than "
-        f"{100.0 * least.force_ratio:g} % or {least.level_db:g} dB, which could not be measured. "
-        "Mixed: better at a speed or microphone, worse at another. Not sure: beyond grey in some "
-        f"samples, but not in more than {100.0 * least.samples_ratio:g} % of them."
+        f"{100.0 * least.force_ratio:g} % or {least.level_db:g} dB, not measurable. Mixed: better "
+        "at some microphones or speeds, worse at others."
     )

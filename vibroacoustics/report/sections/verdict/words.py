@@ -4,6 +4,7 @@ Each sentence answers one question: how loud, what makes it, what the options do
 they do to vibration, which measurement is most valuable.
 """
 
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -13,6 +14,7 @@ from ....base import rounding
 from ....base.vocabulary import REFERENCE_OPTION
 from ....results.estimates import QUANTILES, has_samples
 from ....results.stored_study import (
+    assumed_level,
     at_catalogue,
     balancers,
     catalogue_receiver,
@@ -55,9 +57,9 @@ def contributions(results: xr.Dataset) -> Intervals:
     noise = overall_noise(results)
     if noise is not None and speed == noise["speed_rpm"]:
         level, deviation = noise["level_dba"], noise.get("deviation_db", 2.0)
-        published = Band(level - deviation, level, level + deviation)
+        ends = (level - deviation, level, level + deviation)
         text = f"{level:g} ± {deviation:g}"
-        rows.insert(0, Interval("published", text, *published[:3], "published"))
+        rows.insert(0, Interval(_kind(results), text, *ends, "published"))
     if noise is not None:
         rows.append(_contribution(UNMODELLED, band(results, "residual_level", **at), "part"))
     for number, source in enumerate(ranked(results, speed)):
@@ -113,12 +115,14 @@ def _change(results: xr.Dataset, option: str, least: float) -> Interval:
 
 
 def word(of_total: Shift) -> IntervalWord:
-    """Return what an option does to the level: louder, quieter, uncertain, no change."""
-    if of_total.worsens and of_total.improves:
-        return "uncertain"
-    if of_total.worsens:
+    """Return what an option does to the level: louder, quieter, uncertain, no change.
+
+    Louder and quieter are changes whose interval is outside of what can be measured.
+    """
+    change, least = _at_largest(of_total), of_total.least.level_db
+    if of_total.worsens and not of_total.improves and change.lowest >= least:
         return "louder"
-    if of_total.improves:
+    if of_total.improves and not of_total.worsens and change.highest <= -least:
         return "quieter"
     return "uncertain" if max(of_total.grown, of_total.fallen) > _UNCERTAIN else "no change"
 
@@ -146,7 +150,12 @@ def _published(results: xr.Dataset, speed_rpm: float) -> str:
     if noise is None:
         return "no published level"
     speed = "" if speed_rpm == noise["speed_rpm"] else f" at {noise['speed_rpm']:g} rpm"
-    return f"published {noise['level_dba']:g}{speed}"
+    return f"{_kind(results)} {noise['level_dba']:g}{speed}"
+
+
+def _kind(results: xr.Dataset) -> str:
+    """Return what the level of the machine that the study gives is."""
+    return "assumed" if assumed_level(results) else "published"
 
 
 def _room(results: xr.Dataset) -> str:
@@ -185,21 +194,22 @@ def _options(results: xr.Dataset) -> str:
     if not shifts:
         return ""
     least = measurable(results).level_db
-    quieter = [name for name, one in shifts.items() if word(one) == "quieter"]
-    louder = [name for name, one in shifts.items() if word(one) == "louder"]
-    text = f"No option lowers it by {least:g} dB or more"
-    if quieter:
-        best = min(quieter, key=lambda name: shifts[name].gain_db.min())
-        text = f"Best for the level: {best}, {_written(shifts[best])}"
-    if not louder:
-        return f"{text}."
-    louder.sort(key=lambda name: -shifts[name].gain_db.max())
-    worst, *others = louder
-    verb = "raises" if _at_largest(shifts[worst]).lowest > least else "may raise"
-    more = {0: "", 1: f", {others[0] if others else ''} too"}.get(
-        len(others), f", {len(others)} others too"
-    )
-    return f"{text}; {worst} {verb} it: {_written(shifts[worst])}{more}."
+    by_change = sorted(shifts, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
+    lower = [name for name in by_change if shifts[name].improves and not shifts[name].worsens]
+    higher = [name for name in reversed(by_change) if shifts[name].worsens]
+    none = f"No option lowers it by {least:g} dB or more."
+    sentences = [_claim(shifts, lower, "lower") or none, _claim(shifts, higher, "raise")]
+    return " ".join(filter(None, sentences))
+
+
+def _claim(shifts: Mapping[str, Shift], names: Sequence[str], verb: str) -> str:
+    """Say what the first of some options does to the level, and that others do it too."""
+    if not names:
+        return ""
+    first, *others = names
+    does = f"may {verb}" if word(shifts[first]) == "uncertain" else f"{verb}s"
+    too = f"{len(others)} others" if len(others) > 1 else "".join(others)
+    return f"{first} {does} it: {_written(shifts[first])}{f', {too} too' if too else ''}."
 
 
 def _vibration(results: xr.Dataset) -> str:
