@@ -89,7 +89,13 @@ def _differences(results: xr.Dataset) -> xr.Dataset:
     in_bands = by_speed | {"receiver": results["receiver"], "baseline_band": [100.0, 125.0]}
     measured = np.full((*shape[:2], results.sizes["receiver"], 2), 60.0)
     bands = stamp("baseline_band_level", measured, in_bands)
-    named = {one.name: one for one in (gaps, level, bands)}
+    around = {
+        "shown_option": results["shown_option"].values, "polar_band": [500.0],
+        "polar_plane": ["horizontal"], "polar_direction": [0.0, 2.0, 4.0],
+    }  # fmt: skip
+    polar = stamp("polar_level", np.full((len(around["shown_option"]), 1, 1, 3), 40.0), around)
+    radius = stamp("polar_radius", 1.1, {})
+    named = {one.name: one for one in (gaps, level, bands, polar, radius)}
     return xr.Dataset(named, coords=_plane())
 
 
@@ -106,10 +112,11 @@ def _in_a_room(results: xr.Dataset) -> xr.Dataset:
         stamp(name, np.array([[-8.0, -7.0, -9.0]]), at_seam)
         for name in ("room_gain_waves", "room_gain_diffuse", "room_gain_difference")
     ]
+    place = {"height_m": 1.2, "speed_rpm": 2900.0, "highest_band_hz": 400.0}
     band = {"seam_band": at_seam["seam_band"]}
     gain = stamp("room_place_gain", np.array([-1.0, 0.0, 1.0]), band)
     return xr.Dataset(
-        {one.name: one for one in (levels.assign_attrs(height_m=1.2), gain, *seam)},
+        {one.name: one for one in (levels.assign_attrs(place), gain, *seam)},
         attrs={"parameters": json.dumps(parameters)},
     )
 

@@ -180,8 +180,8 @@ def test_drawing_is_light_and_loads_nothing(results: xr.Dataset) -> None:
     picture = machine_picture(results)
     assert picture is not None
     assert picture.ending == "svg"
-    assert len(picture.png) < 15_000
-    text = picture.png.decode()
+    assert len(picture.content) < 15_000
+    text = picture.content.decode()
     assert not re.search(r"href|url\(|<script|<style", text)
     for scale in (" mm<", " N<", " N foot<"):
         assert scale in text

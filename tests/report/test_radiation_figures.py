@@ -3,8 +3,6 @@
 The sources are small: dipoles for the translations, pairs of them for the rotations, over a floor.
 """
 
-import struct
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -28,19 +26,13 @@ from vibroacoustics.radiation.arrangements import (
     map_points,
 )
 from vibroacoustics.radiation.exact import green, wavenumber
-from vibroacoustics.report.figures.directivity import directivity_figure
-from vibroacoustics.report.figures.maps import (
-    colour_edges,
-    line_map_figures,
-    map_figure,
-    unit_level_db,
-)
-from vibroacoustics.report.figures.transfer_vectors import transfer_vector_figure
+from vibroacoustics.report.charts.marks import Image
+from vibroacoustics.report.figures.directivity import directivity
+from vibroacoustics.report.figures.maps import line_map, unit_level_db, unit_level_map
+from vibroacoustics.report.figures.transfer_vectors import transfer_vectors
 from vibroacoustics.report.radiation_tables import radiation_figures, radiation_text
 from vibroacoustics.results import storage
 from vibroacoustics.study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
-
-pytestmark = pytest.mark.usefixtures("real_pictures")
 
 FLOOR_Z_M = -0.225
 FREQUENCY_HZ = np.array([50.0, 100.0, 500.0, 2000.0])
@@ -102,71 +94,77 @@ def radiated() -> xr.Dataset:
     return check(label_coordinates(xr.Dataset(variables, coords=places)))
 
 
-def png_size(png: bytes) -> tuple[int, int]:
-    assert png.startswith(b"\x89PNG")
-    width, height = struct.unpack(">II", png[16:24])
-    return width, height
-
-
 def test_level_at_unit_velocity_is_of_root_mean_squares():
     # 1 Pa s/m at 1 mm/s rms is 1 mPa rms: 20 lg(1e-3/20e-6)
     assert unit_level_db(np.array(1.0 + 0.0j)) == pytest.approx(33.979400, abs=1e-6)
     assert np.isfinite(unit_level_db(np.array(0.0)))
 
 
-@pytest.fixture(scope="module")
-def pictures(radiated):
-    """Drawn once: that of the directivity takes seconds."""
-    return radiation_figures(radiated)
+def test_levels_at_microphones_with_their_error(radiated):
+    chart = transfer_vectors(radiated)
+    tx, *_, rz = chart.panels
+    front = tx.marks[0]
+    field = radiated["transfer_vector"].sel(receiver="front_1m", dof="tx").values
+    np.testing.assert_allclose(front.y, unit_level_db(field))
+    np.testing.assert_allclose(front.interval[1] - front.y, 20.0 * np.log10(1.02), atol=1e-9)
+    assert [mark.words for mark in rz.marks] == ["no sound here"]
+    assert (chart.columns, chart.wide) == (2, True)
 
 
-@pytest.mark.parametrize(
-    ("number", "make"), list(enumerate([transfer_vector_figure, map_figure, directivity_figure]))
-)
-def test_figures_are_1280_pixels_wide(radiated, pictures, number, make):
-    picture = pictures[number]
-    assert png_size(picture.png)[0] == 1280
-    assert picture.alt
-    assert picture.caption
-    assert make(radiated).png == picture.png  # drawn without state
+def test_map_has_the_levels_of_each_motion(radiated):
+    chart = unit_level_map(radiated)
+    tz = chart.panels[2].marks[0]
+    field = radiated["map_transfer_vector"].sel(dof="tz").isel(line_frequency=-1)
+    np.testing.assert_array_equal(tz.values, unit_level_db(field.values))
+    assert np.isnan(tz.values).any()
+    assert tz.x.tolist() == radiated["map_x"].values[0].tolist()
+    row = [panel.marks[0] for panel in chart.panels[:3]]
+    top = max(np.nanmax(mark.values) for mark in row if isinstance(mark, Image))
+    assert tz.scale[1] == top
+    assert all(tz.scale[0] < level < top and level % 5.0 == 0.0 for level in tz.contours)
 
 
-def test_only_the_figures_that_the_dataset_has_variables_for(radiated, pictures):
-    assert [picture.name for picture in radiation_figures(radiated[["transfer_vector"]])] == [
-        "transfer_vectors"
-    ]
-    assert len(pictures) == 3
+def test_polar_cuts_show_the_field_at_their_angles(radiated):
+    chart = directivity(radiated)
+    assert "Silent and left out: rz." in chart.caption
+    field = radiated["directivity_transfer_vector"].sel(dof="ty").isel(line_frequency=-1)
+    level = field.copy(data=unit_level_db(field.values))
+    upright, flat = chart.panels[2:4]
+    xz, yz = upright.marks
+    for curve, shown, polar, azimuth in (
+        (yz, 0.0, 0.5 * np.pi, 0.5 * np.pi),
+        (yz, 120.0, np.pi / 6.0, 1.5 * np.pi),
+        (xz, 60.0, np.pi / 6.0, 0.0),
+        (flat.marks[0], 90.0, 0.5 * np.pi, 0.5 * np.pi),
+    ):
+        there = np.flatnonzero(np.isclose(curve.x, shown))[0]
+        expected = level.sel(polar_angle=polar, azimuth=azimuth, method="nearest")
+        assert curve.y[there] == pytest.approx(float(expected), abs=1e-9)
 
 
-def test_directivity_names_the_silent_motions(pictures):
-    assert "Silent and left out: rz." in pictures[2].caption
+def test_only_the_figures_that_the_dataset_has_variables_for(radiated):
+    drawn = radiation_figures(radiated)
+    assert [picture.name for picture in drawn] == ["transfer_vectors", "map", "directivity"]
+    assert all(picture.alt and picture.caption for picture in drawn)
+    (alone,) = radiation_figures(radiated[["transfer_vector"]])
+    assert alone.name == "transfer_vectors"
 
 
 def test_line_map_of_a_run(radiated):
     field = radiated["map_transfer_vector"].sel(dof="tx").rename(line_frequency="speed")
     level = field.copy(data=unit_level_db(field.values)).expand_dims(option=["none"])
-    level = level.rename("map_level")
-    (picture,) = line_map_figures(level.to_dataset())
-    assert png_size(picture.png)[0] == 1280
-
-
-def test_run_without_a_map_draws_none(radiated):
-    assert line_map_figures(radiated) == []
+    chart = line_map(level.rename("map_level").to_dataset())
+    assert [panel.title for panel in chart.panels] == ["48 rpm", "58 rpm"]
+    np.testing.assert_array_equal(
+        chart.panels[1].marks[0].values, level.sel(option="none").isel(speed=1).values
+    )
 
 
 def test_map_without_sound_is_drawn(radiated):
     silent = radiated.copy()
     silent["map_transfer_vector"] = 0.0 * radiated["map_transfer_vector"]
-    assert png_size(map_figure(silent).png)[0] == 1280
-
-
-@pytest.mark.parametrize(
-    ("highest", "lowest", "expected"),
-    [(60.3, 0.0, (20.0, 62.0, 2.0)), (60.3, 50.0, (50.0, 61.0, 1.0)), (5.0, 5.0, (5.0, 6.0, 1.0))],
-)
-def test_colour_scale_has_whole_steps(highest, lowest, expected):
-    edges = colour_edges(highest, lowest)
-    assert (edges[0], edges[-1], edges[1] - edges[0]) == expected
+    panels = unit_level_map(silent).panels
+    assert {mark.words for panel in panels for mark in panel.marks} == {"no sound here"}
 
 
 def test_table_tells_levels_error_and_sound_power(radiated):
@@ -195,9 +193,9 @@ def test_radiation_command(radiated, monkeypatch, tmp_path):
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
         "transfer_vectors.nc",
         "files.json",
-        "transfer_vectors.png",
-        "map.png",
-        "directivity.png",
+        "transfer_vectors.svg",
+        "map.svg",
+        "directivity.svg",
     }
     read = storage.open_results(tmp_path / "out" / "transfer_vectors.nc")
     assert check(read).equals(radiated)

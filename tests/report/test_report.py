@@ -520,7 +520,7 @@ def test_every_figure_is_on_the_page_with_its_text(files: dict[str, bytes]) -> N
     pictures = [name for name in files if name.startswith("figures/")]
     assert page.count("<img ") == len(pictures)
     assert len(re.findall(r'<img [^>]*alt="[^"]{20,}"', page)) == len(pictures)
-    assert all(files[name].startswith(b"\x89PNG") for name in pictures)
+    assert all(files[name].startswith(b"<svg ") for name in pictures)
 
 
 def test_names_are_escaped() -> None:
@@ -529,7 +529,7 @@ def test_names_are_escaped() -> None:
     assert "<script" not in page["report.html"].decode()
     assert "&lt;script&gt;" in page["report.html"].decode()
     assert "<script" not in page["comparison.md"].decode()
-    assert "figures/transfer_a_b_.png" in page
+    assert "figures/transfer_a_b_.svg" in page
 
 
 @pytest.mark.parametrize("start", ["=", "+", "-", "@", "\t"])

@@ -83,5 +83,5 @@ def test_files_of_the_report(results):
     section = SECTIONS["paths"]
     assert section.applies(results)
     page = Page("T", "M", "now", (Part("paths", section.title, tuple(section.blocks(results))),))
-    assert set(page.pictures()) == {"figures/paths_1_front_1m.png", "figures/paths_feet.png"}
+    assert set(page.pictures()) == {"figures/paths_1_front_1m.svg", "figures/paths_feet.svg"}
     assert "Forces into the feet" in html(page).decode()

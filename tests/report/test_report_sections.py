@@ -65,6 +65,7 @@ BUILT_IN = [
     "in-room",
     "shell-test",
     "speeds",
+    "run-up",
     "unknowns",
     "tones",
     "orders",
@@ -79,6 +80,7 @@ BUILT_IN = [
     "provenance",
 ]
 NOT_HERE = {
+    "run-up",
     "evidence",
     "live",
     "stopping",

@@ -541,7 +541,7 @@ def test_a_study_of_none_alone_has_sources_and_no_changes() -> None:
     files = render(with_sources({"none": 40.0}))
     page = files["report.html"].decode()
     assert "What the options do to all sources" not in page
-    assert "figures/sources_options.png" not in files
+    assert "figures/sources_options.svg" not in files
 
 
 def test_bands_and_shares_in_words() -> None:

@@ -313,8 +313,8 @@ def test_report_has_a_section(results):
     files = render(results)
     page = files["report.html"].decode()
     assert '<div id="stopping">' in page
-    assert "figures/stopping.png" in files
-    assert "figures/stopping_order_map.png" in files
+    assert "figures/stopping.svg" in files
+    assert "figures/stopping_order_map.svg" in files
     foot = results["stopping_foot_force"].sel(stopping_phase="stopping").item()
     assert forces_table(results).rows[0][-1] == f"{foot:.1f}"
     assert "stop from the highest speed without gas load" in sentences(results)[1]

@@ -7,6 +7,7 @@ import xarray as xr
 
 from ...base import rounding
 from ...base.arrays import Array
+from ...base.vocabulary import REFERENCE_OPTION
 from ...results.stored_study import catalogue_receiver, options
 from ..charts.layout import wrapped
 from ..charts.marks import Axis, Chart, Panel, Points, named_axis
@@ -63,22 +64,27 @@ def level_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
     return Chart(
         "level_orders",
         f"A-weighted level of orders {named} at {at} for every option and speed.",
-        f"A-weighted level of single orders at {at}, dB re 20 µPa: 1× and the loudest over options "
-        f"and speeds, {named}. Orders below {rounding.fixed(floor_db, 0)} dB are not drawn.",
+        f"A-weighted level of single orders at {at}, dB re 20 µPa: 1× and the loudest without and "
+        f"with options, {named}. Orders below {rounding.fixed(floor_db, 0)} dB are not drawn.",
         _dots(level.sel(order=loud), Axis("Level, dB(A)"), floor_db),
     )
 
 
 def loudest_orders(level: xr.DataArray) -> list[float]:
-    """Return 1 and the orders with the highest level over options and speeds, in rising order.
+    """Return 1 and the orders that carry the sound, in rising order.
+
+    Half of them are the loudest without an option, the others the loudest of all options.
 
     Parameters
     ----------
-    level : A-weighted, (order, ...), dB; not a number where it is silent
+    level : A-weighted, (option, order, ...), dB; not a number where it is silent
     """
-    highest = level.max([dim for dim in level.dims if dim != "order"]).dropna("order")
-    loud = highest["order"].values[np.argsort(-highest.values, kind="stable")[:MOST_ORDERS]]
-    return sorted({1.0, *map(float, loud)})
+    ranked = []
+    for levels in (level.sel(option=[REFERENCE_OPTION]), level):
+        highest = levels.max([dim for dim in level.dims if dim != "order"]).dropna("order")
+        ranked.append(highest["order"].values[np.argsort(-highest.values, kind="stable")])
+    loud = dict.fromkeys([*ranked[0][: MOST_ORDERS // 2].tolist(), *ranked[1].tolist()])
+    return sorted({1.0, *list(loud)[:MOST_ORDERS]})
 
 
 def _of_force(name: str, title: str, force: xr.DataArray, label: str) -> Chart:

@@ -21,4 +21,4 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [Pictures((run_up_levels(results), *orders))]
 
 
-register(Section("run-up", "Run-up", _blocks, _applies, 35.5))
+register(Section("run-up", "Run-up", _blocks, _applies, 35.0))
