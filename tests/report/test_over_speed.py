@@ -14,7 +14,7 @@ from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.report.avoid import avoid_csv
 from vibroacoustics.report.blocks import from_json, pictures, to_json
-from vibroacoustics.report.compared.over_speed import channel_charts, over_speed_parts
+from vibroacoustics.report.compared.over_speed import over_speed_parts
 from vibroacoustics.report.figures.style import WIDTH_INCH, Picture, png
 from vibroacoustics.report.html import html
 from vibroacoustics.report.page import Page, Part

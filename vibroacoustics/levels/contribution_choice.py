@@ -5,13 +5,13 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ..base.vocabulary import WEIGHTINGS
+from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS
 from ..study.study import Study
 
 MOST_SPEEDS: Final = 3
 """The slowest, the fastest, and that of the published level or a middle one."""
 MOST_ORDERS: Final = 12
-"""The loudest ones after weighting by A, anywhere."""
+"""The loudest ones without an option after weighting by A, at any speed and receiver."""
 QUIETEST_DB: Final = -40.0
 """Orders below this everywhere are none of them."""
 ALWAYS: Final = (1, 2)
@@ -31,8 +31,8 @@ def chosen_speeds(study: Study) -> list[float]:
 
 def loudest_orders(levels: xr.Dataset) -> list[int]:
     """Choose the orders of sound by path: 1, 2 and the loudest ones."""
-    level = levels["order_level"].isel(weighting=WEIGHTINGS.index("A"))
-    loudest = level.max(("speed", "option", "receiver")).values
+    level = levels["order_level"].isel(weighting=WEIGHTINGS.index("A")).sel(option=REFERENCE_OPTION)
+    loudest = level.max(("speed", "receiver")).values
     ranked = [int(order) for order in np.argsort(-loudest, kind="stable") if order > 0]
-    others = [one for one in ranked if one not in ALWAYS and loudest[one] >= QUIETEST_DB]
+    others = [order for order in ranked if order not in ALWAYS and loudest[order] >= QUIETEST_DB]
     return sorted([*ALWAYS, *others[: MOST_ORDERS - len(ALWAYS)]])

@@ -53,7 +53,7 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Chart:
     label = f"Peak, {of_channel['channel_unit'].item()}"
     y = amplitude_axis(label, np.stack(sizes), () if limits is None else limits)
     across, along = ("speed", "order") if by_speed else ("order", "speed")
-    lowest = (y.limits or (0.0,))[0]
+    lowest = y.limits[0] if y.limits and y.limits[0] is not None else 0.0
     is_shown = ((sizes[0] > lowest) | (sizes[1] > lowest)).any(along)
     shown = of_channel[across].where(is_shown, drop=True).values[:_MOST_PANELS]
     named = (of_channel.attrs["first"], of_channel.attrs["second"])
