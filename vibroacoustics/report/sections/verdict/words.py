@@ -57,9 +57,9 @@ def contributions(results: xr.Dataset) -> Intervals:
     noise = overall_noise(results)
     if noise is not None and speed == noise["speed_rpm"]:
         level, deviation = noise["level_dba"], noise.get("deviation_db", 2.0)
-        ends = (level - deviation, level, level + deviation)
+        bounds = (level - deviation, level, level + deviation)
         text = f"{level:g} ± {deviation:g}"
-        rows.insert(0, Interval(_kind(results), text, *ends, "published"))
+        rows.insert(0, Interval(_kind(results), text, *bounds, "published"))
     if noise is not None:
         rows.append(_contribution(UNMODELLED, band(results, "residual_level", **at), "part"))
     for number, source in enumerate(ranked(results, speed)):
