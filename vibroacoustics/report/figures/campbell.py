@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ...base.arrays import Array
+from ...base.arrays import Array, IndexArray
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results.over_speed.avoid import LEVEL, speeds_to_avoid
 from ...results.over_speed.modes import KINDS, Crossing, Mode, crossings, modes_of
@@ -124,19 +124,24 @@ def _lines(lines: Sequence[SoundLine], speed_rpm: Array, highest_hz: float) -> I
     for line in lines:
         colour, dash = (_TONE, ":") if np.isnan(line.order) else (COLOURS[0], "-")
         yield Line(speed_rpm, line.frequency_hz, colour=colour, dash=dash, width=0.9)
-        within = np.flatnonzero(line.frequency_hz <= highest_hz)
-        if within.size:
-            yield _name(line, within[-1], speed_rpm, highest_hz, colour)
+        visible = np.flatnonzero(line.frequency_hz <= highest_hz)
+        if visible.size:
+            yield _name(line, visible, speed_rpm, highest_hz)
 
 
-def _name(line: SoundLine, last: int, speed_rpm: Array, highest_hz: float, colour: str) -> Note:
-    """Return the name of a line below the top that it leaves through, or above its end."""
-    words, pair = shortened(line.name, 22), slice(last, last + 2)
-    hertz, speed = line.frequency_hz[pair], speed_rpm[pair]
-    if hertz.size > 1 and np.isfinite(hertz[1]):
-        x = float(np.interp(highest_hz, hertz, speed))
-        return Note(x, highest_hz, words, colour, "left", (2.0, -9.0))
-    return Note(float(speed[0]), float(hertz[0]), words, colour, "right", (-3.0, 3.0))
+def _name(line: SoundLine, visible: IndexArray, speed_rpm: Array, highest_hz: float) -> Note:
+    """Return the name of a tone at its first speed, or of an order at its last one."""
+    words, last = shortened(line.name, 22), int(visible[-1])
+    if np.isnan(line.order):
+        last = int(visible[0])
+        x, y = float(speed_rpm[last]), float(line.frequency_hz[last])
+        return Note(x, y, words, _TONE, shift=(3.0, 3.0))
+    y = min(highest_hz, line.order * float(speed_rpm[-1]) / 60.0)
+    below = -9.0 if y > 0.93 * highest_hz else 3.0
+    x = 60.0 * y / line.order
+    if x < 0.98 * speed_rpm[-1]:
+        return Note(x, y, words, COLOURS[0], "left", (2.0, below))
+    return Note(x, y, words, COLOURS[0], "right", (-3.0, below))
 
 
 def _marks(met: Sequence[Crossing], all_alike: bool) -> Iterator[Points]:
