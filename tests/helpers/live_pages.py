@@ -12,9 +12,8 @@ from support import PIPELINES, labelled_vectors, made_up_transfer_vectors
 import vibroacoustics as va
 from vibroacoustics.levels.measured_points import BASELINE_BANDS
 from vibroacoustics.machine.floor import Floor
-from vibroacoustics.report.blocks import Text
-from vibroacoustics.report.html import html
-from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.analysis import Analysis
+from vibroacoustics.report.blocks import Part, Text
 from vibroacoustics.report.sections import SECTIONS
 
 WEIGHT: Final = {
@@ -153,7 +152,7 @@ def page_of(results: xr.Dataset) -> bytes:
     still = Part("still", "Still", (Text("This stands still."),))
     section = SECTIONS["live"]
     live = Part(section.name, section.title, tuple(section.blocks(results)), section.folded)
-    return html(Page("Sliders", "machine", "2026-01-01", (still, live)))
+    return Analysis("page", "Sliders", "machine", "2026-01-01", "About.", (still, live)).html()
 
 
 READY: Final = """const done = arguments[0];

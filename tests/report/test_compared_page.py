@@ -14,7 +14,7 @@ from vibroacoustics import (
     label_recording,
     mean_of_runs,
 )
-from vibroacoustics.report import compared_order_figures, comparison_html
+from vibroacoustics.report import analysis_of_comparison
 from vibroacoustics.report.compared.levels import levels_tables
 from vibroacoustics.report.compared.studies import inputs_table, key_figures
 from vibroacoustics.report.compared.validation import validations_of
@@ -54,7 +54,7 @@ def validated(study, runs, specimens):
 
 
 def page_of(compared, figures=()):
-    return comparison_html(compared, figures, compared_order_figures(compared.orders)).decode()
+    return analysis_of_comparison(compared, figures).html().decode()
 
 
 def test_options_side_by_side(study):

@@ -1,7 +1,5 @@
 """The data sheet: known sound power and vibration, empty bands, K, files, refusals."""
 
-import csv
-import io
 import json
 from pathlib import Path
 
@@ -17,7 +15,8 @@ import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError, SchemaError
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.declaration.vibration import peak_to_peak, point_velocity
-from vibroacoustics.report.data_sheet import data_sheet_csv, data_sheet_html, headline
+from vibroacoustics.report.data_sheet import analysis_of_data_sheet, headline
+from vibroacoustics.report.tables import records
 from vibroacoustics.results import storage
 from vibroacoustics.results.data_sheet import DataSheet
 from vibroacoustics.sound.tone_spectra import tone_variables
@@ -82,7 +81,7 @@ def test_nothing_beside_the_model_leaves_bands_empty_never_zero(tiny: xr.Dataset
     beyond = np.array([band.band_hz > 800.0 for band in sheet.sound_power.bands])
     assert np.isnan(total[beyond]).all()
     assert np.isnan(rest).all()
-    page = data_sheet_html(sheet).decode()
+    page = analysis_of_data_sheet(sheet).html().decode()
     below = _column(sheet, "modelled_below_db")
     empty = np.isnan(_column(sheet, "modelled_db"))
     _, highest_hz = sheet.sound_power.model_range_hz
@@ -92,7 +91,7 @@ def test_nothing_beside_the_model_leaves_bands_empty_never_zero(tiny: xr.Dataset
     assert np.isnan(below[~empty | ~covered]).all()
     assert page.count("model: below −40") == np.count_nonzero(empty & covered) > 0
     assert page.count("<td>not modelled") == np.count_nonzero(~covered)
-    rows = list(csv.DictReader(io.StringIO(data_sheet_csv(sheet).decode())))
+    rows = records(next(iter(analysis_of_data_sheet(sheet).tables.values())))
     of_band = [row for row in rows if row["item"] == "2000 Hz"]
     assert [row["value"] for row in of_band] == [""] * 4
     band = json.loads(sheet.model_dump_json())["sound_power"]["bands"][13]
@@ -278,7 +277,7 @@ def test_files_of_a_sheet(tiny: xr.Dataset, file: Path, tmp_path: Path) -> None:
 
 
 def test_page_shows_every_band_and_point(tiny: xr.Dataset) -> None:
-    page = data_sheet_html(va.data_sheet(tiny, "none")).decode()
+    page = analysis_of_data_sheet(va.data_sheet(tiny, "none")).html().decode()
     for band in BANDS:
         assert f'<th scope="row" class="words">{band.nominal_hz:g}</th>' in page
     for point in ("front_<wbr>left", "top of the shell"):
@@ -349,7 +348,11 @@ def test_tones_that_stand_out_are_stated_at_their_microphone(results: xr.Dataset
     assert tone.level_db >= level.sel(weighting="Z").item() - 1e-6
     assert 0.0 <= tone.excess_db <= 60.0
     assert tone.probability == 1.0
-    page = data_sheet_html(va.data_sheet(quiet, "none", microphones=["p1", "p2"])).decode()
+    page = (
+        analysis_of_data_sheet(va.data_sheet(quiet, "none", microphones=["p1", "p2"]))
+        .html()
+        .decode()
+    )
     assert "Prominent tones (ECMA-418-1" in page
 
 
@@ -362,7 +365,7 @@ def test_tones_without_noise_are_not_judged(results: xr.Dataset) -> None:
     sheet = va.data_sheet(bare, "none", microphones=["p1", "p2"])
     assert sheet.tones == ()
     assert sheet.tones_not_judged > 1
-    page = data_sheet_html(sheet).decode()
+    page = analysis_of_data_sheet(sheet).html().decode()
     assert f"{sheet.tones_not_judged} audible tones without noise in the critical band" in page
 
 

@@ -6,6 +6,7 @@ import zlib
 import numpy as np
 import pytest
 import xarray as xr
+from pages import page_of
 from support import PIPELINES, tiny_run
 from test_report import make_results
 
@@ -14,8 +15,7 @@ from vibroacoustics.balancers.counterweight import Counterweight
 from vibroacoustics.mechanics.moving_parts import derivative, wrench
 from vibroacoustics.mechanics.rotation import Rotation
 from vibroacoustics.orders.spectrum import order_spectrum_at_speed
-from vibroacoustics.report.blocks import Live
-from vibroacoustics.report.html import html
+from vibroacoustics.report.blocks import Live, Part
 from vibroacoustics.report.live.assets import live_script, live_style, unpacking_script
 from vibroacoustics.report.live.data import full_scale_pa, live_data
 from vibroacoustics.report.live.lines import Lines
@@ -23,8 +23,6 @@ from vibroacoustics.report.live.mounts import mount_matrices
 from vibroacoustics.report.live.moving import moving_of
 from vibroacoustics.report.live.numbers import FEW_BITS, NOTHING, Numbers, packed
 from vibroacoustics.report.live.weight import unit_loads, weight_of
-from vibroacoustics.report.markdown import markdown
-from vibroacoustics.report.page import Page, Part
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.transfer import on_mounts
 
@@ -174,8 +172,8 @@ def test_results_without_noise_have_no_such_section(results):
 
 def test_names_cannot_end_the_script_and_markdown_leaves_it_out():
     evil = '{"a": "</script><script>alert(1)</script>"}'
-    page = Page("t", "m", "now", (Part("live", "Try it", (Live(evil),)),))
-    text = html(page).decode()
+    page = page_of(Part("live", "Try it", (Live(evil),)))
+    text = page.html().decode()
     assert evil not in text
     assert "\\u003c/script>" in text
-    assert "alert" not in markdown(page).decode()
+    assert "alert" not in page.markdown().decode()

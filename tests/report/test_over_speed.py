@@ -7,18 +7,18 @@ import struct
 import numpy as np
 import pytest
 import xarray as xr
+from pages import page_of
 from support import TINY, made_up_radiation
+from vibroacoustics.report.figures.style import WIDTH_INCH, Picture, png
 
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
-from vibroacoustics.report.avoid import avoid_csv
-from vibroacoustics.report.blocks import from_json, pictures, to_json
+from vibroacoustics.report.avoid import avoid_data
+from vibroacoustics.report.blocks import Part, from_json, pictures, to_json
 from vibroacoustics.report.compared.over_speed import over_speed_parts
-from vibroacoustics.report.figures.style import WIDTH_INCH, Picture, png
-from vibroacoustics.report.html import html
-from vibroacoustics.report.page import Page, Part
 from vibroacoustics.report.sections import SECTIONS
+from vibroacoustics.report.tables import to_csv
 from vibroacoustics.results.figure_limits import Compared
 from vibroacoustics.results.over_speed.avoid import (
     FOOT_FORCE,
@@ -242,12 +242,12 @@ def test_the_section_of_the_report(results):
         for one in (drawn_pictures[-1].png, drawn_pictures[-1].full_png)
     ]
     assert widths == [736, 1472]
-    page = html(Page("Title", "Machine", "now", (Part("speeds", "Speeds", tuple(blocks)),)))
+    page = page_of(Part("speeds", "Speeds", tuple(blocks))).html()
     assert page.count(b'<figure class="full"><picture><source media="screen and') == 4
     assert from_json(to_json(blocks)) == tuple(blocks)
     assert "Without a balancer no speed is to be avoided" in blocks[0].words
     assert {row[0] for row in blocks[1].rows} == {"spring-mass"}
-    rows = list(csv.DictReader(io.StringIO(avoid_csv(avoided(results)).decode())))
+    rows = list(csv.DictReader(io.StringIO(to_csv(avoid_data(avoided(results))).decode())))
     assert {(row["option"], row["line"], row["mode"]) for row in rows} == {
         ("spring-mass", "1×", "")
     }

@@ -14,16 +14,16 @@ import xarray as xr
 from browsers import program
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from pages import page_of
 from pypdf import PdfReader
 from support import assert_refused, command_here, tiny_run
 
 from vibroacoustics.commands import printing
 from vibroacoustics.commands.outputs import with_pdf, write_report
-from vibroacoustics.report.blocks import Beside, Block, Details, Lights, Text
+from vibroacoustics.report.blocks import Beside, Block, Details, Lights, Part, Text
 from vibroacoustics.report.figures import style
-from vibroacoustics.report.html import html
-from vibroacoustics.report.page import Page, Part, page_of
 from vibroacoustics.report.paper import for_paper
+from vibroacoustics.report.study import analysis_of_study
 from vibroacoustics.report.tables import Table
 
 MICROPHONES = "".join(
@@ -54,7 +54,7 @@ def folded_page() -> bytes:
     table = Table("Inner", ("Option", "N"), (("none", "1"),))
     blocks = (Details("More", (table,)), Text("the end"))
     parts = (Part("first", "First", blocks), Part("second", "Second", blocks, folded=True))
-    return html(Page("Title", "Machine", "now", parts))
+    return page_of(*parts).html()
 
 
 @pytest.mark.parametrize("paper", SIZES)
@@ -112,8 +112,8 @@ def test_every_page_has_a_pdf_of_its_name() -> None:
 @pytest.mark.slow
 @pytest.mark.usefixtures("blank_figures")
 def test_every_table_is_in_the_pdf(results: xr.Dataset) -> None:
-    page = page_of(results)
-    reader = _read(printing.Printer(program("chromium"), "a4").printed(html(page)))
+    page = analysis_of_study(results)
+    reader = _read(printing.Printer(program("chromium"), "a4").printed(page.html()))
     assert _size(reader) == SIZES["a4"]
     pages = [sheet.extract_text() for sheet in reader.pages]
     text = _squeezed("".join(re.sub(r"^\d+ / \d+$", "", sheet, flags=re.M) for sheet in pages))

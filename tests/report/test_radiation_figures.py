@@ -30,7 +30,7 @@ from vibroacoustics.report.charts.marks import Image
 from vibroacoustics.report.figures.directivity import directivity
 from vibroacoustics.report.figures.maps import line_map, unit_level_db, unit_level_map
 from vibroacoustics.report.figures.transfer_vectors import transfer_vectors
-from vibroacoustics.report.radiation_tables import radiation_figures, radiation_text
+from vibroacoustics.report.radiation_tables import analysis_of_radiation, radiation_figures
 from vibroacoustics.results import storage
 from vibroacoustics.study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 
@@ -168,7 +168,7 @@ def test_map_without_sound_is_drawn(radiated):
 
 
 def test_table_tells_levels_error_and_sound_power(radiated):
-    text = radiation_text(radiated)
+    text = analysis_of_radiation(radiated).text()
     assert text.isascii() or "µ" in text
     rows = [line.split() for line in text.splitlines()]
     level = unit_level_db(radiated["transfer_vector"].sel(receiver="front_1m", dof="tx").values)
@@ -204,5 +204,6 @@ def test_radiation_command(radiated, monkeypatch, tmp_path):
 def test_nothing_is_written_when_a_figure_fails(radiated, tmp_path):
     broken = radiated.drop_vars("map_x")
     with pytest.raises(KeyError):
-        outputs.write_radiation(broken, tmp_path / "out")
-    assert not (tmp_path / "out").exists()
+        outputs.write_analysis(
+            analysis_of_radiation(broken), broken, tmp_path / "out", "radiated.nc"
+        )

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from judged_results import judged
+from pages import comparison_text
 from vibroacoustics.report.sections.reasons.tables import extremes_table
 
 from vibroacoustics.base.rounding import (
@@ -30,20 +31,21 @@ from vibroacoustics.base.vocabulary import (
     check,
     stamp,
 )
-from vibroacoustics.report import comparison_text, render
+from vibroacoustics.report import render
 from vibroacoustics.report.figures.scores import contributions
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.sections.assumptions.tables import records_table
 from vibroacoustics.report.sections.comparison.tables import (
     comparison,
-    comparison_csv,
+    comparison_data,
     comparison_tables,
 )
 from vibroacoustics.report.sections.mounts.tables import isolation_sentence, shape_words
 from vibroacoustics.report.sections.radiation.tables import grid_error_sentence
 from vibroacoustics.report.sections.reasons.words import reasons
-from vibroacoustics.report.sections.scores.tables import published_table, scores_csv, wrong_sums
+from vibroacoustics.report.sections.scores.tables import published_table, scores_data, wrong_sums
 from vibroacoustics.report.sections.verdict.words import sentences
+from vibroacoustics.report.tables import to_csv
 from vibroacoustics.scoring import score
 from vibroacoustics.study.scoring import CriterionScale, Scoring
 
@@ -278,14 +280,14 @@ def files(results: xr.Dataset) -> dict[str, bytes]:
 def test_comparison_csv_has_the_columns_and_one_row_per_option_speed_and_receiver(
     results: xr.Dataset,
 ) -> None:
-    lines = comparison_csv(results).decode().splitlines()
+    lines = to_csv(comparison_data(results)).decode().splitlines()
     assert lines[0] == f"{COLUMNS},level_modelled_db,level_modelled_dbc"
     assert len(lines) == 1 + 5 * 2 * 2
 
 
 def test_comparison_csv_equals_the_dataset(results: xr.Dataset) -> None:
     compared = comparison(results)
-    rows = list(csv.DictReader(io.StringIO(comparison_csv(results).decode())))
+    rows = list(csv.DictReader(io.StringIO(to_csv(comparison_data(results)).decode())))
     for row in rows:
         own = compared.sel(
             option=row["option"], speed=float(row["speed_rpm"]), receiver=row["receiver"]
@@ -299,7 +301,7 @@ def test_comparison_csv_equals_the_dataset(results: xr.Dataset) -> None:
 
 
 def test_scores_csv_repeats_scores_and_ranks(results: xr.Dataset) -> None:
-    rows = list(csv.DictReader(io.StringIO(scores_csv(results).decode())))
+    rows = list(csv.DictReader(io.StringIO(to_csv(scores_data(results)).decode())))
     assert [row["option"] for row in rows] == [str(name) for name in results["option"].values]
     assert [float(row["score_weighted_sum"]) for row in rows] == pytest.approx(
         results["score"].values[:, 0]
@@ -536,7 +538,7 @@ def test_names_are_escaped() -> None:
 def test_no_name_is_a_formula_in_a_spreadsheet(start: str) -> None:
     name = f"{start}SUM(1+1)"
     made = make_results({"none": 1.0, name: 1.5}, receivers=(name,))
-    for table in (comparison_csv(made), scores_csv(made)):
+    for table in (to_csv(comparison_data(made)), to_csv(scores_data(made))):
         rows = list(csv.DictReader(io.StringIO(table.decode())))
         assert f"'{name}" in {row["option"] for row in rows}
         assert name not in {cell for row in rows for cell in row.values()}

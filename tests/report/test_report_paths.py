@@ -5,10 +5,10 @@ import io
 
 import numpy as np
 import pytest
+from pages import page_of
 from support import tiny_run
 
-from vibroacoustics.report.html import html
-from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.sections.paths.tables import (
     foot_table,
@@ -16,11 +16,12 @@ from vibroacoustics.report.sections.paths.tables import (
     leading_sentence,
     orders_table,
     partial_sums_table,
-    paths_csv,
+    paths_data,
     paths_table,
     phasor_shares,
     relation,
 )
+from vibroacoustics.report.tables import to_csv
 
 
 @pytest.fixture(scope="module")
@@ -77,11 +78,11 @@ def test_forces_of_the_feet_are_those_of_the_results(results):
 
 
 def test_files_of_the_report(results):
-    rows = list(csv.DictReader(io.StringIO(paths_csv(results).decode())))
+    rows = list(csv.DictReader(io.StringIO(to_csv(paths_data(results)).decode())))
     shares = [float(r["share_of_modelled_energy"]) for r in rows if r["option"] == "none"]
     assert sum(shares) == pytest.approx(1.0, rel=1e-7)
     section = SECTIONS["paths"]
     assert section.applies(results)
-    page = Page("T", "M", "now", (Part("paths", section.title, tuple(section.blocks(results))),))
+    page = page_of(Part("paths", section.title, tuple(section.blocks(results))))
     assert set(page.pictures()) == {"figures/paths_1_front_1m.svg", "figures/paths_feet.svg"}
-    assert "Forces into the feet" in html(page).decode()
+    assert "Forces into the feet" in page.html().decode()

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
+from pages import comparison_text
 from support import command_here
 from test_report import make_results
 
@@ -12,7 +13,7 @@ from vibroacoustics.base.errors import PluginError
 from vibroacoustics.base.plugin_file import load_plugin
 from vibroacoustics.base.registry import Registry
 from vibroacoustics.commands import outputs
-from vibroacoustics.report import comparison_text, keep, render
+from vibroacoustics.report import keep, render
 from vibroacoustics.report.columns import COLUMNS
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.results import storage
@@ -42,6 +43,7 @@ register(Section("prices", "What it costs", blocks, position=25.0))
 COLUMN = """
 from vibroacoustics.base.registry import register
 from vibroacoustics.report.columns import Column
+from pages import comparison_text
 
 register(
     Column(

@@ -6,17 +6,15 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
+from pages import comparison_text, page_of
 from test_report import make_results
 from test_report_unknowns import with_unknowns
 
-from vibroacoustics.report import blocks, comparison_text, render
+from vibroacoustics.report import blocks, render
+from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.charts.marks import Axis, Chart, Line, Panel
-from vibroacoustics.report.charts.picture import picture
+from vibroacoustics.report.charts.picture import Picture, picture
 from vibroacoustics.report.columns import COLUMNS
-from vibroacoustics.report.figures.style import Picture
-from vibroacoustics.report.html import html
-from vibroacoustics.report.markdown import markdown
-from vibroacoustics.report.page import Page, Part
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.shown_speeds import few_speeds, few_speeds_words
 from vibroacoustics.report.tables import Table
@@ -117,8 +115,8 @@ def test_blocks_survive_json() -> None:
 
 
 def test_every_block_is_in_both_forms() -> None:
-    page = Page("Title", "Machine", "now", (Part("mine", "Mine", EVERY_BLOCK),))
-    in_html, in_markdown = html(page).decode(), markdown(page).decode()
+    page = page_of(Part("mine", "Mine", EVERY_BLOCK))
+    in_html, in_markdown = page.html().decode(), page.markdown().decode()
     assert '<p class="note">see <a href="#scores">there</a></p>' in in_html
     assert '<span class="tag tag-no-change">no change</span>' in in_html
     assert "<details><summary>Fold</summary>" in in_html
@@ -135,8 +133,8 @@ def test_every_block_is_in_both_forms() -> None:
 
 def test_a_chart_of_intervals_is_drawn_to_its_scale() -> None:
     """From 40 to 60: 45, 50 and 60 are 25, 50 and 100 % along the axis."""
-    page = Page("Title", "Machine", "now", (Part("mine", "Mine", EVERY_BLOCK),))
-    in_html, in_markdown = html(page).decode(), markdown(page).decode()
+    page = page_of(Part("mine", "Mine", EVERY_BLOCK))
+    in_html, in_markdown = page.html().decode(), page.markdown().decode()
     (table,) = re.findall(r'<table class="intervals">(.*?)</table>', in_html, re.DOTALL)
     assert "<caption>Levels</caption>" in table
     first, second = re.findall(r"<tr>(<th scope=\"row\".*?)</tr>", table, re.DOTALL)
@@ -177,8 +175,8 @@ def test_sections_are_in_their_order() -> None:
 def test_every_section_is_html_and_markdown(name: str, results: xr.Dataset) -> None:
     section = SECTIONS[name]
     assert section.applies(results)
-    page = Page("T", "M", "now", (Part(name, section.title, tuple(section.blocks(results))),))
-    in_html, in_markdown = html(page).decode(), markdown(page).decode()
+    page = page_of(Part(name, section.title, tuple(section.blocks(results))))
+    in_html, in_markdown = page.html().decode(), page.markdown().decode()
     assert f'<section id="{name}">\n<h2>{section.title}</h2>' in in_html
     assert f"## {section.title}\n" in in_markdown
     captions = re.findall(r"<caption>(.*?)</caption>", in_html)
@@ -189,7 +187,7 @@ def test_every_section_is_html_and_markdown(name: str, results: xr.Dataset) -> N
 
 def test_contents_lead_to_every_other_section() -> None:
     parts = tuple(Part(name, name.upper(), EVERY_BLOCK) for name in ("one", "two", "three"))
-    contents = re.search(r"<nav.*?</nav>", html(Page("T", "M", "now", parts)).decode(), re.DOTALL)
+    contents = re.search(r"<nav.*?</nav>", page_of(*parts).html().decode(), re.DOTALL)
     assert contents is not None
     assert re.findall(r'href="#(.*?)"', contents[0]) == ["two", "three"]
 

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 import xarray as xr
 from judged_results import _nominal, judged, restated
+from pages import comparison_text
 from test_report import PUBLISHED_DBA, make_results
 from vibroacoustics.report.sections.reasons.tables import extremes_table
 
 from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTINGS, check, stamp
-from vibroacoustics.report import comparison_text, render
+from vibroacoustics.report import render
 from vibroacoustics.report.bands import Band, percent
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.sections.assumptions.tables import not_modelled, remainder_sentence

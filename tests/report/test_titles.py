@@ -7,10 +7,11 @@ import pytest
 from support import ROOT, TINY, assert_refused, command_here, made_up_radiation
 
 import vibroacoustics as va
-from vibroacoustics.report import comparison_csv
-from vibroacoustics.report.page import page_of
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.sections.scores.tables import criteria_table, scores_csv
+from vibroacoustics.report.sections.comparison.tables import comparison_data
+from vibroacoustics.report.sections.scores.tables import criteria_table, scores_data
+from vibroacoustics.report.study import analysis_of_study
+from vibroacoustics.report.tables import to_csv
 from vibroacoustics.results.titles import chosen, option_titles, titled
 
 TITLE = "Half of the counterweight"
@@ -34,10 +35,10 @@ def results():
 def test_the_report_shows_titles(results, monkeypatch):
     some = ("verdict", "comparison")
     monkeypatch.setattr(
-        "vibroacoustics.report.page.sections_of", lambda _: [SECTIONS[name] for name in some]
+        "vibroacoustics.report.study.sections_of", lambda _: [SECTIONS[name] for name in some]
     )
-    page = page_of(results)
-    assert page.machine == MACHINE
+    page = analysis_of_study(results)
+    assert page.kind == MACHINE
     for part in page.parts:
         shown = str(part.blocks)
         assert TITLE in shown, part.name
@@ -47,7 +48,7 @@ def test_the_report_shows_titles(results, monkeypatch):
 
 
 def test_csv_keeps_the_names(results):
-    for made in (comparison_csv(results), scores_csv(results)):
+    for made in (to_csv(comparison_data(results)), to_csv(scores_data(results))):
         rows = list(csv.DictReader(io.StringIO(made.decode())))
         assert {row["option"] for row in rows} == {"none", NAME}
     assert results["option"].values.tolist() == ["none", NAME]

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from .command import command
-from .options import LimitsFile, Option, Paper, Pdf, with_pdf
+from .options import LimitsFile, Option, Printing
 from .outcome import Outcome
 
 if TYPE_CHECKING:
@@ -33,8 +33,8 @@ def compare_command(
     ] = 0.0,
     out: Annotated[Path | None, "Folder of the results; default: that of B."] = None,
     limits: LimitsFile = None,
-    pdf: Pdf = False,
-    paper: Paper = None,
+    *,
+    printing: Printing,
 ) -> Outcome:
     """Compare two results order by order, in level and phase: compared.html, tables, figures."""
     from math import radians
@@ -45,9 +45,8 @@ def compare_command(
     from ..results.limits_file import read_figure_limits
     from ..results.mean_of_runs import with_scatter
     from . import arguments, checking, outputs
-    from .printing import printer
 
-    prints = printer(pdf, paper)
+    prints = printing.printer()
     folder = out or others[0].parent
     outputs.check_folder(folder)
     of_orders, of_figures = read_figure_limits(limits) if limits else ((), ())
@@ -63,14 +62,10 @@ def compare_command(
     orders = checking.held_against(with_scatter(orders, other), of_orders)
     compared = Compared(orders, reference, other)
     figures = check_figures(compared, of_figures)
-    written = outputs.write_comparison(compared, figures, folder, prints)
-    page = folder / outputs.COMPARISON_REPORT_NAME
-    files = checking.margin_files(orders, folder / outputs.COMPARED_LIMITS_NAME)
-    if figures:
-        files["limits of other figures"] = folder / outputs.COMPARED_FIGURES_NAME
+    analysis = report.analysis_of_comparison(compared, figures)
     return Outcome(
-        checking.with_margins(report.comparison_of_orders_text(orders), orders),
-        with_pdf({**files, "compared orders": written, "report": page}, page, prints),
+        files=outputs.write_analysis(analysis, orders, folder, "compared_orders.nc", prints),
+        analyses={"": analysis},
         broken=report.broken_lines(orders, figures),
     )
 

@@ -1,13 +1,11 @@
 """Command for a machine's inner curves. Heavy imports wait until it is needed."""
 
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated
 
 from .command import command
-from .options import Option, Plugins, load_plugins
+from .options import Option, Plugins, Printing, load_plugins
 from .outcome import Outcome
-
-CURVES_NAME: Final = "curves.nc"
 
 
 @command("curves", "Studies", "pipelines/copeland_sources.toml --speed 2900")
@@ -20,10 +18,11 @@ def curves_command(
     option: Option = "none",
     out: Annotated[Path | None, "Folder; default: reports/NAME OF THE FILE/curves."] = None,
     plugin: Plugins = None,
+    *,
+    printing: Printing,
 ) -> Outcome:
     """Show what goes on inside a machine: curves.nc, a table and a picture of each curve."""
     from .. import report
-    from ..report.charts.picture import picture
     from ..sources.curves import curves
     from ..study.loading import load_study_or_machine
     from . import outputs
@@ -32,11 +31,8 @@ def curves_command(
     folder = out or Path("reports") / file.stem / "curves"
     study_or_machine = load_study_or_machine(file)
     outputs.check_folder(folder)
+    prints = printing.printer()
     inner = curves(study_or_machine, speed, option)
-    tables = {f"{name}.csv": report.curve_csv(inner, str(name)) for name in inner.data_vars}
-    pictures = map(picture, report.curve_charts(inner))
-    written = outputs.write_analysis(inner, folder, CURVES_NAME, tables, pictures)
-    lines = [
-        f"{name}: {curve.attrs['title']} ({curve.attrs['source']})" for name, curve in inner.items()
-    ]
-    return Outcome("\n".join(lines), {"curves": written})
+    analysis = report.analysis_of_curves(inner)
+    files = outputs.write_analysis(analysis, inner, folder, "curves.nc", prints)
+    return Outcome(files=files, analyses={"": analysis})

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Annotated
 
 from .command import command
-from .options import Option, Plugins, ResultsFile, Speed, load_plugins
+from .options import Option, Plugins, Printing, ResultsFile, Speed, load_plugins
 from .outcome import Outcome
 
 
@@ -32,21 +32,22 @@ def datasheet_command(
     ] = None,
     out: Annotated[Path | None, "Folder; default: that of the file."] = None,
     plugin: Plugins = None,
+    *,
+    printing: Printing,
 ) -> Outcome:
     """Write the data sheet of an option, predicted: page, CSV and JSON (ISO 4871, EN 12102-1)."""
     from .. import report
     from ..declaration.sheet import data_sheet
-    from . import arguments, outputs, sheets
+    from . import arguments, outputs
 
     load_plugins(plugin)
     folder = out or results_file.parent
     points_m = arguments.points("--point", point)
     outputs.check_folder(folder)
+    prints = printing.printer()
     results, _ = outputs.open_run(results_file)
     with outputs.naming(results_file):
         sheet = data_sheet(results, option, speed, microphone or None, points_m, batch)
-    page = sheets.write_data_sheet(sheet, folder)
-    files = {"data sheet": page, "table": page.with_suffix(".csv")}
-    return Outcome(
-        report.data_sheet_headline(sheet), {**files, "for programs": page.with_suffix(".json")}
-    )
+    analysis = report.analysis_of_data_sheet(sheet)
+    files = outputs.write_analysis(analysis, None, folder, printer=prints)
+    return Outcome(files=files, analyses={"": analysis})

@@ -1,8 +1,8 @@
 """Commands for designs. Heavy imports wait until they are needed."""
 
-import json
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -11,8 +11,8 @@ import typer
 from ..base.progress import Progress
 from . import messages
 from .command import command
-from .options import Paper, Pdf, Plugins, StudyOut, load_plugins, with_pdf
-from .outcome import Outcome, Table, columns
+from .options import Plugins, Printing, StudyOut, load_plugins
+from .outcome import Outcome
 from .workers import Workers
 
 if TYPE_CHECKING:
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
     from ..design.evaluation import Evaluate
     from ..design.problem import Problem
+    from ..report.analysis import Analysis
     from .workers import Opener
 
 SWEEP_NAME: Final = "sweep.nc"
 TABLE_NAME: Final = "sweep.csv"
-PAGE_NAME: Final = "designs.html"
 DESIGNS_NAME: Final = "designs.nc"
 SWEEP_CHUNKS: Final = "sweep_chunks"
 SEARCH_CHUNKS: Final = "search_chunks"
@@ -44,20 +44,19 @@ def sweep_command(
         float,
         typer.Option("--longest", min=0.0, help="Refuse a sweep that takes longer, hours."),
     ] = 12.0,
-    pdf: Pdf = False,
-    paper: Paper = None,
+    printing: Printing,
 ) -> Outcome:
     """Compute every design of a study's grid or sample: a dataset, a table and a report.
 
     Ended at any moment, the same command goes on where it was.
     """
+    from .. import report
     from ..design.dataset import table_csv
     from ..design.explaining import explained
     from ..design.sweep import as_searched, prepare, swept
     from . import outputs
-    from .printing import printer
 
-    prints = printer(pdf, paper)
+    prints = printing.printer()
     opened = workers.opener()
     problem, folder = _problem(study_file, out, plugin)
     prepared = prepare(problem, 3600.0 * longest)
@@ -66,17 +65,18 @@ def sweep_command(
         results = swept(prepared, progress, evaluate)
         searched = as_searched(prepared, results)
         search = explained(problem, searched, evaluate) if searched.any_allowed else None
-    tables = {TABLE_NAME: table_csv(results)}
-    if search is None:
-        messages.warn(["no design meets the constraints: there is no report of the best"])
-    else:
-        tables |= outputs.with_pdf(_report(problem, search, study_file, folder), prints)
-    written = outputs.write_analysis(results, folder, SWEEP_NAME, tables)
     failed = int((results["failure"] > 0).sum())
     if failed:
-        messages.warn([f"{failed} designs failed; {TABLE_NAME} tells why"])
-    printed = None if search is None else prints
-    return Outcome(files=with_pdf({"designs": written}, folder / PAGE_NAME, printed))
+        messages.warn([f"{failed} designs failed; {TABLE_NAME} gives the reasons"])
+    table = {TABLE_NAME: table_csv(results)}
+    if search is None:
+        messages.warn(["no design meets the constraints: there is no report of the best"])
+        analysis = report.analysis_of_no_designs(results)
+    else:
+        analysis = _analysis(problem, search, study_file, folder)
+    analysis = replace(analysis, further={**analysis.further, **table})
+    files = outputs.write_analysis(analysis, results, folder, SWEEP_NAME, prints)
+    return Outcome(files=files, analyses={"": analysis})
 
 
 @command("optimise", "Designs", "pipelines/copeland_designs.toml --json")
@@ -87,46 +87,23 @@ def optimise_command(
     out: StudyOut = None,
     workers: Workers,
     plugin: Plugins = None,
-    pdf: Pdf = False,
-    paper: Paper = None,
+    printing: Printing,
 ) -> Outcome:
     """Search the design space of a study: the best design, or the front of several objectives.
 
     Ended at any moment, the same command goes on where it was.
     """
-    from .. import report
     from ..design.optimising import searched_designs
     from . import outputs
-    from .printing import printer
 
-    prints = printer(pdf, paper)
+    prints = printing.printer()
     opened = workers.opener()
     problem, folder = _problem(study_file, out, plugin)
     with _evaluating(problem, study_file, folder / SEARCH_CHUNKS, opened, plugin) as evaluate:
         search = searched_designs(problem, evaluate, progress)
-    files = outputs.with_pdf(_report(problem, search, study_file, folder), prints)
-    written = outputs.write_analysis(search, folder, DESIGNS_NAME, files)
-    return Outcome(
-        report.designs_text(search),
-        with_pdf({"designs": written}, folder / PAGE_NAME, prints),
-        _best(report.designs_json(search)),
-    )
-
-
-def _best(designs: str) -> dict[str, Table]:
-    """Tables of the best designs: their variables, and what they promise with 80 % intervals."""
-    searched = json.loads(designs)
-    best = list(enumerate(searched.pop("best"), 1))
-    promised = [
-        {"design": number, "wanted": name, **ends}
-        for number, design in best
-        for name, ends in design["wanted"].items()
-    ]
-    return {
-        "search": columns([searched]),
-        "best": columns([{"design": number, **design["variables"]} for number, design in best]),
-        "promised": columns(promised),
-    }
+    analysis = _analysis(problem, search, study_file, folder)
+    files = outputs.write_analysis(analysis, search, folder, DESIGNS_NAME, prints)
+    return Outcome(files=files, analyses={"": analysis})
 
 
 def _problem(
@@ -146,17 +123,18 @@ def _problem(
     return Problem(study), folder
 
 
-def _report(
+def _analysis(
     problem: "Problem", search: "xr.Dataset", study_file: Path, folder: Path
-) -> dict[str, bytes]:
-    """Files of the report, and studies of the best few designs."""
+) -> "Analysis":
+    """Report of a search, with studies of the best few designs."""
     from .. import report
     from ..design.best_studies import best_studies
 
-    texts = {}
-    if not report.no_best(search):
-        texts = best_studies(problem, search, study_file, folder)
-    return report.render_designs(search) | {name: text.encode() for name, text in texts.items()}
+    analysis = report.analysis_of_designs(search)
+    if report.no_best(search):
+        return analysis
+    texts = best_studies(problem, search, study_file, folder)
+    return replace(analysis, further={name: text.encode() for name, text in texts.items()})
 
 
 @contextmanager

@@ -1,16 +1,17 @@
-"""Impulse responses of a room written to files, all at one gain."""
+"""Impulse responses of a room as sounds, all at one gain."""
 
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 from itertools import product
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base.errors import ParameterError
+from ..report.analysis import Analysis
 from ..report.file_names import file_name
-from ..results import files
+from ..report.responses import analysis_of_impulse_responses
 from ..sound.files import at_gain, wav_bytes
 from ..sound.gain import next_full_scale
 from ..sound.rendering import SAMPLE_RATE_HZ
@@ -19,45 +20,35 @@ UNITS: Final = {"t": "Pa/(m/s²)", "r": "Pa/(rad/s²)"}
 """Of translations and rotations."""
 
 
-def write_impulse_responses(
+def impulse_analysis(
     responses: xr.DataArray,
-    folder: Path,
     listeners: Sequence[str] | None = None,
     full_scale: float | None = None,
-) -> list[Path]:
-    """Write a WAV file for each listener and motion; its name states the gain of all.
+) -> Analysis:
+    """Return an analysis with a WAV file for each listener and motion, named by the gain of all.
 
     Parameters
     ----------
     responses : of `impulse_responses`
-    folder : of the files; it is made where it is missing
     listeners : names; all where nothing is given
     full_scale : value at full scale; none for the next of 1, 2, 5, 10, … of all listeners
-
-    Returns
-    -------
-    paths of the files
 
     Raises
     ------
     ParameterError
         A name is unknown, or a response exceeds full scale.
-    StorageError
-        The folder cannot be written.
     """
     known = [str(name) for name in responses["listener"].values]
     check_asked(known, listeners, full_scale)
     highest = float(np.abs(responses).max())
     scale = next_full_scale(highest) if full_scale is None else full_scale
-    written = []
-    with files.only_writer(folder) as staged:
-        for listener, dof in product(listeners or known, responses["dof"].values):
-            sound = at_gain(responses.sel(listener=listener, dof=dof).values, scale)
-            name = f"{file_name(listener)}_{dof}_{scale:g}Pa.wav"
-            files.write(staged, name, wav_bytes(sound, SAMPLE_RATE_HZ, scale, UNITS[dof[0]]))
-            written.append(folder / name)
-        files.replace_all(staged)
-    return written
+    names, contents = {}, {}
+    for listener, dof in product(listeners or known, map(str, responses["dof"].values)):
+        sound = at_gain(responses.sel(listener=listener, dof=dof).values, scale)
+        name = f"{file_name(listener)}_{dof}_{scale:g}Pa.wav"
+        names[listener, dof] = name
+        contents[name] = wav_bytes(sound, SAMPLE_RATE_HZ, scale, UNITS[dof[0]])
+    return replace(analysis_of_impulse_responses(responses, scale, names), further=contents)
 
 
 def check_asked(

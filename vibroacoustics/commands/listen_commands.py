@@ -1,6 +1,5 @@
 """Commands that write sound. Heavy imports wait until they run."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -8,7 +7,7 @@ import typer
 
 from ..base.progress import Progress
 from .command import command
-from .options import NoCache, Plugins, ResultsFile, StudyFile, load_plugins, used_cache
+from .options import NoCache, Plugins, Printing, ResultsFile, StudyFile, load_plugins, used_cache
 from .outcome import Outcome
 
 
@@ -52,7 +51,7 @@ def listen_command(
             calibration_db=calibration,
             file_format=file_format,
         )
-    return _named("sound", written)
+    return Outcome(files={f"sound {number}": path for number, path in enumerate(written, 1)})
 
 
 @command(
@@ -78,25 +77,24 @@ def impulse_responses_command(
     ] = None,
     plugin: Plugins = None,
     no_cache: NoCache = False,
+    *,
+    printing: Printing,
 ) -> Outcome:
     """Write responses in a room to the shell's accelerations, for listening to measured ones."""
     from .. import pipeline
     from ..study.loading import load_study
     from . import outputs
-    from .impulse_files import check_asked, write_impulse_responses
+    from .impulse_files import check_asked, impulse_analysis
 
     load_plugins(plugin)
     folder = out or Path("reports") / study_file.stem / "impulse_responses"
     study = load_study(study_file)
     outputs.check_folder(folder)
+    prints = printing.printer()
     with outputs.naming(study_file), used_cache(no_cache):
         if study.room is not None:
             check_asked(study.room.listeners, microphone, full_scale)
         responses = pipeline.impulse_responses(study, progress)
-        written = write_impulse_responses(responses, folder, microphone or None, full_scale)
-    return _named("impulse response", written)
-
-
-def _named(label: str, files: Sequence[Path]) -> Outcome:
-    """Files, each with a label of its own."""
-    return Outcome(files={f"{label} {number}": path for number, path in enumerate(files, 1)})
+        analysis = impulse_analysis(responses, microphone or None, full_scale)
+    files = outputs.write_analysis(analysis, None, folder, printer=prints)
+    return Outcome(files=files, analyses={"": analysis})

@@ -1,8 +1,12 @@
 """Options that several commands share."""
 
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
+
+if TYPE_CHECKING:
+    from .printing import Printer
 
 StudyFile = Annotated[Path, "STUDY: Study file, .toml."]
 ResultsFile = Annotated[Path, "RESULTS: Results of a run, results.nc."]
@@ -21,11 +25,36 @@ LimitsFile = Annotated[
     "totals and criteria, too. The exit code is 1 where a limit is broken.",
 ]
 NoCache = Annotated[bool, "Neither read nor write the cache of the radiation."]
-Pdf = Annotated[
-    bool,
-    "Print the page as PDF, too; needs Chromium, Chrome or Edge on PATH.",
-]
-Paper = Annotated[str | None, "Sheets of the PDF: a4 or letter; default: a4."]
+
+
+@dataclass(frozen=True)
+class Printing:
+    """Options of a page on paper.
+
+    Attributes
+    ----------
+    pdf : whether it is printed
+    paper : size of the sheets
+    brief : whether what is folded is omitted
+    """
+
+    pdf: Annotated[bool, "Print the page as PDF, too; needs Chromium, Chrome or Edge on PATH."] = (
+        False
+    )
+    paper: Annotated[str | None, "Sheets of the PDF: a4 or letter; default: a4."] = None
+    brief: Annotated[bool, "Omit what is folded from the PDF."] = False
+
+    def printer(self) -> "Printer | None":
+        """Find what prints; None where no PDF is wanted.
+
+        Raises
+        ------
+        ParameterError
+            There is no such paper, or no browser that prints.
+        """
+        from .printing import printer
+
+        return printer(self.pdf, self.paper, self.brief)
 
 
 def used_cache(unused: bool) -> AbstractContextManager[None]:
@@ -41,8 +70,3 @@ def load_plugins(plugins: list[Path] | None) -> None:
 
     for file in plugins or ():
         load_plugin(file)
-
-
-def with_pdf(files: dict[str, Path], page: Path, printed: object) -> dict[str, Path]:
-    """Return the files by label, with the PDF of a page where it was printed."""
-    return files if printed is None else {**files, "pdf": page.with_suffix(".pdf")}

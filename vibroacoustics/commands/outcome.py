@@ -6,13 +6,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import isfinite
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from ..report.analysis import Analysis
 
 Table = Mapping[str, Sequence[Any]]
 """Values by column."""
 
 _MAXIMUM_BYTES: Final = 500_000_000
-_NUMBER: Final = ("value", "unit", "variable", "selection", "statistic", "low", "high", "text")
 _CELL: Final = {"type": ["number", "string", "boolean", "null"]}
 _TEXT: Final = {"type": "string"}
 _LEVEL: Final = {"type": ["number", "null"]}
@@ -54,6 +56,7 @@ SCHEMA: Final[dict[str, Any]] = {
                 {"low": _LEVEL, "high": _LEVEL, "text": _TEXT},
             ),
         },
+        "charts": {"type": "array", "items": {"type": "object"}},
         "files": {"type": "object", "additionalProperties": _TEXT},
         "warnings": {"type": "array", "items": _TEXT},
     }),
@@ -71,21 +74,21 @@ class Outcome:
     files : that were written, by label; the terminal shows both. Files that belong to them by
         `files.json` are added to the envelope, and every CSV file is a table of it
     tables : further tables, by name
-    numbers : that the text states, each a mapping or object with value, unit, variable, selection
-        and statistic
+    analyses : whose tables, numbers and charts belong to it, by prefix of the tables; the terminal
+        shows them before the text
     broken : a line for each limit that is broken; the exit code is then 1
     """
 
     text: str = ""
     files: Mapping[str, Path] = field(default_factory=dict)
     tables: Mapping[str, Table] = field(default_factory=dict)
-    numbers: Sequence[Any] = ()
+    analyses: Mapping[str, "Analysis"] = field(default_factory=dict)
     broken: Sequence[str] = ()
 
     def lines(self) -> Iterator[str]:
         """Lines for the terminal."""
-        if self.text.strip("\n"):
-            yield self.text.rstrip("\n")
+        texts = (*(each.text() for each in self.analyses.values()), self.text)
+        yield from (text.rstrip("\n") for text in texts if text.strip("\n"))
         yield from (f"broken: {line}" for line in self.broken)
         yield from (f"{label}: {path}" for label, path in self.files.items())
 
@@ -95,17 +98,23 @@ class Outcome:
         from ..results.provenance import software_version
 
         files = _with_further(self.files)
-        read = {
-            key.removesuffix(".csv"): _columns(read_text(path, _MAXIMUM_BYTES))
-            for key, path in files.items()
-            if key.endswith(".csv")
+        found = {prefix: each.json() for prefix, each in self.analyses.items()}
+        tables = {
+            f"{prefix}{table}": columns
+            for prefix, each in found.items()
+            for table, columns in each["tables"].items()
         }
+        for key, path in files.items():
+            table = key.removesuffix(".csv")
+            if table not in {key, *tables}:
+                tables[table] = _columns(read_text(path, _MAXIMUM_BYTES))
         return _plain({
             "command": name,
             "version": software_version(),
             "inputs": inputs,
-            "tables": {**read, **self.tables},
-            "numbers": [_number(each) for each in self.numbers],
+            "tables": {**tables, **self.tables},
+            "numbers": [number for each in found.values() for number in each["numbers"]],
+            "charts": [chart for each in found.values() for chart in each["charts"]],
             "files": files,
             "warnings": warnings,
         })  # fmt: skip
@@ -147,12 +156,6 @@ def _cell(text: str) -> str | float | None:
         return float(text)
     except ValueError:
         return text or None
-
-
-def _number(number: Any) -> dict[str, Any]:
-    if isinstance(number, Mapping):
-        return dict(number)
-    return {name: getattr(number, name) for name in _NUMBER if hasattr(number, name)}
 
 
 def _plain(value: Any) -> Any:

@@ -1,7 +1,7 @@
 """What a run leaves on disk: the dataset, the report, its tables and figures."""
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
@@ -11,25 +11,16 @@ import xarray as xr
 from .. import report
 from ..base.errors import ParameterError, SchemaError, StorageError
 from ..base.folder import Folder, opened_folder
-from ..report.charts.picture import Picture, picture
+from ..report.analysis import Analysis
 from ..results import manifest, storage
 from ..results.complete import check_run
-from ..results.figure_limits import CheckedFigure, Compared
-from ..results.files import LOCK_NAME, STAGING_NAME, write
+from ..results.files import LOCK_NAME, STAGING_NAME, write, write_together
 from ..results.files import naming as writing
 from ..results.provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
 from .printing import Printer
 
 RESULTS_NAME: Final = "results.nc"
 REPORT_NAME: Final = "report.html"
-TRANSFER_VECTORS_NAME: Final = "transfer_vectors.nc"
-ORDERS_NAME: Final = "orders.nc"
-ORDERS_REPORT_NAME: Final = "orders.html"
-COMPARISON_NAME: Final = "compared_orders.nc"
-LIMITS_NAME: Final = "orders_limits.csv"
-COMPARED_LIMITS_NAME: Final = "compared_orders_limits.csv"
-COMPARED_FIGURES_NAME: Final = "compared_figures_limits.csv"
-COMPARISON_REPORT_NAME: Final = "compared.html"
 REPORT_FILES: Final = (
     REPORT_NAME,
     "comparison.csv",
@@ -156,30 +147,33 @@ def write_report(results: xr.Dataset, folder: str | Path) -> Path:
     >>> va.write_report(results, "written").name
     'report.html'
     """
+    return write_study(results, folder)[1]["report"]
+
+
+def write_study(
+    results: xr.Dataset, folder: str | Path, printer: Printer | None = None
+) -> tuple[Analysis, dict[str, Path]]:
+    """Write the dataset of a run with its report; see `write_report` and `write_analysis`."""
     kept = report.keep(results)
-    with manifest.replacing(Path(folder), RESULTS_NAME) as staged:
-        digest = storage.stage_results(kept, staged, RESULTS_NAME)
-        _stage(report.render(kept, digest), staged)
-    return Path(folder) / REPORT_NAME
+    analysis = report.analysis_of_study(kept)
+    return analysis, write_analysis(analysis, kept, folder, RESULTS_NAME, printer)
 
 
-def write_report_again(results_file: Path, folder: Path, printer: Printer | None = None) -> Path:
+def write_report_again(
+    results_file: Path, folder: Path, printer: Printer | None = None
+) -> tuple[Analysis, dict[str, Path]]:
     """Write the report of results that are on disk, its tables and figures, together or not at all.
 
     Returns
     -------
-    path of the report
+    the report, and paths of page and PDF by what they are
     """
     results, digest = open_run(results_file)
-    files = with_pdf(report.render(results, digest), printer)
+    analysis = report.analysis_of_study(results)
+    files = _files(analysis, digest, printer)
     with manifest.replacing(folder, results_file.name, digest) as staged:
         _stage(files, staged)
-    return folder / REPORT_NAME
-
-
-def with_pdf(files: Mapping[str, bytes], printer: Printer | None) -> dict[str, bytes]:
-    """The files, and those that a printer makes of their pages."""
-    return {**files, **(printer.pages(files) if printer else {})}
+    return analysis, written_files(analysis, folder, printer=printer)
 
 
 def older_files(folder: Path) -> list[str]:
@@ -191,67 +185,60 @@ def older_files(folder: Path) -> list[str]:
     return [*mixed, *(f"{path}: is not of these results" for path in strange)]
 
 
-def write_radiation(radiated: xr.Dataset, folder: str | Path) -> Path:
-    """Write transfer vectors and their figures, together or not at all.
-
-    Returns
-    -------
-    path of the dataset
-    """
-    pictures = report.radiation_figures(radiated)
-    return write_analysis(radiated, folder, TRANSFER_VECTORS_NAME, {}, pictures)
-
-
-def write_orders(results: xr.Dataset, folder: str | Path, printer: Printer | None = None) -> Path:
-    """Write the orders of a recording with page, tables and figures; see `write_radiation`."""
-    tables = {"orders.csv": report.orders_csv(results)}
-    if "equivalent_level" in results:
-        tables["levels.csv"] = report.levels_csv(results)
-    if "order_limit" in results:
-        tables[LIMITS_NAME] = report.limits_csv(results)
-    charts = report.recorded_order_charts(results)
-    tables[ORDERS_REPORT_NAME] = report.orders_html(results, charts)
-    tables = with_pdf(tables, printer)
-    return write_analysis(results, folder, ORDERS_NAME, tables, map(picture, charts))
-
-
-def write_comparison(
-    compared: Compared,
-    figures: Sequence[CheckedFigure],
-    folder: str | Path,
-    printer: Printer | None = None,
-) -> Path:
-    """Write compared orders with their page, tables and figures; see `write_radiation`."""
-    orders = compared.orders
-    tables = {"compared_orders.csv": report.comparison_of_orders_csv(orders)}
-    if "order_limit" in orders:
-        tables[COMPARED_LIMITS_NAME] = report.limits_csv(orders)
-    if figures:
-        tables[COMPARED_FIGURES_NAME] = report.figure_limits_csv(figures)
-    charts = report.compared_order_charts(orders)
-    tables[COMPARISON_REPORT_NAME] = report.comparison_html(compared, figures, charts)
-    tables = with_pdf(tables, printer)
-    return write_analysis(orders, folder, COMPARISON_NAME, tables, map(picture, charts))
-
-
 def write_analysis(
-    results: xr.Dataset,
+    analysis: Analysis,
+    dataset: xr.Dataset | None,
     folder: str | Path,
-    name: str,
-    tables: Mapping[str, bytes],
-    pictures: Iterable[Picture] = (),
-) -> Path:
-    """Write a dataset with tables and what was drawn of it, together or not at all.
+    dataset_name: str = "",
+    printer: Printer | None = None,
+) -> dict[str, Path]:
+    """Write an analysis with its dataset, together or not at all.
+
+    Parameters
+    ----------
+    analysis : page, tables and pictures
+    dataset : what the analysis is of; None for none
+    folder : made where it is missing
+    dataset_name : file of the dataset
+    printer : makes a PDF of the page; None for none
 
     Returns
     -------
-    path of the dataset
+    paths of dataset, page and PDF, by what they are
+
+    Raises
+    ------
+    StorageError
+        The folder cannot be written; what was there before then stays.
     """
-    drawn = {f"{each.name}.{each.ending}": each.content for each in pictures}
-    with manifest.replacing(Path(folder), name) as staged:
-        storage.stage_results(results, staged, name)
-        _stage({**tables, **drawn}, staged)
-    return Path(folder) / name
+    folder = Path(folder)
+    paths = written_files(analysis, folder, dataset_name, printer)
+    if dataset is None:
+        files = _files(analysis, "", printer)
+        write_together(folder, files)
+        others = {name: folder / name for name in files}
+        return paths | {name: path for name, path in others.items() if path not in paths.values()}
+    with manifest.replacing(folder, dataset_name) as staged:
+        digest = storage.stage_results(dataset, staged, dataset_name)
+        _stage(_files(analysis, digest, printer), staged)
+    return paths
+
+
+def written_files(
+    analysis: Analysis, folder: Path, dataset_name: str = "", printer: Printer | None = None
+) -> dict[str, Path]:
+    """Return paths of dataset, page and PDF of an analysis by what they are."""
+    page = folder / analysis.page
+    return {
+        **({"results": folder / dataset_name} if dataset_name else {}),
+        "report": page,
+        **({"pdf": page.with_suffix(".pdf")} if printer else {}),
+    }
+
+
+def _files(analysis: Analysis, digest: str, printer: Printer | None) -> dict[str, bytes]:
+    files = analysis.files(digest)
+    return {**files, **(printer.pages(files) if printer else {})}
 
 
 def _stage(files: Mapping[str, bytes], staged: Folder) -> None:

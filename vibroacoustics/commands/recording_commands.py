@@ -10,7 +10,7 @@ import typer
 
 from ..base.progress import Progress
 from .command import command
-from .options import FileOut, LimitsFile, Paper, Pdf, Plugins, Recording, with_pdf
+from .options import FileOut, LimitsFile, Plugins, Printing, Recording
 from .outcome import Outcome
 from .reading import Reading
 from .speed_options import SpeedOptions
@@ -35,15 +35,13 @@ def orders_command(
     out: FileOut = None,
     limits: LimitsFile = None,
     plugin: Plugins = None,
-    pdf: Pdf = False,
-    paper: Paper = None,
+    printing: Printing,
 ) -> Outcome:
     """Find the orders of a recording: orders.html, netCDF, CSV, figures and a table."""
     from .. import report
     from ..measured.recorded_orders import analyse_orders
     from ..study.order_analysis import BAND_METHODS, OrderAnalysis
     from . import arguments, checking, outputs
-    from .printing import printer
 
     settings = OrderAnalysis(
         speed.source(),
@@ -54,17 +52,15 @@ def orders_command(
         with_map,
         arguments.chosen("--bands", bands, BAND_METHODS),
     )
-    folder, prints = out or Path("reports") / recording_file.stem, printer(pdf, paper)
+    folder, prints = out or Path("reports") / recording_file.stem, printing.printer()
     outputs.check_folder(folder)
     allowed = checking.read(limits)
     recording = reading.in_blocks(recording_file, plugin)
     results = checking.held_against(analyse_orders(recording, settings, progress), allowed)
-    written = outputs.write_orders(results, folder, prints)
-    page = folder / outputs.ORDERS_REPORT_NAME
-    files = checking.margin_files(results, folder / outputs.LIMITS_NAME)
+    analysis = report.analysis_of_orders(results)
     return Outcome(
-        checking.with_margins(report.orders_text(results), results),
-        with_pdf({**files, "orders": written, "report": page}, page, prints),
+        files=outputs.write_analysis(analysis, results, folder, "orders.nc", prints),
+        analyses={"": analysis},
         broken=report.broken_lines(results, ()),
     )
 
@@ -80,20 +76,23 @@ def track_command(
     reading: Reading,
     out: FileOut = None,
     plugin: Plugins = None,
+    printing: Printing,
 ) -> Outcome:
     """Track orders over the time of a recording (Vold-Kalman): netCDF, figures and a table."""
     from .. import report
     from ..measured.recorded_orders import track_orders
-    from . import arguments, outputs, recorded_outputs
+    from . import arguments, outputs
 
     source = speed.source()
     numbers = arguments.order_numbers(orders)
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
+    prints = printing.printer()
     recording = reading.at_once(recording_file, plugin)
     tracked = track_orders(recording, source, numbers, bandwidth, poles)
-    written = recorded_outputs.write_tracked(tracked, folder)
-    return Outcome(report.tracked_text(tracked), {"tracked orders": written})
+    analysis = report.analysis_of_tracks(tracked)
+    files = outputs.write_analysis(analysis, tracked, folder, "tracked_orders.nc", prints)
+    return Outcome(files=files, analyses={"": analysis})
 
 
 @command("map", "Recordings", "run_up.csv --speed-channel tacho --resolution 4", RENAMED)
@@ -106,19 +105,22 @@ def map_command(
     reading: Reading,
     out: FileOut = None,
     plugin: Plugins = None,
+    printing: Printing,
 ) -> Outcome:
     """Draw a recording over speed and frequency, its level over the speed: page, figures."""
+    from .. import report
     from ..measured.recorded_orders import speed_frequency_map
-    from . import outputs, recorded_outputs
+    from . import outputs
 
     source = speed.source()
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
+    prints = printing.printer()
     recording = reading.at_once(recording_file, plugin)
     mapped = speed_frequency_map(recording, source, resolution, maximum_frequency)
-    written = recorded_outputs.write_speed_map(mapped, folder)
-    page = folder / recorded_outputs.SPEED_MAP_REPORT_NAME
-    return Outcome(files={"speed-frequency map": written, "report": page})
+    analysis = report.analysis_of_map(mapped)
+    files = outputs.write_analysis(analysis, mapped, folder, "speed_map.nc", prints)
+    return Outcome(files=files, analyses={"": analysis})
 
 
 @command("tones", "Recordings", 'machine.wav --unit "channel 1=Pa"')
@@ -128,23 +130,22 @@ def tones_command(
     reading: Reading,
     out: FileOut = None,
     plugin: Plugins = None,
+    printing: Printing,
 ) -> Outcome:
     """Find the tones of a steady recording, prominent or not, with loudness and sharpness."""
     from ..measured.recorded_tones import recorded_tones
-    from . import outputs, recorded_outputs, tone_tables
+    from . import outputs
+    from .tone_tables import analysis_of_tones
 
     folder = out or Path("reports") / recording_file.stem
     outputs.check_folder(folder)
+    prints = printing.printer()
     recording = reading.at_once(recording_file, plugin)
     with outputs.naming(recording_file):
         tones = recorded_tones(recording)
-    written = recorded_outputs.write_tones(tones, folder)
-    page = folder / recorded_outputs.TONES_REPORT_NAME
-    return Outcome(
-        tone_tables.tones_text(tones),
-        {"tones": written, "report": page},
-        numbers=tone_tables.tone_numbers(tones),
-    )
+    analysis = analysis_of_tones(tones)
+    files = outputs.write_analysis(analysis, tones, folder, "tones.nc", prints)
+    return Outcome(files=files, analyses={"": analysis})
 
 
 @command("export", "Recordings", "machine.uff --out machine.csv", computes=False)

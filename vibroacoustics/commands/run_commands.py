@@ -12,20 +12,19 @@ from . import messages
 from .command import command
 from .options import (
     NoCache,
-    Paper,
-    Pdf,
     Plugins,
+    Printing,
     ResultsFile,
     StudyFile,
     StudyOut,
     load_plugins,
     used_cache,
-    with_pdf,
 )
 from .outcome import Outcome, columns
 
 if TYPE_CHECKING:
     from ..study.study import Study
+    from .printing import Printer
 
 
 @command("run", "Studies", "pipelines/copeland_sources.toml")
@@ -47,18 +46,21 @@ def run_command(
         list[str] | None,
         "Name of a source of the studies to omit; may be repeated.",
     ] = None,
+    *,
+    printing: Printing,
 ) -> Outcome:
     """Run studies and write results.nc, report.html, tables and figures of each."""
     from .summary import summary
 
     load_plugins(plugin)
+    prints = printing.printer()
     studies = _studies(study_files, out, coarse, without or ())
     outcomes = {}
     with used_cache(no_cache):
         for number, (study, folder) in enumerate(studies):
             if len(studies) > 1:
                 progress("all studies", number, len(studies))
-            outcomes[folder.name] = _run(study, folder, progress)
+            outcomes[folder.name] = _run(study, folder, progress, prints)
         if len(studies) > 1:
             progress("all studies", len(studies), len(studies))
     return summary(outcomes)
@@ -88,7 +90,7 @@ def _studies(
     return studies
 
 
-def _run(study: "Study", folder: Path, progress: Progress) -> Outcome:
+def _run(study: "Study", folder: Path, progress: Progress, prints: "Printer | None") -> Outcome:
     """Run one study and write its files."""
     from .. import pipeline
     from . import outputs
@@ -98,9 +100,9 @@ def _run(study: "Study", folder: Path, progress: Progress) -> Outcome:
     messages.note(f"run: {study.source_file}")
     results = pipeline.run(study, progress)
     with stage(progress, "report"):
-        outputs.write_report(results, folder)
+        analysis, files = outputs.write_study(results, folder, prints)
     messages.warn(outputs.older_files(folder))
-    return outcome(study, results, folder, time.monotonic() - start)
+    return outcome(study, results, analysis, files, time.monotonic() - start)
 
 
 @command("check", "Studies", "pipelines/copeland_sources.toml")
@@ -136,6 +138,8 @@ def radiation_command(
     out: StudyOut = None,
     plugin: Plugins = None,
     no_cache: NoCache = False,
+    *,
+    printing: Printing,
 ) -> Outcome:
     """Compute the housing's radiation alone: transfer vectors, map, directivity, sound power."""
     from .. import pipeline, report
@@ -146,10 +150,12 @@ def radiation_command(
     folder = out or Path("reports") / study_file.stem
     study = load_study(study_file)
     outputs.check_folder(folder)
+    prints = printing.printer()
     with used_cache(no_cache):
         radiated = pipeline.radiate(study, progress)
-    written = outputs.write_radiation(radiated, folder)
-    return Outcome(report.radiation_text(radiated), {"transfer vectors": written})
+    analysis = report.analysis_of_radiation(radiated)
+    files = outputs.write_analysis(analysis, radiated, folder, "transfer_vectors.nc", prints)
+    return Outcome(files=files, analyses={"": analysis})
 
 
 @command("report", "Results", "reports/copeland_sources/results.nc --pdf", computes=False)
@@ -157,16 +163,15 @@ def report_command(
     results_file: ResultsFile,
     out: Annotated[Path | None, "Folder of the report; default: that of the file."] = None,
     plugin: Plugins = None,
-    pdf: Pdf = False,
-    paper: Paper = None,
+    *,
+    printing: Printing,
 ) -> Outcome:
     """Write the report of results again, without computing anything; as PDF, too."""
     from . import outputs
-    from .printing import printer
 
     load_plugins(plugin)
-    prints = printer(pdf, paper)
+    prints = printing.printer()
     folder = out or results_file.parent
-    written = outputs.write_report_again(results_file, folder, prints)
+    analysis, files = outputs.write_report_again(results_file, folder, prints)
     messages.warn(outputs.older_files(folder))
-    return Outcome(files=with_pdf({"report": written}, written, prints))
+    return Outcome(files=files, analyses={"": analysis})

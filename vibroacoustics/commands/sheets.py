@@ -1,15 +1,13 @@
 """The files of a data sheet."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from .. import report
-from ..results.files import write_together
+from .outputs import write_analysis
 
 if TYPE_CHECKING:
     from ..results.data_sheet import DataSheet
-
-SHEET_NAME: Final = "data_sheet"
 
 
 def write_data_sheet(sheet: "DataSheet", folder: str | Path) -> Path:
@@ -37,11 +35,4 @@ def write_data_sheet(sheet: "DataSheet", folder: str | Path) -> Path:
     >>> va.write_data_sheet(sheet, "sheets").name
     'data_sheet_none_2900_rpm.html'
     """
-    name = f"{SHEET_NAME}_{report.file_name(f'{sheet.option}_{sheet.speed_rpm:g}_rpm')}"
-    files = {
-        f"{name}.html": report.data_sheet_html(sheet),
-        f"{name}.csv": report.data_sheet_csv(sheet),
-        f"{name}.json": report.data_sheet_json(sheet),
-    }
-    write_together(Path(folder), files)
-    return Path(folder) / f"{name}.html"
+    return write_analysis(report.analysis_of_data_sheet(sheet), None, folder)["report"]

@@ -1,14 +1,12 @@
 """Command for the sound power from recorded microphones. Heavy imports wait until it runs."""
 
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated
 
 from .command import command
-from .options import Plugins
+from .options import Plugins, Printing
 from .outcome import Outcome
 from .reading import Reading, SampleRate
-
-SOUND_POWER_NAME: Final = "sound_power.nc"
 
 
 @command("sound-power", "Recordings", 'front.wav rear.wav --hemisphere 1.0 --unit "channel 1=Pa"')
@@ -48,6 +46,8 @@ def sound_power_command(
         Path | None, "Folder of the results; default: reports/NAME OF THE FIRST."
     ] = None,
     plugin: Plugins = None,
+    *,
+    printing: Printing,
 ) -> Outcome:
     """Measure the sound power of a machine with the microphones around it, K1 and K2 (ISO 3744)."""
     from .. import report
@@ -58,24 +58,11 @@ def sound_power_command(
     surface = microphones.surface_of(hemisphere, box)
     absorption = microphones.absorption_of(absorption_area, reverberation_time, volume)
     outputs.check_folder(folder)
+    prints = printing.printer()
     reading = Reading(unit, calibration, sample_rate=sample_rate)
     given = ([*files, *quiet], reading, plugin)
     running, still = (microphones.read_files(each, *given) for each in (files, quiet))
     measured = sound_power(running, surface, still, absorption)
-    tables = {
-        "sound_power.csv": report.measured_power_csv(measured),
-        "sound_power.html": report.measured_power_html(measured),
-    }
-    written = outputs.write_analysis(measured, folder, SOUND_POWER_NAME, tables)
-    level = {
-        "value": measured["measured_power_level_a"].item(),
-        "unit": "dB(A)",
-        "variable": "measured_power_level_a",
-        "selection": {},
-        "statistic": "value",
-    }
-    return Outcome(
-        report.measured_power_text(measured),
-        {"sound power": written, "report": folder / "sound_power.html"},
-        numbers=[level],
-    )
+    analysis = report.analysis_of_sound_power(measured)
+    files_of = outputs.write_analysis(analysis, measured, folder, "sound_power.nc", prints)
+    return Outcome(files=files_of, analyses={"": analysis})

@@ -5,26 +5,30 @@ from pathlib import Path
 
 import xarray as xr
 
-from .. import report
+from ..report.analysis import Analysis
 from ..report.kwave_words import kwave_difference_db, receiver_methods
 from ..results.estimates import has_samples, sample_numbers
 from ..study.study import Study
 from .outcome import Outcome, columns
-from .outputs import REPORT_NAME, RESULTS_NAME
 
 
-def outcome(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> Outcome:
+def outcome(
+    study: Study,
+    results: xr.Dataset,
+    analysis: Analysis,
+    files: Mapping[str, Path],
+    seconds: float,
+) -> Outcome:
     """Give the outcome of one study.
 
     Parameters
     ----------
     study : that was run
-    results : of it, already written
-    folder : where they are
+    results : of it
+    analysis, files : its report, and the files that were written
     seconds : that it took
     """
     coarse = [f"coarse: {words}" for words in study.coarsened]
-    text = report.comparison_text(results) + "\n" + report.kwave_text(results)
     row = {
         "study": study.source_file,
         "title": study.title,
@@ -39,9 +43,10 @@ def outcome(study: Study, results: xr.Dataset, folder: Path, seconds: float) -> 
         for name, (method, reason) in receiver_methods(results).items()
     ]
     return Outcome(
-        "\n".join([text.rstrip("\n"), *study.left_out, *coarse]),
-        {"results": folder / RESULTS_NAME, "report": folder / REPORT_NAME},
+        "\n".join([*study.left_out, *coarse]),
+        files,
         {"studies": columns([row]), "microphones": columns(microphones)},
+        {"": analysis},
     )
 
 
@@ -59,4 +64,5 @@ def summary(outcomes: Mapping[str, Outcome]) -> Outcome:
         for name, each in outcomes.items()
         for label, path in each.files.items()
     }
-    return Outcome("\n".join(each.text for each in outcomes.values()), files, tables)
+    analyses = {f"{name}/": each.analyses[""] for name, each in outcomes.items()}
+    return Outcome("\n".join(each.text for each in outcomes.values()), files, tables, analyses)

@@ -1,16 +1,17 @@
-"""Tones, loudness and sharpness of recorded sound as text, CSV, page and numbers."""
+"""Analysis of tones, loudness and sharpness of recorded sound."""
 
 import math
-from typing import Any, Final
+from collections.abc import Iterator
+from typing import Final
 
 import xarray as xr
 
 from ..base import rounding
 from ..measured.recorded_tones import tones_of
-from ..report.blocks import Bullets
-from ..report.html import html
-from ..report.page import Page, Part
-from ..report.tables import Table, to_csv, to_text
+from ..report.analysis import Analysis, origin
+from ..report.blocks import Block, Bullets, Part, Text
+from ..report.tables import Cell, DataTable, Table, columns_of
+from ..results.number import Number
 from ..sound.critical_bands import noise_criterion_db, prominence_criterion_db
 from ..sound.loudness import NEEDED, available
 from ..sound.tonality import Tone
@@ -30,92 +31,79 @@ _METHOD: Final = (
 )
 
 
-def tones_text(tones: xr.Dataset) -> str:
-    """Tones of every channel with loudness and sharpness, for a terminal.
+def analysis_of_tones(found: xr.Dataset) -> Analysis:
+    """Return tones of every channel with loudness and sharpness.
 
     Parameters
     ----------
-    tones : from `recorded_tones`
+    found : from `recorded_tones`
     """
-    texts = [
-        "\n".join([to_text(table).rstrip("\n") if table.rows else table.caption, *loudness])
-        for table, loudness in (_of_channel(tones, name) for name in _channels(tones))
-    ]
-    return "\n".join(texts if available() else [*texts, NEEDED])
-
-
-def tones_csv(tones: xr.Dataset) -> bytes:
-    """Every tone, a line each."""
-    rows = []
-    for name in _channels(tones):
-        values = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
-        loudness = ["" if math.isnan(value) else value for value in values]
-        rows += [(name, *_numbers(tone), _which(tone), *loudness) for tone in tones_of(tones, name)]
-    return to_csv(_COLUMNS, rows)
-
-
-def tones_html(tones: xr.Dataset) -> bytes:
-    """Page with a table for each channel."""
-    parts = []
-    for number, name in enumerate(_channels(tones)):
-        table, loudness = _of_channel(tones, name)
-        blocks = (table, Bullets(tuple(loudness))) if loudness else (table,)
+    parts: list[Part] = []
+    shown: list[Block] = []
+    for number, name in enumerate(_channels(found)):
+        blocks = tuple(_of_channel(found, name))
         parts.append(Part(f"channel_{number}", name, blocks))
-    notes = _METHOD if available() else (*_METHOD, f"{NEEDED}.")
-    parts.append(Part("method", "Method", (Bullets(notes),)))
-    attrs = tones.attrs
-    about = "Tones above the noise of their critical band, the strongest first."
-    return html(Page(str(attrs["title"]), "Recording", attrs["created_utc"], tuple(parts), about))
+        shown += blocks
+    needed = () if available() else (f"{NEEDED}.",)
+    parts.append(Part("method", "Method", (Bullets((*_METHOD, *needed)),)))
+    return Analysis(
+        "tones",
+        about="Tones above the noise of their critical band, the strongest first.",
+        parts=tuple(parts),
+        shown=(*shown, *map(Text, needed)),
+        tables={"tones.csv": _rows(found)},
+        numbers=tuple(_loudness(found)),
+        **origin(found, "Recording"),
+    )
 
 
-def tone_numbers(tones: xr.Dataset) -> list[dict[str, Any]]:
-    """Level of every tone, and loudness of every channel where it is available."""
-    numbers = []
-    for name in _channels(tones):
-        numbers += [
-            _number(
-                tone.level_db, "dB", "recorded_tone_level", name, frequency_hz=tone.frequency_hz
-            )
-            for tone in tones_of(tones, name)
-        ]
+def _rows(found: xr.Dataset) -> DataTable:
+    """Every tone, a row each."""
+    rows: list[tuple[str | float, ...]] = []
+    for name in _channels(found):
+        values = (found[variable].sel(channel=name).item() for variable in _LOUDNESS)
+        loudness = ["" if math.isnan(value) else value for value in values]
+        rows += [(name, *_numbers(tone), _which(tone), *loudness) for tone in tones_of(found, name)]
+    return columns_of(_COLUMNS, rows)
+
+
+def _loudness(found: xr.Dataset) -> Iterator[Number]:
+    """Loudness and sharpness of every channel where they are available."""
+    for name in _channels(found):
         for variable, unit in _LOUDNESS.items():
-            value = tones[variable].sel(channel=name).item()
+            value = found[variable].sel(channel=name).item()
             if not math.isnan(value):
-                numbers.append(_number(value, unit, variable, name))
-    return numbers
+                text = f"{value:.3g}" if unit == "sone" else f"{value:.2f}"
+                yield Number(value, unit, variable, {"channel": name}, text=text)
 
 
 _LOUDNESS: Final = {"recorded_loudness": "sone", "recorded_sharpness": "acum"}
-
-
-def _number(
-    value: float, unit: str, variable: str, channel: str, **selection: float
-) -> dict[str, Any]:
-    return {
-        "value": value,
-        "unit": unit,
-        "variable": variable,
-        "selection": {"channel": channel, **selection},
-        "statistic": "value",
-    }
 
 
 def _channels(tones: xr.Dataset) -> list[str]:
     return [str(name) for name in tones["channel"].values]
 
 
-def _of_channel(tones: xr.Dataset, name: str) -> tuple[Table, list[str]]:
+def _of_channel(found: xr.Dataset, name: str) -> Iterator[Table | Bullets | Text]:
     """Table of the strongest tones of a channel, and its loudness in words."""
-    listed = tones_of(tones, name)
-    rows = tuple((*tone_row(tone), *_times(tone), _which(tone)) for tone in listed[:MOST_TONES])
-    caption = f"{name}: {len(listed)} listed above the noise of their critical band"
-    if not rows:
-        caption = f"{name}: no tone stands above the noise of its critical band"
-    table = Table(caption, (*TONE_HEAD, *_TIME_HEAD, "prominent"), rows, frozenset({0, 7}))
-    loudness, sharpness = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
-    if math.isnan(loudness):
-        return table, []
-    return table, [f"loudness {loudness:.3g} sone, sharpness {sharpness:.2f} acum"]
+    tones = tones_of(found, name)
+    if tones:
+        rows = tuple(_tone(tone, name) for tone in tones[:MOST_TONES])
+        caption = f"{name}: {len(tones)} tones above the noise of their critical band"
+        yield Table(caption, (*TONE_HEAD, *_TIME_HEAD, "prominent"), rows, frozenset({0, 7}))
+    else:
+        yield Text(f"{name}: no tone stands above the noise of its critical band")
+    loudness, sharpness = (found[variable].sel(channel=name).item() for variable in _LOUDNESS)
+    if not math.isnan(loudness):
+        yield Bullets((f"loudness {loudness:.3g} sone, sharpness {sharpness:.2f} acum",))
+
+
+def _tone(tone: Tone, channel: str) -> tuple[Cell, ...]:
+    """Row of a tone."""
+    name, hertz, level, *ratios = tone_row(tone)
+    at = {"channel": channel, "frequency_hz": tone.frequency_hz}
+    number = Number(tone.level_db, "dB", "recorded_tone_level", at, text=level)
+    return (name, hertz, number, *ratios, *_times(tone), _which(tone))
 
 
 def _numbers(tone: Tone) -> tuple[float, ...]:

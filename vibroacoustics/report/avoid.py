@@ -19,7 +19,7 @@ from ..results.over_speed.avoid import (
 )
 from ..results.stored_study import catalogue_receiver, options
 from .bands import energy_share, percent
-from .tables import Table, to_csv
+from .tables import DataTable, Table, columns_of
 
 MOST_ROWS: Final = 20
 MOST_NAMED: Final = 5
@@ -117,12 +117,12 @@ def reference_words(every: Sequence[Avoided]) -> str:
     return f"Speeds to avoid without a balancer: {', '.join(named)}{more}."
 
 
-def avoid_csv(every: Sequence[Avoided]) -> bytes:
+def avoid_data(every: Sequence[Avoided]) -> DataTable:
     """All of them; mode and its frequency are empty where none is near."""
-    return to_csv(_HEAD, _csv_rows(every))
+    return columns_of(_HEAD, _rows(every))
 
 
-def _csv_rows(every: Sequence[Avoided]) -> Iterator[list[str | float]]:
+def _rows(every: Sequence[Avoided]) -> Iterator[list[str | float]]:
     for one in every:
         mode: tuple[str | float, ...] = ("", "")
         if one.mode is not None:

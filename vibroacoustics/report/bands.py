@@ -8,7 +8,9 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.decibel import power_of_level
+from ..results import number as numbers
 from ..results.estimates import Estimate, effective_samples, estimate, is_sampled
+from ..results.number import Number
 from ..results.stored_study import catalogue_receiver
 
 Units = tuple[float, float, float]
@@ -58,6 +60,11 @@ class Band(NamedTuple):
         return self._replace(units=(low, middle, high)).middle_and_ends(_whole_percent)
 
 
+def fixed(value: Estimate) -> str:
+    """Return the text of an estimate without its interval."""
+    return rounding.fixed(value.value)
+
+
 def band(results: xr.Dataset, name: str, **at: Any) -> Band:
     """Return the value of a variable with its interval.
 
@@ -74,6 +81,24 @@ def band(results: xr.Dataset, name: str, **at: Any) -> Band:
         return Band(*value)
     is_level = name.startswith(("level", "change", "source_level", "residual"))
     return written(value, effective_samples(results), FINEST_DB if is_level else None)
+
+
+def number(
+    results: xr.Dataset, name: str, write: Callable[[float], str], unit: str = "", **at: Any
+) -> Number:
+    """Return the value of a variable as a number; its text has the interval in brackets.
+
+    Parameters
+    ----------
+    results : of a run
+    name : in the vocabulary
+    write : gives the text of a value
+    unit : that of the vocabulary where none is given
+    at : see `band`
+    """
+    selection = {"weighting": "A", "receiver": catalogue_receiver(results), **at}
+    text = band(results, name, **at).middle_and_ends(write)
+    return numbers.number(results, name, lambda _: text, unit, **selection)
 
 
 def written(value: Estimate, effective: float, finest: float | None = None) -> Band:

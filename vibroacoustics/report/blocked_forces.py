@@ -1,42 +1,47 @@
-"""Blocked forces and their validation, as plain text, CSV and Markdown."""
+"""Analysis of blocked forces and their validation."""
+
+from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from .tables import (
-    Table,
-    dataset_csv,
-    escape_markdown,
-    phase_deg,
-    records,
-    to_markdown,
-    to_text,
-)
+from ..results.number import Number
+from .analysis import Analysis, origin
+from .blocks import Bullets, Part, Pictures
+from .figures.blocked_forces import blocked_charts
+from .tables import DataTable, Table, data_table, phase_deg, records
 
 
-def blocked_text(blocked: xr.Dataset) -> str:
-    """The validation in third octaves and over all lines, and the truncations."""
+def analysis_of_blocked_forces(
+    blocked: xr.Dataset, further: Mapping[str, bytes] | None = None
+) -> Analysis:
+    """Return the validation in third octaves and over all lines, and the truncations.
+
+    Parameters
+    ----------
+    blocked : of `blocked_forces`
+    further : content of further files by name
+    """
     tables = (_validation(blocked), _bands(blocked), _truncation(blocked))
-    return "\n".join([*(to_text(table, 32) for table in tables), *_notes(blocked)])
+    notes = Bullets(tuple(_notes(blocked)))
+    drawn = Pictures(tuple(blocked_charts(blocked)))
+    return Analysis(
+        "blocked_forces",
+        **origin(blocked, "Measurement"),
+        about="Blocked forces (ISO 20270).",
+        parts=(
+            Part("validation", "On-board validation", (*tables[:2], drawn)),
+            Part("method", "Truncation and precision", (tables[2], notes)),
+        ),
+        shown=(*tables, notes),
+        tables={"blocked_forces.csv": _forces(blocked), "validation.csv": _lines(blocked)},
+        further=further or {},
+        in_markdown="blocked_forces.md",
+    )
 
 
-def blocked_markdown(blocked: xr.Dataset) -> bytes:
-    """A short report: tables, notes and the figures beside it."""
-    parts = [
-        f"# {escape_markdown(blocked.attrs['title'])}",
-        f"Blocked forces (ISO 20270). Computed {blocked.attrs['created_utc']}.",
-        to_markdown(_validation(blocked)),
-        "![On-board validation](validation.svg)",
-        to_markdown(_bands(blocked)),
-        "![Blocked forces](blocked_forces.svg)",
-        to_markdown(_truncation(blocked)),
-        "\n".join(f"- {note}" for note in _notes(blocked)),
-    ]
-    return ("\n\n".join(parts) + "\n").encode()
-
-
-def blocked_csv(blocked: xr.Dataset) -> bytes:
+def _forces(blocked: xr.Dataset) -> DataTable:
     """Every blocked force at every line: amplitude with its 90 % band, and phase."""
     columns = {
         "point": blocked["force_point"],
@@ -46,10 +51,10 @@ def blocked_csv(blocked: xr.Dataset) -> bytes:
         "low_n": blocked["blocked_force_low"],
         "high_n": blocked["blocked_force_high"],
     }
-    return dataset_csv(("force_point", "frequency"), columns)
+    return data_table(("force_point", "frequency"), columns)
 
 
-def validation_csv(blocked: xr.Dataset) -> bytes:
+def _lines(blocked: xr.Dataset) -> DataTable:
     """Every line of every validation: measured, predicted with its band, difference."""
     columns = {
         "validation": blocked["validation_point"],
@@ -61,7 +66,7 @@ def validation_csv(blocked: xr.Dataset) -> bytes:
         "high_db": blocked["validation_predicted_high"],
         "difference_db": blocked["validation_difference"],
     }
-    return dataset_csv(("validation_point", "frequency"), columns)
+    return data_table(("validation_point", "frequency"), columns)
 
 
 def _validation(blocked: xr.Dataset) -> Table:
@@ -96,10 +101,18 @@ def _bands(blocked: xr.Dataset) -> Table:
             f"{row['hz']:g}",
             rounding.fixed(row["measured"]),
             rounding.fixed(row["predicted"]),
-            rounding.signed(row["difference"], 2),
+            Number(
+                row["difference"],
+                "dB",
+                "validation_band_difference",
+                {"validation_point": row["name"], "band": row["hz"]},
+                low=low,
+                high=high,
+                text=rounding.signed(row["difference"], 2),
+            ),
             f"{rounding.signed(low, 2)} to {rounding.signed(high, 2)}",
         )
-        for row in records(("validation_point", "band"), columns)
+        for row in records(data_table(("validation_point", "band"), columns))
         for low, high in [(row["difference_low"], row["difference_high"])]
         if np.isfinite(row["measured"])
     )

@@ -11,7 +11,7 @@ import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, NamedTuple, TypeAlias
 
 from pydantic import Field, TypeAdapter
 
@@ -223,6 +223,15 @@ Block: TypeAlias = Annotated[
 ]
 
 
+class Part(NamedTuple):
+    """A section with its blocks; folded ones open at a click, at a link to them and on paper."""
+
+    name: str
+    title: str
+    blocks: tuple[Block, ...]
+    folded: bool = False
+
+
 def to_json(blocks: Sequence[Block]) -> str:
     """Blocks as JSON in ASCII; pictures in base64.
 
@@ -249,16 +258,21 @@ def from_json(text: str) -> tuple[Block, ...]:
 
 def pictures(blocks: Sequence[Block]) -> Iterator[Picture]:
     """All pictures of some blocks, folded ones too."""
-    for block in _flat(drawn(blocks)):
+    for block in flat(drawn(blocks)):
         if isinstance(block, Pictures):
             yield from (each for each in block.pictures if isinstance(each, Picture))
 
 
 def charts(blocks: Sequence[Block]) -> Iterator[Chart]:
     """All charts of some blocks, folded ones too."""
-    for block in _flat(blocks):
+    for block in flat(blocks):
         if isinstance(block, Pictures):
             yield from (each for each in block.pictures if isinstance(each, Chart))
+
+
+def tables(blocks: Sequence[Block]) -> Iterator[Table]:
+    """All tables of some blocks, folded ones too."""
+    return (block for block in flat(blocks) if isinstance(block, Table))
 
 
 def drawn(blocks: Sequence[Block]) -> tuple[Block, ...]:
@@ -277,14 +291,14 @@ def _drawn(block: Block) -> Block:
     return block
 
 
-def _flat(blocks: Sequence[Block]) -> Iterator[Block]:
+def flat(blocks: Sequence[Block]) -> Iterator[Block]:
     """Yield blocks and those within them."""
     for block in blocks:
         yield block
         if isinstance(block, Details):
-            yield from _flat(block.blocks)
+            yield from flat(block.blocks)
         elif isinstance(block, Beside):
-            yield from _flat((block.narrow, block.wide))
+            yield from flat((block.narrow, block.wide))
 
 
 @cache

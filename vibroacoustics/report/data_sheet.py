@@ -1,53 +1,50 @@
-"""A data sheet as page, CSV and JSON."""
+"""Analysis of a data sheet: page, table and JSON."""
 
 from collections.abc import Iterator
+from typing import Final
 
 from ..base import rounding
 from ..base.decibel import NO_TONE_DB
 from ..results.data_sheet import BandPower, DataSheet, SoundPower, Tone, Vibration
 from ..results.estimates import Estimate
-from .blocks import Bullets, Pictures, Text
+from .analysis import Analysis
+from .blocks import Bullets, Part, Pictures, Text
 from .figures.data_sheet import sheet_chart
-from .html import html
-from .page import Page, Part
+from .file_names import file_name
 from .sections.tones.tables import excess_words
-from .tables import Table, to_csv
+from .tables import Table, columns_of
 
 Row = tuple[str, str, str, str | float, str]
+_HEAD: Final = ("part", "item", "quantity", "value", "unit")
 
 
-def data_sheet_json(sheet: DataSheet) -> bytes:
-    """Return the sheet as JSON by `data/schemas/data_sheet.json`."""
-    return sheet.model_dump_json(indent=1).encode() + b"\n"
-
-
-def data_sheet_csv(sheet: DataSheet) -> bytes:
-    """Return the sheet as CSV, a value a row; the value of an empty band is empty."""
-    return to_csv(("part", "item", "quantity", "value", "unit"), _rows(sheet))
-
-
-def data_sheet_html(sheet: DataSheet) -> bytes:
-    """Return the page: one or two sheets of A4."""
-    power = sheet.sound_power
-    parts = (
-        Part("level", "Sound power", (Text(headline(sheet), "headline"), *_words(power))),
-        Part("bands", "Third octaves", (Pictures((sheet_chart(power),)), _bands(power))),
-        Part("tones", "Tones", _tones(sheet)),
-        Part(
-            "vibration",
-            "Vibration",
-            (_vibration(sheet), Text(_sentence(sheet.vibration_words), "note")),
+def analysis_of_data_sheet(sheet: DataSheet) -> Analysis:
+    """Return the page of a sheet, one or two sheets of A4, with its table and JSON."""
+    power, name = sheet.sound_power, file_name(f"{sheet.option}_{sheet.speed_rpm:g}_rpm")
+    vibration = (_vibration(sheet), Text(_sentence(sheet.vibration_words), "note"))
+    content = sheet.model_dump_json(indent=1).encode() + b"\n"
+    return Analysis(
+        f"data_sheet_{name}",
+        title=f"Data sheet (predicted): {sheet.machine}",
+        kind=sheet.machine,
+        created=sheet.created_utc,
+        about=f"Option {sheet.option} at {sheet.speed_rpm:g} rpm: {sheet.statement}. "
+        f"{sheet.title}. vibroacoustics {sheet.software_version}, values "
+        f"{sheet.parameters_sha256[:12]}.",
+        parts=(
+            Part("level", "Sound power", _words(power)),
+            Part("bands", "Third octaves", (Pictures((sheet_chart(power),)), _bands(power))),
+            Part("tones", "Tones", _tones(sheet)),
+            Part("vibration", "Vibration", vibration),
+            Part("conditions", "Operating point and mounting", (_facts(sheet),)),
+            Part("limits", "Neglected effects", (Bullets(sheet.leaves_out),)),
+            Part("not_available", "Not available (ISO 4871)", (Bullets(sheet.not_available),)),
         ),
-        Part("conditions", "Operating point and mounting", (_facts(sheet),)),
-        Part("limits", "Neglected effects", (Bullets(sheet.leaves_out),)),
-        Part("not_available", "Not available (ISO 4871)", (Bullets(sheet.not_available),)),
+        summary=(headline(sheet),),
+        tables={f"data_sheet_{name}.csv": columns_of(_HEAD, _rows(sheet))},
+        further={f"data_sheet_{name}.json": content},
+        figures=f"data_sheet_{name}_",
     )
-    about = (
-        f"Option {sheet.option} at {sheet.speed_rpm:g} rpm: {sheet.statement}. {sheet.title}. "
-        f"vibroacoustics {sheet.software_version}, values {sheet.parameters_sha256[:12]}."
-    )
-    page = Page(f"Data sheet (predicted): {sheet.machine}", sheet.machine, sheet.created_utc, parts)
-    return html(page._replace(about=about))
 
 
 def headline(sheet: DataSheet) -> str:

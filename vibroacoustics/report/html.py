@@ -3,22 +3,27 @@
 import base64
 import hashlib
 import re
+from collections.abc import Sequence
 from importlib import resources
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from .blocks import Text, drawn
+from .blocks import Part, Text, drawn
 from .charts.picture import Picture
 from .live.assets import live_script, live_style, unpacking_script
 from .live.numbers import packed
-from .page import Page
 
 
-def html(page: Page, results_sha256: str = "") -> bytes:
-    """The page, with the hash of its results.
+def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = "") -> bytes:
+    """Return a page; all figures and the style are inside, nothing is loaded from elsewhere.
 
-    All figures and the style are inside, nothing is loaded from elsewhere.
+    Parameters
+    ----------
+    title : heading
+    about : paragraph below it
+    parts : sections
+    results_sha256 : hash of the results that the page names
     """
     environment = Environment(
         loader=PackageLoader("vibroacoustics.report"),
@@ -37,11 +42,14 @@ def html(page: Page, results_sha256: str = "") -> bytes:
     }
     style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")
     unpacking, script = "", ""
-    if any(block.block == "live" for part in page.parts for block in part.blocks):
+    if any(block.block == "live" for part in parts for block in part.blocks):
         style, unpacking, script = style + live_style(), unpacking_script(), live_script()
     template = environment.get_template("report.html.j2")
     return template.render(
-        page=page,
+        title=title,
+        about=about,
+        parts=parts,
+        contents=() if any(part.folded for part in parts[1:]) else parts[1:],
         style=style,
         unpacking=unpacking,
         packed=packed(script.encode()),

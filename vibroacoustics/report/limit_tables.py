@@ -1,4 +1,4 @@
-"""Orders against their limits, as plain text and CSV."""
+"""Tables of orders against their limits."""
 
 from collections.abc import Iterator
 from typing import Final, NamedTuple
@@ -10,8 +10,8 @@ from ..base import rounding
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_amplitude
 from ..results.order_limits import NOT_CHECKED
-from .order_tables import WIDEST_CHANNEL, amplitude
-from .tables import Table, to_csv, to_text
+from .order_tables import amplitude
+from .tables import DataTable, Table, columns_of
 
 _OF_ONE: Final = {"": ("channel", "speed", "channel_order_rms", "limit_margin")}
 _OF_TWO: Final = {
@@ -41,17 +41,15 @@ class _Checked(NamedTuple):
         return f"order {self.order:g} of {self.channel} at {self.speed_rpm:.0f} rpm{of}"
 
 
-def limits_csv(checked: xr.Dataset) -> bytes:
+def limits_data(checked: xr.Dataset) -> DataTable:
     """Every order that has a limit, at every speed; of two results with a column for which."""
     first = 0 if "compared_limit_margin" in checked else 1
-    return to_csv(_Checked._fields[first:], (row[first:] for row in _rows(checked)))
+    return columns_of(_Checked._fields[first:], [row[first:] for row in _rows(checked)])
 
 
-def limits_text(checked: xr.Dataset) -> str:
-    """The worst margin of each channel and order, and how many exceed their limit."""
-    worst = _worst(checked)
-    table = order_limits_table(checked)
-    return "\n".join([to_text(table, WIDEST_CHANNEL), _verdict(worst), *_not_checked(checked)])
+def limits_words(checked: xr.Dataset) -> list[str]:
+    """How many orders exceed their limit, and what was not checked."""
+    return [_verdict(_worst(checked)), *_not_checked(checked)]
 
 
 def order_limits_table(checked: xr.Dataset) -> Table:

@@ -1,4 +1,4 @@
-"""Sound power from recorded microphones as plain text, CSV and page."""
+"""Analysis of the sound power from recorded microphones."""
 
 from typing import Final
 
@@ -7,12 +7,13 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from ..base import rounding
+from ..results.number import Number, number
 from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
-from .blocks import Bullets, Pictures, Text
+from .analysis import Analysis, origin
+from .bands import fixed
+from .blocks import Bullets, Part, Pictures
 from .figures.measured_power import power_chart
-from .html import html
-from .page import Page, Part
-from .tables import Table, to_csv, to_text
+from .tables import Cell, DataTable, Table, columns_of
 
 GRADES: Final = {
     2: "grade 2 (ISO 3744, engineering)",
@@ -28,35 +29,36 @@ _COLUMNS: Final = {
 }
 
 
-def measured_power_csv(measured: xr.Dataset) -> bytes:
+def analysis_of_sound_power(measured: xr.Dataset) -> Analysis:
+    """Return level, corrections and grade of a measured sound power."""
+    table, remarks = _table(measured), Bullets(tuple(_remarks(measured)))
+    return Analysis(
+        "sound_power",
+        about="Sound power from microphones around the machine, as ISO 3744 has it.",
+        parts=(
+            Part("level", "Sound power level", ()),
+            Part("bands", "Third octaves", (Pictures((power_chart(measured),)), table)),
+            Part("remarks", "Measurement", (remarks,)),
+        ),
+        summary=(headline(measured),),
+        shown=(table, remarks),
+        tables={"sound_power.csv": _bands(measured)},
+        **origin(measured, "Recording"),
+    )
+
+
+def _bands(measured: xr.Dataset) -> DataTable:
     """Every band, and the A-weighted sums in the last row; empty where nothing was measured."""
-    rows = [
-        (f"{band:g}", *(_cell(measured[name].values[at]) for name in _COLUMNS), _bound(margin))
+    rows: list[list[str | float]] = [
+        [float(band), *(_cell(measured[name].values[at]) for name in _COLUMNS), _bound(margin)]
         for at, (band, margin) in enumerate(
             zip(measured["band"].values, measured["background_margin"].values, strict=True)
         )
     ]
     sums = [measured[f"{name}_a"].item() for name in list(_COLUMNS)[1:]]
     margin = measured["background_margin_a"].item()
-    rows.append(("A", "", *(_cell(value) for value in sums), _bound(margin)))
-    return to_csv(("band_hz", *_COLUMNS.values(), "is_upper_bound"), rows)
-
-
-def measured_power_text(measured: xr.Dataset) -> str:
-    """Level, corrections and what the grade is, for a terminal."""
-    return "\n".join([to_text(_table(measured)), headline(measured), *_remarks(measured)])
-
-
-def measured_power_html(measured: xr.Dataset) -> bytes:
-    """The page."""
-    parts = (
-        Part("level", "Sound power level", (Text(headline(measured), "headline"),)),
-        Part("bands", "Third octaves", (Pictures((power_chart(measured),)), _table(measured))),
-        Part("remarks", "Measurement", (Bullets(tuple(_remarks(measured))),)),
-    )
-    attrs = measured.attrs
-    about = "Sound power from microphones around the machine, as ISO 3744 has it."
-    return html(Page(attrs["title"], "Recording", attrs["created_utc"], parts, about))
+    rows.append(["A", "", *map(_cell, sums), _bound(margin)])
+    return columns_of(("band_hz", *_COLUMNS.values(), "is_upper_bound"), rows)
 
 
 def headline(measured: xr.Dataset) -> str:
@@ -67,20 +69,21 @@ def headline(measured: xr.Dataset) -> str:
 
 
 def _table(measured: xr.Dataset) -> Table:
-    bands = [f"{band:g}" for band in measured["band"].values]
-    rows = [
-        (band, *(rounding.fixed(float(measured[name].values[at])) for name in _COLUMNS))
-        for at, band in enumerate(bands)
-    ]
-    sums = [measured[f"{name}_a"].item() for name in list(_COLUMNS)[1:]]
-    rows.append(("A", "", *map(rounding.fixed, sums)))
     bounds = _is_upper_bound(measured["background_margin"].values)
-    rows = [
-        (f"{band}{' *' if bound else ''}", *cells)
-        for (band, *cells), bound in zip(rows, [*bounds, False], strict=True)
-    ]
+    rows: list[tuple[Cell, ...]] = [
+        (f"{band:g}{' *' if bound else ''}", *(number(measured, name, fixed, band=band)
+                                              for name in _COLUMNS))
+        for band, bound in zip(measured["band"].values.tolist(), bounds, strict=True)
+    ]  # fmt: skip
+    sums = (_sum(measured, f"{name}_a") for name in list(_COLUMNS)[1:])
     head = ("Band, Hz", "Mean Lp", "over background", "K1", "K2", "L_W")
-    return Table("Sound power level in third octaves, dB", head, tuple(rows))
+    caption = "Sound power level in third octaves, dB"
+    return Table(caption, head, (*rows, ("A", "", *sums)))
+
+
+def _sum(measured: xr.Dataset, name: str) -> Number:
+    unit = "dB(A)" if name == "measured_power_level_a" else "dB"
+    return number(measured, name, fixed, unit)
 
 
 def _remarks(measured: xr.Dataset) -> list[str]:

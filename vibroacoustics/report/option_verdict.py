@@ -8,7 +8,6 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.remembered import remembered
-from ..base.vocabulary import REFERENCE_OPTION
 from ..results.stored_study import (
     balancers,
     has_sources,
@@ -25,9 +24,6 @@ MIXED: Final = "mixed"
 NO_CHANGE: Final = "no measurable change"
 
 
-_IN_A_TABLE: Final = {NO_CHANGE: "no change"}
-
-
 class OptionVerdict(NamedTuple):
     """An option, one word, why, what it makes worse, and some sentences about it."""
 
@@ -41,13 +37,6 @@ class OptionVerdict(NamedTuple):
 def option_verdicts(results: xr.Dataset) -> list[OptionVerdict]:
     """A verdict on every option but the reference."""
     return [option_verdict(results, option) for option in balancers(results)]
-
-
-def table_words(results: xr.Dataset) -> dict[str, str]:
-    """The word on every option, as short as a table needs it; `–` of the reference."""
-    verdicts = {of.option: of.judgement for of in option_verdicts(results)}
-    known = {option: _IN_A_TABLE.get(word, word) for option, word in verdicts.items()}
-    return {REFERENCE_OPTION: rounding.NOTHING, **known}
 
 
 @remembered

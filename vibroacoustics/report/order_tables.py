@@ -1,23 +1,26 @@
-"""Orders of a recording, also tracked ones, as plain text and CSV."""
+"""Tables of orders and levels of a recording."""
 
 from collections.abc import Iterator
 from functools import partial
+from itertools import product
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..results.number import number
+from .bands import fixed
 from .tables import (
+    Cell,
     Columns,
-    Record,
+    DataTable,
     Table,
-    dataset_csv,
+    columns_of,
+    data_table,
     phase_deg,
     records,
     table_of,
-    to_csv,
-    to_text,
 )
 
 _MOST_SPEEDS: Final = 6
@@ -27,7 +30,6 @@ _MOST_FAULTS: Final = 5
 _LEAST_COHERENCE: Final = 0.8
 """Of an order whose phase is told; noise in five independent blocks reaches it once in 600 times,
 0.2^(5 - 1)."""
-WIDEST_CHANNEL: Final = 32
 _LEVELS: Final = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
 
 
@@ -50,13 +52,6 @@ _COLUMNS: Final[Columns] = (
     ("RMS in band", "rms_in_band", amplitude),
     ("coherence", "coherence", partial(rounding.fixed, decimals=3)),
 )
-
-
-def orders_text(results: xr.Dataset) -> str:
-    """Where the speed comes from, the orders at some operating points, levels of sound pressure."""
-    tables = orders_tables(results)
-    texts = (to_text(table, WIDEST_CHANNEL) for table in tables)
-    return "\n".join([*orders_facts(results), "", *texts])
 
 
 def orders_facts(results: xr.Dataset) -> list[str]:
@@ -83,12 +78,12 @@ def orders_tables(results: xr.Dataset) -> list[Table]:
     return tables
 
 
-def orders_csv(results: xr.Dataset) -> bytes:
+def orders_data(results: xr.Dataset) -> DataTable:
     """Every order of every channel at every operating point."""
-    return dataset_csv(_DIMENSIONS, _orders(results))
+    return data_table(_DIMENSIONS, _orders(results))
 
 
-def levels_csv(results: xr.Dataset) -> bytes:
+def levels_data(results: xr.Dataset) -> DataTable:
     """Leq, LFmax, LSmax and third-octave levels of every channel of sound pressure.
 
     Column `left_out_s`: what is left out at either end of the recording; `bands`: "sums" of the
@@ -96,18 +91,20 @@ def levels_csv(results: xr.Dataset) -> bytes:
     """
     names = ("leq_db", "lfmax_db", "lsmax_db", "left_out_s", "bands")
     bands = [f"leq_{band:g}_hz_db" for band in results["band"].values]
-    rows: list[list[str | float]] = [
-        [
-            channel,
-            weighting,
-            *(float(levels[name]) for name in _LEVELS),
-            _left_out_s(results, weighting),
-            str(results.attrs.get("band_method", "sums")),
-            *map(float, levels.band_level),
-        ]
-        for channel, weighting, levels in _level_rows(results)
-    ]
-    return to_csv(("channel", "weighting", *names, *bands), rows)
+    rows: list[list[str | float]] = []
+    for channel, weighting in _level_rows(results):
+        levels = results.sel(channel=channel, weighting=weighting)
+        rows.append(
+            [
+                channel,
+                weighting,
+                *(float(levels[name]) for name in _LEVELS),
+                _left_out_s(results, weighting),
+                str(results.attrs.get("band_method", "sums")),
+                *map(float, levels.band_level),
+            ]
+        )
+    return columns_of(("channel", "weighting", *names, *bands), rows)
 
 
 def _left_out_s(results: xr.Dataset, weighting: str) -> float:
@@ -144,7 +141,7 @@ def _orders_table(results: xr.Dataset) -> Table:
     shown = shown_speeds(results)
     columns = _orders(results)
     known = columns["phase_deg"].where(columns["coherence"] >= _LEAST_COHERENCE)
-    every = records(_DIMENSIONS, {**columns, "known_phase_deg": known})
+    every = records(data_table(_DIMENSIONS, {**columns, "known_phase_deg": known}))
     caption = (
         "Orders: peak and phase of the coherent mean over the blocks at a speed; RMS in a band of "
         f"{results.attrs['band_order']:.3g} orders"
@@ -162,19 +159,19 @@ def shown_speeds(results: xr.Dataset) -> set[float]:
     return set(speeds[indices].tolist())
 
 
-def _level_rows(results: xr.Dataset) -> Iterator[tuple[str, str, xr.Dataset]]:
-    """Channel, weighting and levels of sound pressure."""
+def _level_rows(results: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Channel and weighting of levels of sound pressure."""
     pressure = results["channel_unit"] == "Pa"
-    for channel in results["channel"].values[pressure.values]:
-        for weighting in results["weighting"].values:
-            yield str(channel), str(weighting), results.sel(channel=channel, weighting=weighting)
+    return product(
+        map(str, results["channel"].values[pressure.values]), map(str, results["weighting"].values)
+    )
 
 
 def _levels_table(results: xr.Dataset) -> Table:
-    rows = tuple(
-        (channel, weighting, *(rounding.fixed(float(levels[name])) for name in _LEVELS))
-        for channel, weighting, levels in _level_rows(results)
-    )
+    rows: list[tuple[Cell, ...]] = []
+    for channel, weighting in _level_rows(results):
+        at = {"channel": channel, "weighting": weighting}
+        rows.append((channel, weighting, *(number(results, each, fixed, **at) for each in _LEVELS)))
     head = ("Channel", "weighting", "Leq, dB", "LFmax, dB", "LSmax, dB")
     method = "IEC 61260-1 filters" if results.attrs.get("band_method") == "filters" else "band sums"
     caption = (
@@ -182,7 +179,7 @@ def _levels_table(results: xr.Dataset) -> Table:
         f"{_left_out_s(results, 'A'):.3g} s, the filters' run-in; third octaves in levels.csv by "
         f"{method}"
     )
-    return Table(caption, head, rows, frozenset({0, 1}))
+    return Table(caption, head, tuple(rows), frozenset({0, 1}))
 
 
 _TRACKED_COLUMNS: Final[Columns] = (
@@ -195,35 +192,7 @@ _TRACKED_COLUMNS: Final[Columns] = (
 )
 
 
-def tracked_text(tracked: xr.Dataset) -> str:
-    """Where the speed comes from, and where each order is largest."""
-    caption = "Tracked orders: where each is largest"
-    table = table_of(caption, _peaks(tracked), _TRACKED_COLUMNS, frozenset({0, 1}))
-    attrs = tracked.attrs
-    facts = [
-        f"speed: {attrs['speed_source']}",
-        f"bandwidth: {attrs['bandwidth_hz']:g} Hz, {attrs['poles']} poles; noise within it grows "
-        f"by up to {attrs['noise_gain']:.2g}",
-        "",
-    ]
-    return "\n".join([*facts, to_text(table, WIDEST_CHANNEL)])
-
-
-def tracked_csv(tracked: xr.Dataset) -> bytes:
-    """Amplitude and phase of every tracked order of every channel over the time."""
-    columns = {
-        "channel": tracked["channel"],
-        "unit": tracked["channel_unit"],
-        "order": tracked["order"],
-        "time_s": tracked["track_time"],
-        "speed_rpm": tracked["track_speed"],
-        "amplitude_peak": abs(tracked["tracked_order"]),
-        "phase_deg": phase_deg(tracked["tracked_order"]),
-    }
-    return dataset_csv(("channel", "order", "track_time"), columns)
-
-
-def _peaks(tracked: xr.Dataset) -> list[Record]:
+def tracked_table(tracked: xr.Dataset) -> Table:
     """Where each order of a channel is largest."""
     size = abs(tracked["tracked_order"])
     at = size.isel(track_time=size.argmax("track_time"))
@@ -235,4 +204,30 @@ def _peaks(tracked: xr.Dataset) -> list[Record]:
         "time_s": at["track_time"],
         "speed_rpm": at["track_speed"],
     }
-    return records(("channel", "order"), columns)
+    rows = records(data_table(("channel", "order"), columns))
+    caption = "Tracked orders: where each is largest"
+    return table_of(caption, rows, _TRACKED_COLUMNS, frozenset({0, 1}))
+
+
+def tracked_data(tracked: xr.Dataset) -> DataTable:
+    """Amplitude and phase of every tracked order of every channel over the time."""
+    columns = {
+        "channel": tracked["channel"],
+        "unit": tracked["channel_unit"],
+        "order": tracked["order"],
+        "time_s": tracked["track_time"],
+        "speed_rpm": tracked["track_speed"],
+        "amplitude_peak": abs(tracked["tracked_order"]),
+        "phase_deg": phase_deg(tracked["tracked_order"]),
+    }
+    return data_table(("channel", "order", "track_time"), columns)
+
+
+def tracked_facts(tracked: xr.Dataset) -> list[str]:
+    """Where the speed comes from, and what passes around each order."""
+    attrs = tracked.attrs
+    return [
+        f"speed: {attrs['speed_source']}",
+        f"bandwidth: {attrs['bandwidth_hz']:g} Hz, {attrs['poles']} poles; noise within it grows "
+        f"by up to {attrs['noise_gain']:.2g}",
+    ]

@@ -1,4 +1,4 @@
-"""What was predicted from measurements alone, as plain text, CSV and Markdown."""
+"""Analysis of what was predicted from measurements alone."""
 
 import numpy as np
 import xarray as xr
@@ -6,34 +6,35 @@ import xarray as xr
 from ..base import rounding
 from ..base.decibel import SILENCE_DB
 from ..base.vocabulary import REFERENCE_OPTION
-from .file_names import numbered
-from .tables import Table, dataset_csv, escape_markdown, to_markdown, to_text
+from ..results.number import Number
+from .analysis import Analysis, origin
+from .blocks import Block, Bullets, Part, Pictures
+from .figures.prediction import predicted_charts
+from .tables import Cell, DataTable, Table, data_table
 
 
-def prediction_text(predicted: xr.Dataset) -> str:
-    """Levels of all lines before and after, with 90 % bands, and the truncations."""
-    tables = [to_text(table, 32) for table in (_totals(predicted), _truncations(predicted))]
-    return "\n".join([*tables, *_notes(predicted)])
+def analysis_of_prediction(predicted: xr.Dataset) -> Analysis:
+    """Return levels of all lines before and after each change, with 90 % bands."""
+    totals, *others = blocks = _blocks(predicted)
+    return Analysis(
+        "prediction",
+        **origin(predicted, "Measurement"),
+        about="Predicted from measurements alone.",
+        parts=(
+            Part("levels", "Levels", (totals, Pictures(tuple(predicted_charts(predicted))))),
+            Part("method", "Truncation and precision", tuple(others)),
+        ),
+        shown=blocks,
+        tables={"prediction.csv": _lines(predicted)},
+        in_markdown="prediction.md",
+    )
 
 
-def prediction_markdown(predicted: xr.Dataset) -> bytes:
-    """A short report: tables, notes and the figures beside it."""
-    pictures = [
-        f"![{escape_markdown(name)}](prediction_{file}.svg)"
-        for name, file in numbered(predicted, "receiver")
-    ]
-    parts = [
-        f"# {escape_markdown(predicted.attrs['title'])}",
-        f"Predicted from measurements alone. Computed {predicted.attrs['created_utc']}.",
-        to_markdown(_totals(predicted)),
-        *pictures,
-        to_markdown(_truncations(predicted)),
-        "\n".join(f"- {note}" for note in _notes(predicted)),
-    ]
-    return ("\n\n".join(parts) + "\n").encode()
+def _blocks(predicted: xr.Dataset) -> tuple[Block, ...]:
+    return _totals(predicted), _truncations(predicted), Bullets(tuple(_notes(predicted)))
 
 
-def prediction_csv(predicted: xr.Dataset) -> bytes:
+def _lines(predicted: xr.Dataset) -> DataTable:
     """Every line of every microphone before and after each change, with its 90 % band."""
     levels = predicted["predicted_level"]
     after = predicted.sel(option=_changes(predicted))
@@ -46,7 +47,7 @@ def prediction_csv(predicted: xr.Dataset) -> bytes:
         "low_db": after["predicted_level_low"],
         "high_db": after["predicted_level_high"],
     }
-    return dataset_csv(("option", "receiver", "frequency"), columns)
+    return data_table(("option", "receiver", "frequency"), columns)
 
 
 def _changes(predicted: xr.Dataset) -> list[str]:
@@ -58,15 +59,15 @@ def _totals(predicted: xr.Dataset) -> Table:
         (
             option,
             str(receiver),
-            f"dB({weighting})" if weighting != "Z" else "dB",
-            rounding.fixed(_value(predicted, "predicted_total_level", REFERENCE_OPTION, at)),
-            *_with_band(predicted, "predicted_total_level", option, at),
-            *_with_band(predicted, "predicted_total_change", option, at, is_signed=True),
+            unit,
+            _number(predicted, "predicted_total_level", REFERENCE_OPTION, at, unit),
+            *_with_band(predicted, "predicted_total_level", option, at, unit),
+            *_with_band(predicted, "predicted_total_change", option, at, "dB"),
         )
         for option in _changes(predicted)
         for receiver in predicted["receiver"].values
-        for weighting in ("Z", "A")
-        for at in [{"receiver": receiver, "weighting": weighting}]
+        for weighting, unit in (("Z", "dB"), ("A", "dB(A)"))
+        for at in [{"receiver": str(receiver), "weighting": weighting}]
     ]
     head = ("Change", "Microphone", "", "measured", "predicted", "90 % band", "change", "90 % band")
     return Table(
@@ -77,19 +78,22 @@ def _totals(predicted: xr.Dataset) -> Table:
     )
 
 
-def _value(predicted: xr.Dataset, name: str, option: str, at: dict[str, str]) -> float:
-    return float(predicted[name].sel({"option": option, **at}))
+def _number(predicted: xr.Dataset, name: str, option: str, at: dict[str, str], unit: str) -> Number:
+    selection = {"option": option, **at}
+    value, low, high = (
+        float(predicted[f"{name}{end}"].sel(selection)) for end in ("", "_low", "_high")
+    )
+    show = rounding.signed if name.endswith("change") else rounding.fixed
+    return Number(value, unit, name, selection, low=low, high=high, text=show(value))
 
 
 def _with_band(
-    predicted: xr.Dataset, name: str, option: str, at: dict[str, str], is_signed: bool = False
-) -> tuple[str, str]:
-    show = rounding.signed if is_signed else rounding.fixed
-    value, low, high = (
-        _value(predicted, f"{name}{end}", option, at) for end in ("", "_low", "_high")
-    )
-    lowest = "silence" if low <= SILENCE_DB / 2.0 else show(low)
-    return show(value), f"{lowest} to {show(high)}"
+    predicted: xr.Dataset, name: str, option: str, at: dict[str, str], unit: str
+) -> tuple[Cell, str]:
+    value = _number(predicted, name, option, at, unit)
+    show = rounding.signed if name.endswith("change") else rounding.fixed
+    low, high = float(value.low or 0.0), float(value.high or 0.0)
+    return value, f"{'silence' if low <= SILENCE_DB / 2.0 else show(low)} to {show(high)}"
 
 
 def _truncations(predicted: xr.Dataset) -> Table:

@@ -1,4 +1,4 @@
-"""What `radiate` reports: levels of a housing at unit velocity as text, and figures."""
+"""Analysis of a housing's radiation: levels at unit velocity, their error, sound power."""
 
 from typing import Final
 
@@ -8,19 +8,21 @@ import xarray as xr
 from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
+from .analysis import Analysis, origin
+from .blocks import Block, Part, Pictures, Text
 from .charts.picture import Picture, picture
 from .figures.directivity import directivity
 from .figures.maps import names, silent_dofs, unit_level_db, unit_level_map
 from .figures.transfer_vectors import transfer_vectors
 from .kwave_words import kwave_line
-from .tables import Table, to_text
+from .tables import Table
 
 TABLE_FREQUENCIES_HZ: Final = (50.0, 100.0, 250.0, 500.0, 1000.0, 2000.0)
 _CORRECTIONS: Final = ("background", "environment")
 
 
-def radiation_text(radiated: xr.Dataset) -> str:
-    """Plain-text tables for the terminal: levels at unit velocity, their error, sound power."""
+def analysis_of_radiation(radiated: xr.Dataset) -> Analysis:
+    """Return the analysis of a housing's radiation."""
     frequency = radiated["frequency"].values
     wanted = [hertz for hertz in TABLE_FREQUENCIES_HZ if frequency[0] <= hertz <= frequency[-1]]
     nearest = sorted({int(np.argmin(np.abs(frequency - hertz))) for hertz in wanted}) or [0]
@@ -28,12 +30,21 @@ def radiation_text(radiated: xr.Dataset) -> str:
     tables = [_level_table(radiated, nearest, head)]
     if "unit_sound_power_level" in radiated:
         tables.append(_power_table(radiated["unit_sound_power_level"], nearest, head))
-    return "\n".join([*map(to_text, tables), kwave_text(radiated)])
-
-
-def kwave_text(results: xr.Dataset) -> str:
-    """What k-Wave computed and its difference from the closed form, a line for the terminal."""
-    return f"{kwave_line(results)}\n"
+    blocks: tuple[Block, ...] = (*tables, Text(kwave_line(radiated)))
+    return Analysis(
+        "transfer_vectors",
+        **origin(radiated, "Housing"),
+        about="Sound of the housing at unit velocity.",
+        parts=(
+            Part("levels", "Levels at unit velocity", blocks),
+            Part(
+                "figures",
+                "Over frequency and direction",
+                (Pictures(tuple(radiation_figures(radiated))),),
+            ),
+        ),
+        shown=blocks,
+    )
 
 
 def _level_table(radiated: xr.Dataset, nearest: list[int], head: tuple[str, ...]) -> Table:

@@ -1,37 +1,42 @@
-"""A table as data, and its forms as CSV, Markdown and plain text."""
+"""Tables: rows for readers as Markdown and plain text, columns for programs as CSV."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, TypeAlias
+from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 import xarray as xr
 
 from ..base.csv_text import csv_bytes
+from ..results.number import Number
 
+Cell: TypeAlias = str | Number
 DataTable: TypeAlias = Mapping[str, Sequence[str | float]]
 """Values by machine-readable names of columns; an empty text is no value."""
 Record: TypeAlias = Mapping[str, Any]
 """Values of a row by their names."""
-Columns: TypeAlias = Sequence[tuple[str, str, Callable[[Any], str]]]
+Columns: TypeAlias = Sequence[tuple[str, str, Callable[[Any], Cell]]]
 """Head of each column, name of its value in a record, and what writes it."""
+WIDEST_FIRST: Final = 40
+"""Letters of the first column in a terminal."""
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of finished text under a head; the first column names the row."""
+    """Rows of finished text and numbers under a head; the first column names the row."""
 
     caption: str
     head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+    rows: tuple[tuple[Cell, ...], ...]
     words: frozenset[int] = frozenset({0})
     """Columns of words, set flush left; numbers are set flush right."""
     block: Literal["table"] = field(default="table", kw_only=True, repr=False)
 
 
-def to_csv(columns: Sequence[str], rows: Iterable[Sequence[str | float]]) -> bytes:
-    """CSV with a head line; numbers to nine significant digits."""
-    return csv_bytes(columns, rows, lambda number: f"{number:.9g}")
+def to_csv(table: DataTable) -> bytes:
+    """Return a table as CSV with a head line; numbers to nine significant digits."""
+    rows = zip(*table.values(), strict=True)
+    return csv_bytes(list(table), rows, lambda number: f"{number:.9g}")
 
 
 def columns_of(head: Sequence[str], rows: Iterable[Sequence[str | float]]) -> DataTable:
@@ -52,23 +57,6 @@ def table_of(
     return Table(caption, tuple(head for head, _, _ in columns), cells, words)
 
 
-def records(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> list[Record]:
-    """A record for each point of some dimensions, the last of which runs fastest.
-
-    Parameters
-    ----------
-    dims : all dimensions of the columns
-    columns : values by name, over some of the dimensions each
-    """
-    values = data_table(dims, columns).values()
-    return [dict(zip(columns, row, strict=True)) for row in zip(*values, strict=True)]
-
-
-def dataset_csv(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> bytes:
-    """CSV of the records of some columns."""
-    return to_csv(list(columns), (list(row.values()) for row in records(dims, columns)))
-
-
 def data_table(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> DataTable:
     """Return a table with a row for each point of some dimensions, the last of which runs fastest.
 
@@ -80,6 +68,11 @@ def data_table(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> Data
     arrays = xr.broadcast(*columns.values())
     values = [array.transpose(*dims).values.ravel().tolist() for array in arrays]
     return dict(zip(columns, values, strict=True))
+
+
+def records(table: DataTable) -> list[Record]:
+    """Return the rows of a table."""
+    return [dict(zip(table, row, strict=True)) for row in zip(*table.values(), strict=True)]
 
 
 def long_table(results: xr.Dataset, names: Iterable[str], **labels: Any) -> DataTable:
@@ -119,11 +112,13 @@ def to_markdown(table: Table) -> str:
     return "\n".join([f"**{escape_markdown(table.caption)}**", "", *lines])
 
 
-def to_text(table: Table, widest_first: int = 20) -> str:
-    """Columns of ASCII-only text below the caption, for a terminal."""
-    rows = [[_ascii(cell) for cell in row] for row in (table.head, *table.rows)]
+def to_text(table: Table) -> str:
+    """Return columns of ASCII-only text below the caption, for a terminal."""
+    if not table.rows:
+        return to_ascii(table.caption)
+    rows = [[to_ascii(str(cell)) for cell in row] for row in (table.head, *table.rows)]
     for row in rows:
-        row[0] = _shorten(row[0], widest_first)
+        row[0] = _shorten(row[0], WIDEST_FIRST)
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = [
         "  ".join(
@@ -132,7 +127,7 @@ def to_text(table: Table, widest_first: int = 20) -> str:
         ).rstrip()
         for row in rows
     ]
-    return "\n".join([_ascii(table.caption), lines[0], "-" * len(lines[0]), *lines[1:], ""])
+    return "\n".join([to_ascii(table.caption), lines[0], "-" * len(lines[0]), *lines[1:], ""])
 
 
 def escape_markdown(text: str) -> str:
@@ -142,11 +137,12 @@ def escape_markdown(text: str) -> str:
     return text.replace("<", "&lt;").replace("\n", " ")
 
 
-def _pipes(cells: Iterable[str]) -> str:
-    return "| " + " | ".join(escape_markdown(cell) for cell in cells) + " |"
+def _pipes(cells: Iterable[Cell]) -> str:
+    return "| " + " | ".join(escape_markdown(str(cell)) for cell in cells) + " |"
 
 
-def _ascii(text: str) -> str:
+def to_ascii(text: str) -> str:
+    """Return text with ASCII in place of the signs of numbers."""
     plain = (
         text.replace("−", "-")
         .replace("–", "-")

@@ -110,8 +110,9 @@ def test_every_file_carries_the_hash_of_its_results(results, tmp_path):
 @pytest.fixture
 def few_files(monkeypatch) -> None:
     """A report of two small files: what they hold is no subject."""
-    names = ("report.html", "comparison.csv")
-    monkeypatch.setattr(report, "render", lambda _, digest: dict.fromkeys(names, digest.encode()))
+    tables = {"comparison.csv": {"option": ["none"]}}
+    analysis = report.Analysis("report", "", "", "", "", (), tables=tables)
+    monkeypatch.setattr(report, "analysis_of_study", lambda _: analysis)
 
 
 @pytest.mark.usefixtures("few_files")
@@ -147,7 +148,7 @@ def test_a_file_of_an_older_run_is_named_by_readers(results, tmp_path):
 def test_a_report_that_fails_leaves_the_older_run(results, tmp_path, monkeypatch):
     write_report(results, tmp_path)
     before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
-    monkeypatch.setattr("vibroacoustics.report.comparison_csv", lambda _: 1 / 0)
+    monkeypatch.setattr("vibroacoustics.report.study.comparison_data", lambda _: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         write_report(results.assign_attrs(title="another"), tmp_path)
     assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before

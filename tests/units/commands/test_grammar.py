@@ -119,8 +119,6 @@ def quick(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     )
     radiated = made_up_transfer_vectors(va.load_study(TINY))
     monkeypatch.setattr(pipeline, "radiate", lambda *_: radiated, raising=False)
-    monkeypatch.setattr("vibroacoustics.report.radiation_text", lambda _: "radiation")
-    monkeypatch.setattr("vibroacoustics.report.radiation_figures", lambda _: [])
     vectors = made_up_vectors(["table"], highest_hz=2000.0)
     monkeypatch.setattr(room, "vectors_of", lambda *_: (vectors, False))
     draw_nothing(monkeypatch)

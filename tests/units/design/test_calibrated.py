@@ -1,7 +1,5 @@
 """Designs over the weighted samples of a machine agree with runs of the same options."""
 
-import json
-
 import numpy as np
 import pytest
 from design_studies import design_table, study_with
@@ -157,9 +155,10 @@ def test_no_best_designs_where_nothing_changes_the_total(problem, level_db, is_s
     search = optimise(study, radiation=radiation)
     words = search.attrs["no_change"]
     assert bool(words) == is_said
-    assert ("nothing in this space" in report.designs_text(search)) == is_said
-    assert (json.loads(report.designs_json(search))["best"] == []) == is_said
-    page = report.render_designs(search)["designs.html"].decode()
+    analysis = report.analysis_of_designs(search)
+    assert ("Nothing in this space" in analysis.text()) == is_said
+    assert ("best.csv" not in analysis.tables) == is_said
+    page = analysis.html().decode()
     assert ("Nothing in this space changes the total by 20 dB" in page) == is_said
     assert ("The best few designs" in page) != is_said
     if is_said:
@@ -172,8 +171,9 @@ def test_no_best_designs_where_nothing_changes_the_total(problem, level_db, is_s
 def test_a_study_without_uncertainty_says_that_its_machine_is_nominal():
     study = study_with(design_table('"counterweight-half"', SHARE) + ONLY_TOTAL)
     search = optimise(study, radiation=made_up_radiation)
-    assert report.designs_text(search).count("nominal machine") == 1
-    assert "95 % limits" in report.render_designs(search)["designs.html"].decode()
+    analysis = report.analysis_of_designs(search)
+    assert analysis.text().count("nominal machine") == 1
+    assert "95 % limits" in analysis.html().decode()
 
 
 @pytest.mark.slow

@@ -1,6 +1,5 @@
 """A recording from file to orders: against the pipeline that made it, and by every speed source."""
 
-import csv
 import json
 
 import numpy as np
@@ -19,7 +18,8 @@ from vibroacoustics.orders.recorded_speed import (
     recorded_speed,
 )
 from vibroacoustics.recordings import LabelledBlocks, csv_bytes, wav_bytes
-from vibroacoustics.report import levels_csv, orders_text
+from vibroacoustics.report.order_tables import levels_data, orders_facts, orders_tables
+from vibroacoustics.report.tables import records, to_text
 from vibroacoustics.results import storage
 from vibroacoustics.study.order_analysis import (
     NominalSpeed,
@@ -473,7 +473,7 @@ def test_synchronous_average_that_lacks_revolutions_is_left_out():
     results = analyse_orders(recording, settings)
     assert "synchronous_average" not in results
     assert results.attrs["left_out"].startswith("synchronous average: revolutions = 1: the signal")
-    assert "left out: synchronous average: revolutions = 1" in orders_text(results)
+    assert "left out: synchronous average: revolutions = 1" in orders_facts(results)
 
 
 def test_levels_say_what_they_leave_out_and_how_bands_come_about():
@@ -484,13 +484,13 @@ def test_levels_say_what_they_leave_out_and_how_bands_come_about():
         for method in ("sums", "filters")
     )
     assert sums.attrs["levels_left_out_s"] == pytest.approx(0.1)
-    assert "A and C leave out the first and last 0.1 s" in orders_text(sums)
-    assert "third octaves in levels.csv by band sums" in orders_text(sums)
-    assert "third octaves in levels.csv by IEC 61260-1 filters" in orders_text(filters)
-    weightings = {
-        row["weighting"]: row for row in csv.DictReader(levels_csv(filters).decode().splitlines())
-    }
-    assert weightings["A"]["left_out_s"] == "0.1"
+    assert "A and C leave out the first and last 0.1 s" in to_text(orders_tables(sums)[1])
+    assert "third octaves in levels.csv by band sums" in to_text(orders_tables(sums)[1])
+    assert "third octaves in levels.csv by IEC 61260-1 filters" in to_text(
+        orders_tables(filters)[1]
+    )
+    weightings = {row["weighting"]: row for row in records(levels_data(filters))}
+    assert weightings["A"]["left_out_s"] == 0.1
     assert weightings["Z"]["left_out_s"] == "0"
     assert weightings["Z"]["bands"] == "filters"
     skirt = filters["band_level"] - sums["band_level"]

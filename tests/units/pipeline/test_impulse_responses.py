@@ -8,7 +8,8 @@ from support import TINY, assert_refused, command_here
 
 import vibroacoustics as va
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
-from vibroacoustics.commands.impulse_files import write_impulse_responses
+from vibroacoustics.commands import outputs
+from vibroacoustics.commands.impulse_files import impulse_analysis
 from vibroacoustics.radiation.rooms import of_study as rooms
 from vibroacoustics.sound.room_ways import ways_of
 from vibroacoustics.stages import room
@@ -56,7 +57,9 @@ def test_they_are_the_vectors_below_the_seam_and_the_levels_above(study, vectors
 
 
 def test_files_state_their_gain_and_unit(tmp_path, responses):
-    paths = write_impulse_responses(responses, tmp_path, ["table"])
+    analysis = impulse_analysis(responses, ["table"])
+    outputs.write_analysis(analysis, None, tmp_path)
+    paths = [tmp_path / name for name in analysis.further]
     scale = float(paths[0].stem.rpartition("_")[2].removesuffix("Pa"))
     assert [path.name for path in paths] == [
         f"table_{dof}_{scale:g}Pa.wav" for dof in RIGID_BODY_DOFS

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from pages import page_of
 from rooms_made_up import HIGHEST_HZ, KITCHEN, RADIUS_M, made_up_vectors
 from sound_studies import a_level
 from sources_study import SOURCES_STUDY, made_up_modes
@@ -16,8 +17,7 @@ from vibroacoustics.base.progress import no_progress
 from vibroacoustics.levels import a_weighting
 from vibroacoustics.pipeline.cost import run_cost
 from vibroacoustics.radiation.rooms import of_study as rooms
-from vibroacoustics.report.html import html
-from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.sections.in_room.tables import (
     absorption,
@@ -281,8 +281,8 @@ def test_report_says_how_loud_by_which_path_and_what_changes_it(kitchen):
     assert "mean, for the gain of the place" in {row[0] for row in seam_table(kitchen).rows}
     section = SECTIONS["in-room"]
     assert section.applies(kitchen)
-    page = Page("T", "M", "now", (Part("s", section.title, tuple(section.blocks(kitchen))),))
-    assert b"In the room" in html(page)
+    page = page_of(Part("s", section.title, tuple(section.blocks(kitchen))))
+    assert b"In the room" in page.html()
 
 
 @pytest.mark.long

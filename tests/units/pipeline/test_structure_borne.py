@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
+from pages import page_of
 from support import ROOT, TINY, command_here, made_up_radiation
 
 import vibroacoustics as va
 from vibroacoustics.base.decibel import energy_sum
 from vibroacoustics.mechanics.loads import Loads, Tone
 from vibroacoustics.mechanics.ports import HOUSING
-from vibroacoustics.report.html import html
-from vibroacoustics.report.page import Page, Part
+from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.sections.structure_borne.tables import carrier, way_sentence, ways_table
 from vibroacoustics.sources.cases import cases_of
@@ -134,8 +134,8 @@ def test_report_says_which_way_carries(panel):
     assert [row[0] for row in table.rows] == ["none", "counterweight-half"]
     section = SECTIONS["structure-borne"]
     assert section.applies(panel)
-    page = Page("T", "M", "now", (Part("s", section.title, tuple(section.blocks(panel))),))
-    assert b"By air or by the feet" in html(page)
+    page = page_of(Part("s", section.title, tuple(section.blocks(panel))))
+    assert b"By air or by the feet" in page.html()
     assert [carrier(*ends) for ends in ((1, 2, 3), (4, 2, 3), (2, 1, 3))] == [
         "the plate", "the air", "not sure",
     ]  # fmt: skip

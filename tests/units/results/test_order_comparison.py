@@ -11,11 +11,13 @@ from support import tiny_run
 from vibroacoustics import analyse_orders, compare, label_recording
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
-from vibroacoustics.report import (
-    compared_order_figures,
-    comparison_of_orders_csv,
-    comparison_of_orders_text,
+from vibroacoustics.report.compared.order_rows import (
+    compared_data,
+    compared_facts,
+    matching_orders,
 )
+from vibroacoustics.report.figures.compared_orders import compared_order_figures
+from vibroacoustics.report.tables import to_csv, to_text
 from vibroacoustics.results.order_comparison import NEGLIGIBLE, channel_orders
 from vibroacoustics.study.order_analysis import OrderAnalysis, SpeedChannel
 
@@ -198,7 +200,7 @@ def test_without_a_mark_on_the_shaft_the_bands_count():
                         angle_zero="none")  # fmt: skip
     compared = compare(marked, drifting)
     np.testing.assert_allclose(compared["order_difference"], 0.0, atol=1e-9)
-    assert "peaks from the RMS in the bands" in comparison_of_orders_text(compared)
+    assert "peaks from the RMS in the bands" in compared_facts(compared)[0]
 
 
 def test_a_speed_is_paired_once_with_the_nearest():
@@ -259,12 +261,12 @@ def test_nothing_in_common(study):
 def test_table_and_csv(study):
     shell = recorded({"shell": ("m/s²", [0.5, 1e-4])})
     compared = compare(study, shell, {"acceleration tx": "shell"})
-    lines = comparison_of_orders_text(compared).splitlines()
+    lines = [*compared_facts(compared), "", *to_text(matching_orders(compared)).splitlines()]
     assert lines[0].startswith("A: Tiny study for tests; crank angle zero: ")
     assert lines[1] == "B: a.wav; crank angle zero: pulse"
     (row,) = [line.split() for line in lines if line.startswith("acceleration tx")]
     assert row[2:7] == ["shell", "m/s²", "2900", "2900", "1"]
-    rows = list(csv.DictReader(io.StringIO(comparison_of_orders_csv(compared).decode())))
+    rows = list(csv.DictReader(io.StringIO(to_csv(compared_data(compared)).decode())))
     assert [row["order"] for row in rows] == ["1", "2"]
     size = abs(compared["channel_order"].sel(order=1).item())
     assert float(rows[0]["difference_db"]) == pytest.approx(20.0 * np.log10(0.5 / size), abs=1e-6)
@@ -283,11 +285,11 @@ def test_the_text_has_the_orders_that_matter():
         )
 
     few, many = compared(5), compared(19)
-    text = comparison_of_orders_text(few)
+    text = to_text(matching_orders(few))
     assert _printed_orders(text) == ["1", "2", "4"]
     assert "3 of 5 rows, those within 20 dB of the strongest or" in text
-    assert len(_printed_orders(comparison_of_orders_text(many))) == 12
-    assert comparison_of_orders_csv(many).count(b"\n") == 20
+    assert len(_printed_orders(to_text(matching_orders(many)))) == 12
+    assert to_csv(compared_data(many)).count(b"\n") == 20
 
 
 def _printed_orders(text):

@@ -22,7 +22,8 @@ from vibroacoustics import (
     read_limits,
 )
 from vibroacoustics.base.errors import ParameterError, StorageError
-from vibroacoustics.report import limits_csv, limits_text
+from vibroacoustics.report.limit_tables import limits_data, limits_words, order_limits_table
+from vibroacoustics.report.tables import to_csv, to_text
 from vibroacoustics.results.order_limits import NOT_CHECKED, with_limits
 from vibroacoustics.results.storage import write_results
 
@@ -36,6 +37,10 @@ def steady(peak=1.0, names=("shell", "microphone")) -> xr.Dataset:
     signal = peak * (np.cos(angle) + 0.1 * np.cos(2.0 * angle))
     made = label_recording([signal, 0.02 * signal], RATE_HZ, names, ["m/s²", "Pa"])
     return analyse_orders(made, OrderAnalysis(NominalSpeed(3000.0), (1.0, 2.0), maximum_order=4.0))
+
+
+def limits_text(checked):
+    return "\n".join([to_text(order_limits_table(checked)), *limits_words(checked)])
 
 
 def run_up() -> xr.Dataset:
@@ -253,7 +258,7 @@ def test_table_sentence_and_csv():
     assert rows["microphone"][1:] == ["1", "3000", "57.0", "57.0", "dB", "0.0"]
     assert lines[-2].startswith("1 of 2 orders exceeds its limit, the worst by 3.0 dB: order 1 of")
     assert lines[-1].endswith("limits.csv: line 4 (order 9 of shell)")
-    table = list(csv.DictReader(io.StringIO(limits_csv(checked).decode())))
+    table = list(csv.DictReader(io.StringIO(to_csv(limits_data(checked)).decode())))
     assert [row["within"] for row in table] == ["no", "yes"]
     assert float(table[1]["value"]) == pytest.approx(56.9897, abs=1e-3)
     assert "result" not in table[0]

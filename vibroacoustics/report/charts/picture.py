@@ -1,5 +1,6 @@
 """Finished pictures of a page."""
 
+import re
 from typing import Final, Literal, NamedTuple
 from weakref import WeakKeyDictionary
 
@@ -28,6 +29,11 @@ class Picture(NamedTuple):
     content: Base64Bytes
     ending: Literal["png", "svg"] = "png"
     wide: bool = False
+
+
+def picture_file(drawn: Picture) -> str:
+    """Return the name of the file of a picture."""
+    return f"{re.sub(r'[^A-Za-z0-9_-]+', '_', drawn.name)}.{drawn.ending}"
 
 
 _DRAWN: Final[WeakKeyDictionary[Chart, Picture]] = WeakKeyDictionary()

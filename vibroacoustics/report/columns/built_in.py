@@ -46,9 +46,9 @@ def _change(value: float, results: xr.Dataset) -> str:
 _FIRST: Final = {"order": 1}
 _SECOND: Final = {"order": 2}
 _COLUMNS: Final = (
-    _of("force_1x_n", "force_amplitude", _FIRST, head="Force 1×, N", terminal="1x N"),
+    _of("force_1x_n", "force_amplitude", _FIRST, head="Force 1×, N"),
     _of("force_2x_n", "force_amplitude", _SECOND),
-    _of("moment_1x_nm", "moment_amplitude", _FIRST, head="Moment 1×, N m", terminal="1x N m"),
+    _of("moment_1x_nm", "moment_amplitude", _FIRST, head="Moment 1×, N m"),
     _of(
         "foot_force_1x_n", "largest_foot_force", _FIRST,
         head="Foot force 1×, N", terminal="foot 1x N",
@@ -61,10 +61,11 @@ _COLUMNS: Final = (
     _of("level_1x_dba", "order_level", {**_FIRST, "weighting": "A"}, write=_level),
     _of(
         "level_modelled_dba", "level_modelled", {"weighting": "A"},
-        head="Modelled level, dB(A)", terminal="model dB(A)", write=_level,
+        head="Modelled level, dB(A)", write=_level,
     ),
-    _of("level_total_dba", "level_total", {}, head="Total level, dB(A)", write=_level),
-    _of("change_1x_db", "change_1x", {}, head="Δ 1×, dB", terminal="Δ1x dB", write=_change,
+    _of("level_total_dba", "level_total", {}, head="Total level, dB(A)",
+        terminal="total dB(A)", write=_level),
+    _of("change_1x_db", "change_1x", {}, head="Δ 1×, dB", write=_change,
         change_of="level_1x_db"),
     _of("change_modelled_db", "change_modelled", {}, write=_change,
         change_of="level_modelled_dba"),

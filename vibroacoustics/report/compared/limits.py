@@ -11,7 +11,7 @@ from ...results.figure_limits import CheckedFigure
 from ..bands import percent
 from ..blocks import Block, Bullets, Text
 from ..limit_tables import broken_orders, order_limits_table
-from ..tables import Table, to_csv
+from ..tables import DataTable, Table, columns_of
 
 _FIELDS: Final = (
     "result", "figure", "speed_rpm", "value", "limit", "unit", "side", "margin", "probability",
@@ -68,13 +68,13 @@ def figure_limits_table(figures: Sequence[CheckedFigure]) -> Table:
     )
 
 
-def figure_limits_csv(figures: Sequence[CheckedFigure]) -> bytes:
+def figure_limits_data(figures: Sequence[CheckedFigure]) -> DataTable:
     """Every figure that has a limit; the speed is empty where a figure is of all speeds."""
-    rows = (
+    rows = [
         [*(_cell(getattr(row, name)) for name in _FIELDS), "yes" if row.is_within else "no"]
         for row in figures
-    )
-    return to_csv((*_FIELDS, "within"), rows)
+    ]
+    return columns_of((*_FIELDS, "within"), rows)
 
 
 def _cell(value: str | float) -> str | float:

@@ -1,4 +1,4 @@
-"""Orders of two results beside each other as plain text and CSV."""
+"""Orders of two results beside each other: those that matter, and all of them as columns."""
 
 from collections.abc import Iterable, Iterator
 from functools import partial
@@ -12,8 +12,8 @@ import xarray as xr
 from ...base import rounding
 from ...base.decibel import level_of_amplitude
 from ...base.vocabulary import NO_ANGLE_ZERO
-from ..order_tables import WIDEST_CHANNEL, amplitude, shown_speeds
-from ..tables import Columns, Record, dataset_csv, records, table_of, to_text
+from ..order_tables import amplitude, shown_speeds
+from ..tables import Columns, DataTable, Record, Table, data_table, records, table_of
 from .orders import WITHIN_DB
 
 LOUD_DB: Final = 20.0
@@ -39,25 +39,23 @@ _COLUMNS: Final[Columns] = (
 )
 
 
-def comparison_of_orders_text(compared: xr.Dataset) -> str:
-    """Table of the orders that matter of those that both results have, with their differences."""
-    every = records(("channel", "speed", "order"), _columns(compared))
+def matching_orders(compared: xr.Dataset) -> Table:
+    """Return the orders that matter of those that both results have, with their differences."""
+    every = records(compared_data(compared))
     shown = shown_speeds(compared)
     rows = list(_that_matter(row for row in every if row["speed_rpm"] in shown))
-    facts = [*(_compared_fact(compared, name) for name in ("first", "second")), ""]
     caption = "B against A: level and phase of each order; coherence is the lower of both"
     if len(rows) < len(every):
         caption += (
             f"; {len(rows)} of {len(every)} rows, those within {LOUD_DB:g} dB of the strongest or "
             f"with more than {CHANGED_DB:g} dB between A and B; all in the CSV"
         )
-    table = table_of(caption, rows, _COLUMNS, frozenset({0, 1, 2}))
-    return "\n".join([*facts, to_text(table, WIDEST_CHANNEL)])
+    return table_of(caption, rows, _COLUMNS, frozenset({0, 1, 2}))
 
 
-def comparison_of_orders_csv(compared: xr.Dataset) -> bytes:
-    """Every pair of orders."""
-    return dataset_csv(("channel", "speed", "order"), _columns(compared))
+def compared_facts(compared: xr.Dataset) -> list[str]:
+    """Say what the results are, and where their phases count from."""
+    return [_compared_fact(compared, name) for name in ("first", "second")]
 
 
 def _compared_fact(compared: xr.Dataset, name: str) -> str:
@@ -67,9 +65,9 @@ def _compared_fact(compared: xr.Dataset, name: str) -> str:
     return f"{fact}, peaks from the RMS in the bands" if angle_zero == NO_ANGLE_ZERO else fact
 
 
-def _columns(compared: xr.Dataset) -> dict[str, xr.DataArray]:
-    """Columns of compared_orders.csv."""
-    return {
+def compared_data(compared: xr.Dataset) -> DataTable:
+    """Return every pair of orders."""
+    columns = {
         "channel": compared["channel"],
         "other_channel": compared["compared_channel"],
         "unit": compared["channel_unit"],
@@ -82,6 +80,7 @@ def _columns(compared: xr.Dataset) -> dict[str, xr.DataArray]:
         "phase_difference_deg": np.rad2deg(1.0) * compared["order_phase_difference"],
         "coherence": compared["channel_order_coherence"],
     }
+    return data_table(("channel", "speed", "order"), columns)
 
 
 def _that_matter(rows: Iterable[Record]) -> Iterator[Record]:

@@ -3,12 +3,11 @@
 import xarray as xr
 
 from ...results.figure_limits import Compared
-from ..blocks import Pictures
+from ..blocks import Part, Pictures
 from ..charts.marks import Chart
 from ..figures.campbell import campbell
 from ..figures.levels_over_speed import levels_over_speed
 from ..figures.orders_over_speed import orders_over_speed
-from ..page import Part
 from ..shown_speeds import FEWEST_OVER_SPEED, over_speed
 from .validation import is_study
 

@@ -1,4 +1,4 @@
-"""The page of a comparison, of the same blocks as the report of a study."""
+"""Analysis of two results beside each other."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -15,16 +15,16 @@ from ...results.validation import (
     LEVEL_TOLERANCE_DB,
     Validation,
 )
+from ..analysis import Analysis
 from ..bands import percent
-from ..blocks import Block, Details, Pictures, Text
-from ..charts.marks import Chart
-from ..figures.compared_orders import order_differences
-from ..html import html
-from ..page import Page, Part
+from ..blocks import Block, Bullets, Details, Part, Pictures, Text
+from ..figures.compared_orders import compared_order_charts, order_differences
+from ..limit_tables import limits_data, limits_words, order_limits_table
 from ..sections.evidence.tables import validation_table
 from ..tables import Table
 from .levels import levels_tables
-from .limits import limit_blocks, limits_sentence
+from .limits import figure_limits_data, limit_blocks, limits_sentence
+from .order_rows import compared_data, compared_facts, matching_orders
 from .orders import is_pressure, known_channels, orders_table, summary
 from .over_speed import channel_charts, over_speed_parts
 from .studies import inputs_table, key_figures
@@ -34,16 +34,13 @@ MOST_ROWS: Final = 40
 """Of a table that is not folded."""
 
 
-def comparison_html(
-    compared: Compared, figures: Sequence[CheckedFigure], charts: Sequence[Chart]
-) -> bytes:
-    """The page.
+def analysis_of_comparison(compared: Compared, figures: Sequence[CheckedFigure]) -> Analysis:
+    """Return the comparison of two results.
 
     Parameters
     ----------
     compared : two results, with what limits of orders say
     figures : other figures that have a limit
-    charts : orders of each channel in both results
     """
     orders = compared.orders
     parts = [
@@ -52,16 +49,29 @@ def comparison_html(
         *_figures_of_studies(compared),
         *over_speed_parts(compared),
         *_validation(compared),
-        Part("orders", "Orders", tuple(_orders(orders, charts))),
+        Part("orders", "Orders", tuple(_orders(orders))),
         *_levels(compared),
         *_runs(compared),
         *_inputs(compared),
         Part("results", "The two results", (_results(compared),)),
     ]
-    about = "Two results beside each other: A is the reference, differences are B less A."
-    of_both = f"{orders.attrs['first']}; {orders.attrs['second']}"
-    created = str(orders.attrs["created_utc"])
-    return html(Page("Comparison", of_both, created, tuple(parts), about))
+    shown: list[Block] = [Bullets(tuple(compared_facts(orders))), matching_orders(orders)]
+    tables = {"compared_orders.csv": compared_data(orders)}
+    if "order_limit" in orders:
+        tables["compared_orders_limits.csv"] = limits_data(orders)
+        shown += [order_limits_table(orders), *map(Text, limits_words(orders))]
+    if figures:
+        tables["compared_figures_limits.csv"] = figure_limits_data(figures)
+    return Analysis(
+        "compared",
+        title="Comparison",
+        kind=f"{orders.attrs['first']}; {orders.attrs['second']}",
+        created=str(orders.attrs["created_utc"]),
+        about="Two results beside each other: A is the reference, differences are B less A.",
+        parts=tuple(parts),
+        shown=tuple(shown),
+        tables=tables,
+    )
 
 
 def _verdict(compared: Compared, figures: Sequence[CheckedFigure]) -> list[Block]:
@@ -112,23 +122,23 @@ def _validation(compared: Compared) -> list[Part]:
     return [Part("validation", "Validation", (Text(note, "note"), table))]
 
 
-def _orders(orders: xr.Dataset, charts: Sequence[Chart]) -> list[Block]:
+def _orders(orders: xr.Dataset) -> list[Block]:
     channels = known_channels(orders)
     if not channels:
         return [Text(summary(orders))]
-    drawn = dict(zip(_drawn_channels(orders), charts, strict=True))
+    drawn = dict(zip(_drawn_channels(orders), compared_order_charts(orders), strict=True))
     loud = dict(zip(map(str, orders["channel"].values), is_pressure(orders), strict=True))
     first = [name for name in channels if loud[name]] or channels[:1]
     blocks: list[Block] = [Pictures((order_differences(orders),))]
     for name in channels:
-        charts_of = (*(channel_charts(orders, name) if name in first else ()), drawn[name])
-        of_channel: tuple[Block, ...] = (orders_table(orders, name), Pictures(charts_of))
+        pictures_of = (*(channel_charts(orders, name) if name in first else ()), drawn[name])
+        of_channel: tuple[Block, ...] = (orders_table(orders, name), Pictures(pictures_of))
         blocks += of_channel if name in first else [Details(name, of_channel)]
     return blocks
 
 
 def _drawn_channels(orders: xr.Dataset) -> list[str]:
-    """Channels that have a chart, in their order in the dataset."""
+    """Channels that have a picture, in their order in the dataset."""
     known = orders["order_difference"].notnull().any(("speed", "order")).values
     return [str(name) for name in orders["channel"].values[known]]
 

@@ -6,7 +6,9 @@ import numpy as np
 import xarray as xr
 
 from ...base import rounding
-from ..tables import Table
+from ...base.vocabulary import MEDIAN
+from ...results.number import Number
+from ..tables import Cell, DataTable, Table
 from .evaluated import Evaluated
 
 _AT_END = 1e-3
@@ -38,20 +40,38 @@ def best_tables(search: xr.Dataset, designs: Evaluated) -> Iterator[Table]:
     )
 
 
-def _reached(search: xr.Dataset, number: int) -> Iterator[tuple[str, ...]]:
+def best_designs(designs: Evaluated) -> DataTable:
+    """Return the variables of the best few; `row` counts the rows of `designs.csv` from 0."""
+    columns = {column.label: [column.cell(row) for row in designs.best] for column in
+               designs.variables}  # fmt: skip
+    rows = designs.best.tolist()
+    return {"design": list(range(1, len(rows) + 1)), "row": rows, **columns}
+
+
+def _reached(search: xr.Dataset, number: int) -> Iterator[tuple[Cell, ...]]:
     """A wanted value as meant and as promised."""
     unit = str(search["wanted_unit"].values[number])
     name = heading(str(search["wanted"].values[number]), unit)
     before = shown(float(search["wanted_reference"].values[number]), unit)
-    for words, variable in (("as meant", "wanted_as_meant"), ("promised", "wanted_promised")):
-        values = search[variable].values[:, number]
-        yield (name, words, before, *(shown(float(value), unit) for value in values))
+    as_meant = search["wanted_as_meant"].values[:, number]
+    yield (name, "as meant", before, *(shown(float(value), unit) for value in as_meant))
+    yield (name, "promised", before, *_promised(search, number, unit))
     if search.attrs["is_sampled"]:
         ends = (search[f"wanted_promised_{end}"].values[:, number] for end in ("low", "high"))
         each = (
             f"{shown(low, unit)} to {shown(high, unit)}" for low, high in zip(*ends, strict=True)
         )
         yield (name, "80 % interval", "", *each)
+
+
+def _promised(search: xr.Dataset, number: int, unit: str) -> Iterator[Number]:
+    ends = (search[f"wanted_promised{end}"].values[:, number] for end in ("", "_low", "_high"))
+    for design, (value, low, high) in enumerate(zip(*ends, strict=True), 1):
+        selection = {"design": design, "wanted": str(search["wanted"].values[number])}
+        yield Number(
+            float(value), unit, "wanted_promised", selection, MEDIAN, float(low), float(high),
+            shown(float(value), unit),
+        )  # fmt: skip
 
 
 def no_best(search: xr.Dataset) -> str:

@@ -1,4 +1,4 @@
-"""All designs of a search as CSV."""
+"""All designs of a search as columns."""
 
 import json
 from collections.abc import Iterator
@@ -7,10 +7,10 @@ import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array
-from ..tables import to_csv
+from ..tables import DataTable, columns_of
 
 
-def designs_csv(search: xr.Dataset) -> bytes:
+def designs_data(search: xr.Dataset) -> DataTable:
     """A line a design: its values by dotted key, objectives and constraints, whether it is allowed.
 
     Parameters
@@ -23,7 +23,7 @@ def designs_csv(search: xr.Dataset) -> bytes:
         for name, unit in zip(search["wanted"].values, search["wanted_unit"].values, strict=True)
     ]
     head = ("design", "generation", *keys, *wanted, "meets_constraints", "on_front")
-    return to_csv(head, _rows(search, keys))
+    return columns_of(head, _rows(search, keys))
 
 
 def _rows(search: xr.Dataset, keys: list[str]) -> Iterator[tuple[str | float, ...]]:

@@ -1,4 +1,4 @@
-"""The report of a search of designs as one page."""
+"""Analysis of a search of designs."""
 
 import json
 from collections.abc import Sequence
@@ -8,107 +8,61 @@ import numpy as np
 import xarray as xr
 
 from ...results.stored_study import parameters
-from ..blocks import Block, Bullets, Details, Pictures, Text
-from ..html import html
-from ..page import Page, Part
+from ..analysis import Analysis, origin
+from ..blocks import Block, Bullets, Details, Part, Pictures, Text
 from ..sections.unknowns.tables import NOT_RESOLVED, share_words
-from ..tables import Table, to_text
-from .best import best_tables, limiting, no_best, shown
-from .csv import designs_csv
+from ..tables import Table
+from .best import best_designs, best_tables, limiting, no_best, shown
+from .csv import designs_data
 from .evaluated import Column, Evaluated
 from .figures import front_chart, main_effects_charts, parallel_chart
 from .reading import evaluated, objectives_of, variable_label, variables_of
 
-_ENDS: Final = ("_low", "", "_high")
-ABOUT: Final = "Designs, what each objective costs the others, and what built pieces will keep."
+_PANELS: Final = 4
 
 
-def designs_page(search: xr.Dataset) -> Page:
-    """The page of a search.
+def analysis_of_designs(search: xr.Dataset) -> Analysis:
+    """Return the analysis of a search.
 
     Parameters
     ----------
     search : dataset of a search of designs, with the study's parameters as attribute
     """
-    designs = evaluated(search)
-    study = parameters(search)
+    designs, study = evaluated(search), parameters(search)
+    reason = no_best(search)
+    best: tuple[Block, ...] = () if reason else tuple(best_tables(search, designs))
+    limits = () if reason else (Bullets(tuple(limiting(search, designs))),)
+    best_data = {} if reason else {"best.csv": best_designs(designs)}
+    unchanged = _sentence(search.attrs["no_change"]) if search.attrs["no_change"] else ""
+    found = Text(f"{designs.count} designs were evaluated, {designs.met.sum()} meet every "
+                 f"constraint{_failed(search)}.", "note")  # fmt: skip
+    promised = () if reason else (Text(_promised(search), "note"),)
+    closing = (Text(unchanged),) if unchanged and not reason else ()
     parts = (
-        Part("best", "The best few", tuple(_best(search, designs))),
+        Part("best", "The best few", (*best, *closing, *limits, found, *promised)),
         Part("front", "Front", tuple(_front(designs))),
         Part("deciding", "What decides", tuple(_deciding(search))),
         Part("searched", "What was searched", tuple(_searched(search, designs))),
     )
-    shown = tuple(part for part in parts if part.blocks)
-    return Page(
-        f"Designs: {study['title']}",
-        study["machine"]["name"],
-        search.attrs["created_utc"],
-        shown,
-        ABOUT,
+    return Analysis(
+        "designs",
+        title=f"Designs: {study['title']}",
+        kind=study["machine"]["name"],
+        created=search.attrs["created_utc"],
+        about="Designs, what each objective costs the others, and what built pieces will keep.",
+        parts=tuple(part for part in parts if part.blocks),
+        summary=(_sentence(reason) if reason else _headline(search, designs),),
+        shown=(*best, *limits, *closing, Text(search.attrs["method"])),
+        tables={"designs.csv": designs_data(search), **best_data},
+        figures="figures/",
     )
 
 
-def render_designs(search: xr.Dataset) -> dict[str, bytes]:
-    """Files of the report of a search, by name."""
-    page = designs_page(search)
-    return {
-        "designs.html": html(page),
-        "designs.csv": designs_csv(search),
-        **{file: picture.content for file, picture in page.pictures().items()},
-    }
-
-
-def designs_text(search: xr.Dataset) -> str:
-    """The best few for a terminal."""
-    if no_best(search):
-        return f"{no_best(search)}\n{search.attrs['method']}"
-    designs = evaluated(search)
-    tables = [to_text(table, 60) for table in best_tables(search, designs)]
-    said = [search.attrs["no_change"]] if search.attrs["no_change"] else []
-    return "\n".join([*tables, *limiting(search, designs), *said, search.attrs["method"]])
-
-
-def designs_json(search: xr.Dataset) -> str:
-    """The best few, or why there are none, as JSON."""
-    said, designs = no_best(search), evaluated(search)
-    best = [
-        {
-            "variables": {one.label: one.cell(row) for one in designs.variables},
-            "wanted": {
-                str(name): dict(zip(("low", "value", "high"), ends, strict=True))
-                for name, *ends in zip(
-                    search["wanted"].values,
-                    *(search[f"wanted_promised{end}"].values[rank].tolist() for end in _ENDS),
-                    strict=True,
-                )
-            },
-        }
-        for rank, row in enumerate(designs.best)
-    ]
-    return json.dumps({
-        "no_change": search.attrs["no_change"],
-        "best": [] if said else best,
-        "method": search.attrs["method"],
-    }, indent=1)  # fmt: skip
-
-
-def _best(search: xr.Dataset, designs: Evaluated) -> list[Block]:
-    allowed = int(designs.met.sum())
-    if no_best(search):
-        count = f"{designs.count} designs were evaluated, {allowed} meet every constraint."
-        return [Text(_sentence(no_best(search)), "headline"), Text(count, "note")]
-    said = [Text(_sentence(search.attrs["no_change"]), "note")] if search.attrs["no_change"] else []
-    return [
-        Text(_headline(search, designs), "headline"),
-        *best_tables(search, designs),
-        *said,
-        Bullets(tuple(limiting(search, designs))),
-        Text(
-            f"{designs.count} designs were evaluated, {allowed} meet every constraint"
-            f"{_failed(search)}. As meant: a piece without tolerances. {_promised(search)}",
-            "note",
-        ),
-    ]
+def analysis_of_no_designs(swept: xr.Dataset) -> Analysis:
+    """Return the analysis of a sweep in which no design meets the constraints."""
+    words = "No design meets the constraints."
+    part = Part("best", "The best few", (Text(words),))
+    return Analysis("designs", about=words, parts=(part,), **origin(swept, "Designs"))
 
 
 def _promised(search: xr.Dataset) -> str:

@@ -8,9 +8,9 @@ from ...results.stored_study import catalogue_receiver
 from ..charts.layout import COLOURS, wrapped
 from ..charts.marks import Axis, Bars, Chart, Panel, named_axis
 from ..charts.needs import needs
+from ..file_names import numbered
 from ..sections.paths.tables import at_path_speed, foot_forces, leading, path_speed, path_words
 from ..titles import chosen
-from .style import numbered
 
 
 @needs("path_share")

@@ -21,12 +21,12 @@ from ..charts.marks import (
     named_axis,
 )
 from ..charts.needs import needs
+from ..file_names import file_name
 from ..kwave_words import computed_by_kwave, kwave_to_hz
 from ..sections.comparison.tables import comparison
 from ..shown_speeds import few_speeds
 from ..titles import chosen
 from .first_order import first_order_mark, first_order_words
-from .style import file_name
 
 NEGLIGIBLE: Final = 1e-4
 """Motions are not drawn whose largest transfer is below this share of the largest of their kind:

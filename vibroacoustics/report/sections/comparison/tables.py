@@ -12,6 +12,7 @@ from ....base.remembered import remembered
 from ....base.vocabulary import REFERENCE_OPTION
 from ....results.estimates import has_samples
 from ....results.stored_study import (
+    balancers,
     catalogue_receiver,
     first_order_hz,
     nearest_speed,
@@ -19,15 +20,20 @@ from ....results.stored_study import (
     overall_noise,
     speeds,
 )
-from ...bands import INTERVAL, Band, band
+from ...bands import INTERVAL, number
+from ...blocks import Block, Text
 from ...columns import Column
 from ...kept_columns import columns_of
-from ...option_verdict import table_words
+from ...quantities import TOTAL
 from ...remainder import total_sentence
+from ...shifts import shift
 from ...shown_speeds import few_speeds, few_speeds_words
-from ...tables import Table, dataset_csv, to_text
+from ...tables import Cell, DataTable, Table, data_table
+from ..verdict.words import word
 
 _DIMENSIONS = ("option", "speed", "receiver")
+_UNITS = {"dba": "dB(A)", "dbc": "dB(C)"}
+"""Units of weighted levels by the ending of a column's name."""
 
 
 @remembered
@@ -43,28 +49,27 @@ def comparison(results: xr.Dataset) -> xr.Dataset:
     return xr.Dataset(arrays).broadcast_like(coordinates).transpose(*_DIMENSIONS)
 
 
-def comparison_csv(results: xr.Dataset) -> bytes:
-    """One row per option, speed and microphone, to nine significant digits."""
+def comparison_data(results: xr.Dataset) -> DataTable:
+    """One row per option, speed and microphone."""
     compared = comparison(results)
     keys = {"option": "option", "speed_rpm": "speed", "receiver": "receiver"}
     columns = {head: compared[dim] for head, dim in keys.items()}
     values = {str(name): column for name, column in compared.data_vars.items()}
-    return dataset_csv(_DIMENSIONS, {**columns, **values})
+    return data_table(_DIMENSIONS, {**columns, **values})
 
 
 def comparison_table(results: xr.Dataset) -> Table:
     """Return the comparison at speed and microphone of the published level."""
     here = results.sel(speed=[nearest_speed(results)])
-    (table,) = _tables(here, catalogue_receiver(results), lambda column: column.head, False)
+    (table,) = _tables(here, catalogue_receiver(results), lambda column: column.head)
     return table
 
 
-def comparison_text(results: xr.Dataset) -> str:
-    """Compact plain-text tables for the terminal, at the catalogue's microphone."""
-    receiver = catalogue_receiver(results)
-    tables = _tables(results, receiver, lambda column: column.terminal, ends_only=True)
-    notes = [_ends_sentence(results), few_speeds_words(results), _no_total(results)]
-    return "\n".join([*map(to_text, tables), *(f"{note}\n" for note in notes if note)])
+def terminal_blocks(results: xr.Dataset) -> tuple[Block, ...]:
+    """Compact tables for the terminal, at the catalogue's microphone, and what their values are."""
+    tables = _tables(results, catalogue_receiver(results), lambda column: column.terminal)
+    notes = [bands_sentence(results), few_speeds_words(results), _no_total(results)]
+    return (*tables, *map(Text, filter(None, notes)))
 
 
 def bands_sentence(results: xr.Dataset) -> str:
@@ -74,33 +79,27 @@ def bands_sentence(results: xr.Dataset) -> str:
     return f"Values are medians of the weighted samples, with their {INTERVAL} in brackets."
 
 
-def _ends_sentence(results: xr.Dataset) -> str:
-    if not has_samples(results):
-        return ""
-    return f"Shown is the {INTERVAL} of the weighted samples."
-
-
 def _no_total(results: xr.Dataset) -> str:
     return total_sentence(results) if overall_noise(results) is None else ""
 
 
 def _tables(
-    results: xr.Dataset, receiver: str, head_of: Callable[[Column], str | None], ends_only: bool
+    results: xr.Dataset, receiver: str, head_of: Callable[[Column], str | None]
 ) -> list[Table]:
     shown = few_speeds(results)
     columns = columns_of(shown).columns
-    cells = _Cells.of(shown, receiver, ends_only)
+    cells = _Cells.of(shown, receiver)
     heads = {column.name: head for column in columns if (head := head_of(column)) is not None}
-    verdicts = table_words(results)
+    words = level_words(results)
     return [
         Table(
             f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
-            ("Option", "Verdict", *heads.values()),
+            ("Option", "Level", *heads.values()),
             tuple(
                 (
                     option,
-                    verdicts[option],
-                    *(cells.text(column, at, i) for column in columns if column.name in heads),
+                    words[option],
+                    *(cells.cell(column, at, i) for column in columns if column.name in heads),
                 )
                 for at, option in enumerate(options(shown))
             ),
@@ -121,22 +120,20 @@ class _Cells:
     results : with the speeds that are shown
     numbers : by column, shape (option, speed)
     receiver : the microphone
-    ends_only : whether a band is shown without its middle
     """
 
     results: xr.Dataset
     numbers: dict[str, Array]
     receiver: str
-    ends_only: bool
 
     @classmethod
-    def of(cls, results: xr.Dataset, receiver: str, ends_only: bool) -> "_Cells":
+    def of(cls, results: xr.Dataset, receiver: str) -> "_Cells":
         compared = comparison(results).sel(receiver=receiver)
         numbers = {str(name): array.values for name, array in compared.data_vars.items()}
-        return cls(results, numbers, receiver, ends_only)
+        return cls(results, numbers, receiver)
 
-    def text(self, column: Column, option: int, speed: int) -> str:
-        """Text of a value or its band; a change of a silent level is none."""
+    def cell(self, column: Column, option: int, speed: int) -> Cell:
+        """Value with its interval; a change of a silent level is none."""
         value = float(self.numbers[column.name][option, speed])
         if column.change_of:
             level = self.numbers[column.change_of][:, speed]
@@ -146,12 +143,20 @@ class _Cells:
                 return "silent"
         if not column.variable:
             return column.write(value, self.results)
-        known, write = self._band(column, option, speed), partial(_write, column, self.results)
-        return known.ends(write) if self.ends_only else known.middle_and_ends(write)
-
-    def _band(self, column: Column, option: int, speed: int) -> Band:
         at = {"option": options(self.results)[option], "speed": speeds(self.results)[speed]}
-        return band(self.results, column.variable, **at, **column.at, receiver=self.receiver)
+        return number(
+            self.results,
+            column.variable,
+            partial(_write, column, self.results),
+            _UNITS.get(column.name.rsplit("_", 1)[-1], ""),
+            **{"receiver": self.receiver, **at, **column.at},
+        )
+
+
+def level_words(results: xr.Dataset) -> dict[str, str]:
+    """Return what every option does to the level, in the word of the first screen."""
+    changed = {name: word(shift(results, TOTAL, name)) for name in balancers(results)}
+    return {REFERENCE_OPTION: rounding.NOTHING, **changed}
 
 
 def _write(column: Column, results: xr.Dataset, value: float) -> str:

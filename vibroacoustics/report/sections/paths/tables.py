@@ -13,7 +13,7 @@ from ....base.vocabulary import REFERENCE_OPTION
 from ....results.labels import DOF_WORDS
 from ....results.stored_study import quoted_speed, source_name
 from ...bands import percent
-from ...tables import DataTable, Table, data_table, dataset_csv, phase_deg
+from ...tables import DataTable, Table, data_table, phase_deg
 
 LEADING: Final = 10
 """Paths that are shown."""
@@ -223,8 +223,8 @@ def _modelled_level(results: xr.Dataset, receiver: str) -> float:
     return float(results["level_modelled"].sel(at).sel(speed=path_speed(results)))
 
 
-def paths_csv(results: xr.Dataset) -> bytes:
-    """One row per option, speed, microphone and path, to nine significant digits."""
+def paths_data(results: xr.Dataset) -> DataTable:
+    """Return a row per option, speed, microphone and path."""
     dims = ("option", "path_speed", "receiver", "path")
     share = results["path_share"].transpose(*dims)
     level = results["level_modelled"].sel(weighting="A", drop=True).rename(speed="path_speed")
@@ -239,7 +239,7 @@ def paths_csv(results: xr.Dataset) -> bytes:
         "share_so_far": _so_far(share, share),
         "cosine_to_sum": share * 10.0 ** (0.05 * (total - results["path_level"])),
     }
-    return dataset_csv(dims, columns)
+    return data_table(dims, columns)
 
 
 def foot_orders(results: xr.Dataset, speed: float) -> list[int]:

@@ -14,14 +14,14 @@ from ....results.stored_study import has_sources, options, parameters
 from ....results.utility import utilities
 from ...bands import percent
 from ...option_verdict import NO_CHANGE, option_verdicts
-from ...tables import Table, to_csv
+from ...tables import DataTable, Table, columns_of
 
 SUM_TOLERANCE: Final = 1e-6
 ROUNDING: Final = 1e-9
 """Scores that differ by less share their rank."""
 
 
-def scores_csv(results: xr.Dataset) -> bytes:
+def scores_data(results: xr.Dataset) -> DataTable:
     """One row per option: criteria, score and rank by method, share of first probability."""
     criteria, methods = _names(results, "criterion"), _names(results, "scoring_method")
     columns = [*criteria]
@@ -43,7 +43,7 @@ def scores_csv(results: xr.Dataset) -> bytes:
     rows: list[list[str | float]] = [
         [name, *row, *words.get(name, ("", ""))] for name, row in named
     ]
-    return to_csv(("option", *columns, "verdict", "because"), rows)
+    return columns_of(("option", *columns, "verdict", "because"), rows)
 
 
 def criteria_table(results: xr.Dataset) -> Table:

@@ -14,12 +14,12 @@ from ....results.stored_study import (
 )
 from ...bands import INTERVAL, band
 from ...remainder import remainder_band
-from ...tables import Table, dataset_csv
+from ...tables import DataTable, Table, data_table
 from .words import ranked, source_share, unmodelled_share
 
 
-def sources_csv(results: xr.Dataset) -> bytes:
-    """One row per option, speed, microphone and source, to nine significant digits."""
+def sources_data(results: xr.Dataset) -> DataTable:
+    """Return a row per option, speed, microphone and source."""
     columns = {
         "option": results["option"],
         "speed_rpm": results["speed"],
@@ -33,7 +33,7 @@ def sources_csv(results: xr.Dataset) -> bytes:
         if is_sampled(results, variable):
             for suffix in SUFFIXES.values():
                 columns[f"{stem}{suffix}{unit}"] = results[f"{variable}{suffix}"]
-    return dataset_csv(("option", "speed", "receiver", "sound_source"), columns)
+    return data_table(("option", "speed", "receiver", "sound_source"), columns)
 
 
 def source_table(results: xr.Dataset) -> Table:

@@ -1,4 +1,4 @@
-"""The first screen: five sentences and two charts; forces, lines and the machine folded."""
+"""Two charts of the first screen; forces, lines and the machine folded."""
 
 import xarray as xr
 
@@ -16,10 +16,7 @@ from .charts import lights
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    first, *others = first_screen.sentences(results)
     return [
-        Text(first, "headline"),
-        *map(Text, others),
         *left_out_words(results),
         *coarse_words(results),
         *_charts(results),
