@@ -246,7 +246,7 @@ def test_dir_and_help_show_the_public_names():
 def test_every_figure_returns_a_figure_and_says_what_it_needs():
     for name in va.plot.__all__:
         thing = getattr(va.plot, name)
-        assert inspect.signature(thing).return_annotation.__name__ == "Figure", name
+        assert inspect.signature(thing).return_annotation == "matplotlib.figure.Figure", name
         assert "needs `" in thing.__doc__, name
         assert f"`{name}`" in va.plot.__doc__, name
 

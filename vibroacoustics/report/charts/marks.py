@@ -5,7 +5,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any, Literal, TypeAlias, TypeVar
+from typing import Any, Final, Literal, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ...base.arrays import Array
 
 Values: TypeAlias = Any
 """Numbers of shape (n,), as an array or whatever becomes one."""
+_FREQUENCY_TICKS: Final = [d * p for p in (1, 10, 100, 1000, 10000) for d in (1, 2, 5)]
 Item = TypeVar("Item")
 
 
@@ -304,8 +305,7 @@ def frequency_axis(label: str, frequency_hz: Values) -> Axis:
     frequency_hz : that the axis has to show, shape (n,)
     """
     low, high = float(np.min(frequency_hz)), float(np.max(frequency_hz))
-    ticks = [digit * 10**power for power in range(6) for digit in (1, 2, 5)]
-    named = {tick: f"{tick // 1000}k" if tick >= 1000 else str(tick) for tick in ticks}
+    named = {tick: f"{tick // 1000}k" if tick >= 1000 else str(tick) for tick in _FREQUENCY_TICKS}
     shown = tuple((float(tick), word) for tick, word in named.items() if low <= tick <= high)
     return Axis(label, "log", (low / 1.05, high * 1.05), shown)
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from functools import wraps
-from inspect import cleandoc
+from inspect import cleandoc, signature
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import xarray as xr
@@ -60,6 +60,9 @@ def plotted(make: Callable[..., Chart], file: str = "results.nc") -> "Callable[.
 
         return figure(make(*args, **kwargs))
 
+    plot.__signature__ = signature(make).replace(  # type: ignore[attr-defined]
+        return_annotation="matplotlib.figure.Figure"
+    )
     plot.__doc__ = f"""{cleandoc(make.__doc__ or "")}
 
 Returns

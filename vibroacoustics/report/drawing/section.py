@@ -33,11 +33,11 @@ def section_picture(results: xr.Dataset) -> Picture | None:
     case = results.sel(shown_option=REFERENCE_OPTION)
     lines = outline(machine["shell"], {})
     parts = _parts(machine)
-    drawn: list[str] = []
+    views: list[str] = []
     for number, line in enumerate(case["section_line"].values):
         force = case["section_force"].sel(section_line=line).transpose("load_port", "axis")
         title = "order 1" if number == 0 else str(case["deflection_line"].item())
-        drawn += _view(lines, parts, force, title, 8.0 + _VIEW * number)
+        views += _view(lines, parts, force, title, 8.0 + _VIEW * number)
     return Picture(
         "section",
         "Section of the machine with the forces of its sources at order 1 and at the loudest line.",
@@ -45,7 +45,7 @@ def section_picture(results: xr.Dataset) -> Picture | None:
         "the representative sample: force of all sources on each part, semi-major axis, peak; a "
         "loop is its path over a period. Above order 1, below the line with the highest A-weighted "
         "level. Parts are cylinders at their nominal heights.",
-        svg.drawing(_WIDTH, 8.0 + 2 * _VIEW, drawn, "Section of the machine with forces"),
+        svg.drawing(_WIDTH, 8.0 + 2 * _VIEW, views, "Section of the machine with forces"),
         "svg",
     )
 
@@ -68,7 +68,7 @@ def _view(
     view = fitted((0, 2), lines.side, (30.0, top + 20.0), (150.0, _VIEW - 60.0))
     size = semi_major_axis(force.values, -1)
     scale = _LONGEST / max(float(size.max()), 1e-12)
-    drawn = [
+    marks = [
         svg.path(view.at(lines.side), True, fill="#f4f6f8", stroke=svg.INK, stroke_width=1.2),
         *(svg.path(view.at(part), True, fill=_PART, stroke=svg.SOFT) for part in parts),
         svg.words((8.0, top + 10.0), title),
@@ -79,14 +79,14 @@ def _view(
     named = zip(force["load_port"].values, heights, force.values, size, strict=True)
     shown = [row for row in named if row[3] >= FORCE_FLOOR]
     for name, height, peak, amplitude, level in _labelled(shown, view, top):
-        drawn += view.vector(peak, np.array([0.0, 0.0, height]), scale, _COLOUR)
+        marks += view.vector(peak, np.array([0.0, 0.0, height]), scale, _COLOUR)
         end = view.of(np.array([0.0, 0.0, height]))
         ends = np.array([end, (250.0, level - 4.0)])
-        drawn.append(svg.path(ends, stroke=svg.SOFT, stroke_width=0.6, stroke_dasharray="2 2"))
-        drawn.append(svg.disc(end, 2.5, fill=svg.INK))
+        marks.append(svg.path(ends, stroke=svg.SOFT, stroke_width=0.6, stroke_dasharray="2 2"))
+        marks.append(svg.disc(end, 2.5, fill=svg.INK))
         words = f"{str(name).replace('_', ' ')}: {FORCE.write(float(amplitude))}"
-        drawn.append(svg.words((255.0, level), words))
-    return drawn
+        marks.append(svg.words((255.0, level), words))
+    return marks
 
 
 def _labelled(

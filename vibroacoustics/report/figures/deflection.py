@@ -18,7 +18,7 @@ FRAMES: Final = 16
 _WIDTH: Final = 442.0
 _ROW: Final = 250.0
 _SIZE: Final = 190.0
-"""Of a view, pixels."""
+"""Size of a view, pixels."""
 _SHOWN: Final = 0.12
 """Largest deflection on paper, as a share of the height of the shell."""
 _STYLE: Final = (
@@ -87,14 +87,14 @@ def shapes(case: xr.Dataset) -> tuple[Shape, Shape]:
     )
     opposite = (column + angle.size // 2) % angle.size
     sides = []
-    for at, sign in ((column, 1.0), (opposite, -1.0)):
-        across = field[:, at, :2] @ outward[column]
+    for number, sign in ((column, 1.0), (opposite, -1.0)):
+        across = field[:, number, :2] @ outward[column]
         points = np.stack([sign * radius, height], axis=-1)
-        sides.append((points, np.stack([across, field[:, at, 2]], axis=-1)))
-    (right, right_m), (left, left_m) = sides
+        sides.append((points, np.stack([across, field[:, number, 2]], axis=-1)))
+    (near, near_m), (far, far_m) = sides
     side = Shape(
-        np.concatenate([right, left[::-1]]),
-        np.concatenate([right_m, left_m[::-1]]),
+        np.concatenate([near, far[::-1]]),
+        np.concatenate([near_m, far_m[::-1]]),
         f"side, {np.rad2deg(angle[column]):.0f}° from x to the right",
     )
     return ring, side
@@ -124,11 +124,11 @@ def _row(case: xr.Dataset, top: float) -> Iterator[str]:
     for column, view in enumerate(views):
         middle = np.array([_WIDTH * (0.25 + 0.5 * column), top + 24.0 + 0.5 * _SIZE])
         centre = 0.5 * (view.points_m.min(axis=0) + view.points_m.max(axis=0))
-        moved = view.points_m - centre + enlarged * cycle(view.displacement_m, every)
+        outlines = view.points_m - centre + enlarged * cycle(view.displacement_m, every)
         size = float(np.ptp(view.points_m, axis=0).max())
         flip = _SIZE / (1.3 * size + 0.1 * tall) * np.array([1.0, -1.0])
         yield _line(middle + flip * (view.points_m - centre), stroke="#9aa3ab", dash="4 3")
-        yield _moving([middle + flip * points for points in moved])
+        yield _moving([middle + flip * points for points in outlines])
         yield words(middle[0], top + 26.0 + _SIZE + 12.0, view.title, "middle")
 
 
@@ -140,11 +140,11 @@ def _line(points: Array, stroke: str, dash: str) -> str:
 def _moving(frames: list[Array]) -> str:
     """An outline that moves, and the same at its first shape where nothing may move."""
     looks = f'fill="{COLOURS[3]}" fill-opacity=".12" stroke="{COLOURS[3]}" stroke-width="2"'
-    drawn = [f"{path(points)}Z" for points in frames]
-    values = ";".join([*drawn, drawn[0]])
+    outlines = [f"{path(points)}Z" for points in frames]
+    values = ";".join([*outlines, outlines[0]])
     motion = f'<animate attributeName="d" dur="2s" repeatCount="indefinite" values="{values}"/>'
-    still = f'<path class="still" d="{drawn[0]}" {looks}/>'
-    return f'<path class="moving" d="{drawn[0]}" {looks}>{motion}</path>{still}'
+    still = f'<path class="still" d="{outlines[0]}" {looks}/>'
+    return f'<path class="moving" d="{outlines[0]}" {looks}>{motion}</path>{still}'
 
 
 def _largest(case: xr.Dataset) -> str:

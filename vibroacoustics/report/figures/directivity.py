@@ -62,7 +62,9 @@ def compass(names: tuple[str, ...]) -> Axis:
     ----------
     names : at the right, above, at the left and below
     """
-    return Axis(ticks=tuple((45.0 * at, "" if at % 2 else names[at // 2]) for at in range(8)))
+    return Axis(
+        ticks=tuple((45.0 * step, "" if step % 2 else names[step // 2]) for step in range(8))
+    )
 
 
 def decibel_rings(top_db: float, depth_db: float = DEPTH_DB, step_db: float = 10.0) -> Axis:

@@ -36,7 +36,9 @@ def room_map(results: xr.Dataset) -> Chart:
     level, room = results["room_map_level"], parameters(results)["room"]
     shown = level.transpose("room_map_y", "room_map_x").values
     scale = (float(np.nanmin(shown)), float(np.nanmax(shown)))
-    x, y = (Axis(f"{name}, m", limits=(0.0, room["size_m"][at])) for at, name in enumerate("xy"))
+    x, y = (
+        Axis(f"{name}, m", limits=(0.0, room["size_m"][number])) for number, name in enumerate("xy")
+    )
     image = Image(level["room_map_x"], level["room_map_y"], shown, scale, "dB(A) re 20 µPa")
     height, speed = (float(level.attrs[name]) for name in ("height_m", "speed_rpm"))
     return Chart(
@@ -78,18 +80,18 @@ def room_seam(results: xr.Dataset, listener: str | None = None) -> Chart:
     listener : in the room; the first where none is named
     """
     name = chosen(results, "listener", listener)
-    heard = results.sel(listener=name)
-    band = heard["seam_band"].values
+    of_listener = results.sel(listener=name)
+    band = of_listener["seam_band"].values
     x, ticks = "Third octave, Hz", tuple((float(hertz), f"{hertz:g}") for hertz in band)
     axis = Axis(x, "log", frequency_axis(x, band).limits, ticks)
     gains = (
-        Line(band, heard["room_gain_waves"], "waves", marker="o"),
-        Line(band, heard["room_gain_diffuse"], "direct sound and diffuse field", marker="o"),
+        Line(band, of_listener["room_gain_waves"], "waves", marker="o"),
+        Line(band, of_listener["room_gain_diffuse"], "direct sound and diffuse field", marker="o"),
     )
     differences = (
         Span(-2.0, 2.0, colour="#808080", along="y"),
-        Line(band, heard["room_gain_difference"], colour="#000000", dash="-", marker="o"),
-        Line(band, heard["room_place_gain"], colour="#000000", dash="--"),
+        Line(band, of_listener["room_gain_difference"], colour="#000000", dash="-", marker="o"),
+        Line(band, of_listener["room_place_gain"], colour="#000000", dash="--"),
     )
     mean = "Difference and, dashed, its mean over listeners; grey: 2 dB"
     return Chart(

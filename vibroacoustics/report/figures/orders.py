@@ -16,11 +16,11 @@ from ..shown_speeds import few_speeds
 from ..titles import chosen
 
 HIGHEST_ORDER: Final = 4
-"""Of the forces that are shown: those of the balance of masses."""
+"""Highest order of forces that is shown: that of the balance of masses."""
 MOST_ORDERS: Final = 8
 """Orders of the level that are shown, apart from 1×."""
 LOWEST_FORCE_N: Final = 1e-3
-"""Smaller forces are left out: a thousandth of a newton moves nothing."""
+"""Smaller forces are not drawn: a thousandth of a newton moves nothing."""
 
 
 @needs("force_amplitude")
@@ -56,15 +56,15 @@ def level_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
     results : of `run`; needs `order_level` (speed, option, receiver, order, weighting), dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
-    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    level = few_speeds(results)["order_level"].sel(receiver=at, weighting="A")
+    mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    level = few_speeds(results)["order_level"].sel(receiver=mic, weighting="A")
     loud = loudest_orders(level.where(level >= rounding.LEVEL_FLOOR_DB))
     named = ", ".join(f"{order:g}" for order in loud)
     floor_db = rounding.LEVEL_FLOOR_DB
     return Chart(
         "level_orders",
-        f"A-weighted level of orders {named} at {at} for every option and speed.",
-        f"A-weighted level of single orders at {at}, dB re 20 µPa: 1× and the loudest without and "
+        f"A-weighted level of orders {named} at {mic} for every option and speed.",
+        f"A-weighted level of single orders at {mic}, dB re 20 µPa: 1× and the loudest without and "
         f"with options, {named}. Orders below {rounding.fixed(floor_db, 0)} dB are not drawn.",
         _dots(level.sel(order=loud), Axis("Level, dB(A)"), floor_db),
     )

@@ -37,13 +37,12 @@ def polar_levels(results: xr.Dataset) -> Chart:
         radius = decibel_rings(5.0 * float(np.ceil(of_band.max() / 5.0)), _DEPTH_DB)
         for plane, values in zip(map(str, level["polar_plane"].values), of_band, strict=True):
             curves = tuple(
-                Line(degrees, np.append(one, one[0]), str(option))
-                for option, one in zip(level["shown_option"].values, values.values, strict=True)
+                Line(degrees, np.append(around, around[0]), str(option))
+                for option, around in zip(level["shown_option"].values, values.values, strict=True)
             )
             title = f"{band:g} Hz, {plane}"
             panels.append(Panel(compass(_NAMES[plane]), radius, curves, title, 2.4, polar=True))
     bands = ", ".join(f"{band:g}" for band in level["polar_band"].values)
-    at = catalogue_receiver(results)
     return Chart(
         "polar_levels",
         f"A-weighted level around the machine in the third octaves at {bands} Hz, in a horizontal "
@@ -51,7 +50,7 @@ def polar_levels(results: xr.Dataset) -> Chart:
         f"Modelled A-weighted level in the loudest third octaves, dB(A), "
         f"{float(results['polar_radius']):.2f} m from the centre of mass at "
         f"{float(results['shown_speed']):g} rpm, of the representative sample. The vertical plane "
-        f"holds {at}. The middle is {_DEPTH_DB:g} dB below the edge.",
+        f"holds {catalogue_receiver(results)}. The middle is {_DEPTH_DB:g} dB below the edge.",
         tuple(panels),
         columns=2,
     )

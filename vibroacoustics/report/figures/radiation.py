@@ -35,7 +35,7 @@ what symmetry forbids comes out of the grid at some 1e-5."""
 
 @needs("level_total", "level_modelled", "order_level")
 def levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
-    """A-weighted levels of the 1x line, of all that is modelled and of the whole machine, dB(A).
+    """A-weighted levels of the 1x line, of all that is modelled and of the machine, dB(A).
 
     A row an option, a panel a speed (six at most).
 
@@ -45,8 +45,8 @@ def levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
         `order_level`, dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
-    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    compared, names = comparison(results).sel(receiver=at), options(results)
+    mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    compared, names = comparison(results).sel(receiver=mic), options(results)
     what = "sources" if has_samples(results) else "orders"
     kinds = {
         "level_1x_dba": ("1× line", "o", COLOURS[3]),
@@ -80,9 +80,9 @@ def levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
     )
     return Chart(
         "levels",
-        f"A-weighted levels at {at} for every option and speed: 1× line, all modelled {what}, and "
+        f"A-weighted levels at {mic} for every option and speed: 1× line, all modelled {what}, and "
         f"the total near {float(total.mean()):.1f} dB(A).",
-        f"A-weighted levels at {at}. {caption}",
+        f"A-weighted levels at {mic}. {caption}",
         panels,
     )
 
@@ -98,10 +98,10 @@ def transfer(results: xr.Dataset, receiver: str | None = None) -> Chart:
     results : of `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
-    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    field = abs(results["transfer_vector"].sel(receiver=at))
-    is_compared = at in kwave_to_hz(results)
-    closed = abs(results["transfer_vector_closed_form"].sel(receiver=at)) if is_compared else None
+    mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    field = abs(results["transfer_vector"].sel(receiver=mic))
+    is_compared = mic in kwave_to_hz(results)
+    closed = abs(results["transfer_vector_closed_form"].sel(receiver=mic)) if is_compared else None
     first, x = first_order_mark(results), frequency_axis("Frequency, Hz", field["frequency"])
     panels = tuple(
         Panel(x, Axis(unit, "log"), (*_transfers(field, closed, letter), first), title, 2.5)
@@ -116,11 +116,11 @@ def transfer(results: xr.Dataset, receiver: str | None = None) -> Chart:
         else ", with the closed-form Green's function"
     )
     return Chart(
-        f"transfer_{file_name(at)}",
-        f"Sound pressure at {at} per velocity of the housing against frequency, for translations "
+        f"transfer_{file_name(mic)}",
+        f"Sound pressure at {mic} per velocity of the housing against frequency, for translations "
         f"and rotations{'; k-Wave and closed form' if is_compared else ''}.",
-        f"Sound pressure at {at} per velocity of the housing{greens}. tx, ty, tz: motion along x, "
-        "y, z; rx, ry, rz: rotation about them; motions that do not radiate are left out. "
+        f"Sound pressure at {mic} per velocity of the housing{greens}. tx, ty, tz: motion along x, "
+        "y, z; rx, ry, rz: rotation about them; motions that do not radiate are omitted. "
         f"{first_order_words(results)}: 1× at the speeds of the study. Other microphones: in "
         "results.nc.",
         panels,

@@ -19,10 +19,10 @@ def run_up_levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
     results : of `run`; needs `run_up_level` (run_up_speed, receiver), dB, and its parts
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
-    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    total = results["run_up_level"].sel(receiver=at)
+    mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    total = results["run_up_level"].sel(receiver=mic)
     speed, top = total["run_up_speed"].values, float(total.max())
-    levels = results["run_up_source_level"].sel(receiver=at)
+    levels = results["run_up_source_level"].sel(receiver=mic)
     curves = {str(part): levels.sel(sound_source=part) for part in levels["sound_source"].values}
     curves["unmodelled"] = results["run_up_unmodelled_level"]
     shown = {part: level for part, level in curves.items() if level.max() > top - DEPTH_DB}
@@ -34,8 +34,8 @@ def run_up_levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
     y = Axis("Level, dB(A)", limits=(top - DEPTH_DB, top + 3.0))
     return Chart(
         "run_up_levels",
-        f"A-weighted levels of the machine and its sources at {at} over speed.",
-        f"A-weighted levels at {at} in a run-up, option {REFERENCE_OPTION}, of the representative "
+        f"A-weighted levels of the machine and its sources at {mic} over speed.",
+        f"A-weighted levels at {mic} in a run-up, option {REFERENCE_OPTION}, of the representative "
         f"sample. Sources more than {DEPTH_DB:g} dB below the machine are not drawn.",
         (Panel(Axis("Speed, rpm"), y, (*parts, machine), height=3.0),),
     )
@@ -50,15 +50,15 @@ def run_up_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
     results : of `run`; needs `run_up_order_level` (run_up_speed, receiver, run_up_order), dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
-    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    level = results["run_up_order_level"].sel(receiver=at)
+    mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    level = results["run_up_order_level"].sel(receiver=mic)
     level = level.transpose("run_up_speed", "run_up_order")
     scale = (float(level.max()) - DEPTH_DB, float(level.max()))
     image = Image(level["run_up_order"], level["run_up_speed"], level, scale, "dB(A)")
     return Chart(
         "run_up_orders",
-        f"A-weighted level of each order at {at} over speed.",
-        f"A-weighted level of each order of all sources at {at} in a run-up, option "
+        f"A-weighted level of each order at {mic} over speed.",
+        f"A-weighted level of each order of all sources at {mic} in a run-up, option "
         f"{REFERENCE_OPTION}, of the representative sample; {DEPTH_DB:g} dB shown.",
         (Panel(Axis("Shaft order", integer=True), Axis("Speed, rpm"), (image,), height=3.0),),
     )

@@ -47,11 +47,13 @@ def source_third_octaves(
     option : one of the results
     speed_rpm : one of the results; default: that of the catalogue's noise
     """
-    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
     speed = chosen(results, "speed", speed_rpm or quoted_speed(results))
-    case = {"option": chosen(results, "option", option), "receiver": at, "speed": speed}
+    case = {"option": chosen(results, "option", option), "receiver": mic, "speed": speed}
     spectra = results["source_band_level"].sel(case).transpose("sound_source", "band")
-    named = {source_name(results, str(one["sound_source"].item())): one.values for one in spectra}
+    named = {
+        source_name(results, str(level["sound_source"].item())): level.values for level in spectra
+    }
     loud = {name: level for name, level in named.items() if level.max() > QUIETEST_DB}
     silent = ", ".join(name for name in named if name not in loud)
     below = f" Not drawn, everywhere below −{-QUIETEST_DB:g} dB: {silent}." if silent else ""
@@ -60,9 +62,10 @@ def source_third_octaves(
     whose = "without a balancer" if option == REFERENCE_OPTION else f"with {option}"
     return Chart(
         "sources_third_octaves",
-        f"Third-octave levels of each source at {at} and {speed:g} rpm {whose}, 20 Hz to "
+        f"Third-octave levels of each source at {mic} and {speed:g} rpm {whose}, 20 Hz to "
         f"{bands[-1]:g} Hz.",
-        f"Each source alone at {at}, {speed:g} rpm, {whose}{_medians(results)}, unweighted.{below}",
+        f"Each source alone at {mic}, {speed:g} rpm, {whose}{_medians(results)}, unweighted."
+        f"{below}",
         (_panel(bands, loud.items(), y, height=3.0),),
     )
 
@@ -87,11 +90,11 @@ def option_third_octaves(results: xr.Dataset) -> Chart:
                f"{speed:g} rpm")
         for speed in speeds(shown)
     )  # fmt: skip
-    at = catalogue_receiver(results)
+    mic = catalogue_receiver(results)
     return Chart(
         "sources_options",
-        f"A-weighted third-octave levels at {at} for {', '.join(names)}.",
-        f"A-weighted third octaves at {at}{_medians(results)}: options that change a band within "
+        f"A-weighted third-octave levels at {mic} for {', '.join(names)}.",
+        f"A-weighted third octaves at {mic}{_medians(results)}: options that change a band within "
         f"{WITHIN_DB:g} dB of the loudest by more than {HEARD_DB:g} dB.",
         tuple(panels),
     )

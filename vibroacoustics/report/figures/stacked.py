@@ -33,14 +33,14 @@ def stacked_third_octaves(results: xr.Dataset, receiver: str | None = None) -> C
     results : of `run`; needs `band_energy` (shown_option, energy_part, receiver, noise_band), Pa²
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
-    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    energy = results["band_energy"].sel(receiver=at)
+    mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    energy = results["band_energy"].sel(receiver=mic)
     energy = energy.transpose("shown_option", "energy_part", "noise_band")
     bands = energy["noise_band"].values
     ticks = tuple((float(row), _hertz(band)) for row, band in enumerate(bands) if row % 3 == 2)
     axis = Axis("Third-octave band, Hz", ticks=ticks)
     panels = _panels(results, energy, np.arange(len(bands), dtype=float), axis, 0.9)
-    return _chart("stacked_third_octaves", "third octaves", at, results, panels)
+    return _chart("stacked_third_octaves", "third octaves", mic, results, panels)
 
 
 @needs("line_energy")
@@ -52,14 +52,14 @@ def stacked_lines(results: xr.Dataset, receiver: str | None = None) -> Chart:
     results : of `run`; needs `line_energy` (shown_option, sound_source, receiver, line), Pa²
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
-    at = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    energy = results["line_energy"].sel(receiver=at)
+    mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    energy = results["line_energy"].sel(receiver=mic)
     energy = energy.isel(line=np.flatnonzero(results["line_order"].values > 0.0))
     energy = energy.transpose("shown_option", "sound_source", "line")
     shaft_hz = shaft_frequency_hz(float(results["shown_speed"]))
     frequency = shaft_hz * energy["line_order"].values
     panels = _panels(results, energy, frequency, Axis("Frequency, Hz"), 0.8 * shaft_hz)
-    return _chart("stacked_lines", "lines of the shaft orders", at, results, panels)
+    return _chart("stacked_lines", "lines of the shaft orders", mic, results, panels)
 
 
 def divided(energy: Array, bottom_db: float) -> tuple[Array, Array]:
@@ -121,7 +121,7 @@ def _chart(
         f"A-weighted {what} at {where}, divided among the sources.",
         f"A-weighted {what} at {where}, of the representative sample. The height of a bar is the "
         "level of the sum. Its colours are shares of the energy; sources that are not seen, or "
-        "work against the others, are left out.",
+        "work against the others, are omitted.",
         panels,
     )
 
