@@ -22,19 +22,20 @@ from vibroacoustics.results.provenance import SCHEMA_VERSION
 SECTION = """
 from vibroacoustics.base.registry import register
 from vibroacoustics.report.blocks import Bullets, Details, Pictures, Text
-from vibroacoustics.report.figures.style import Picture, draw, png
+from vibroacoustics.report.charts.marks import Axis, Chart, Line, Panel
 from vibroacoustics.report.sections import Section
 from vibroacoustics.report.tables import Table
 
 
 def blocks(results):
     rows = tuple((str(name), "42") for name in results["option"].values)
-    image = png(draw(1, 1.0, lambda axes: axes[0].plot([0, 1]), 0))
+    panel = Panel(Axis(), Axis(), (Line([0, 1], [0, 1]),))
+    chart = Chart("../prices", "Prices as a line", "Prices.", (panel,))
     return [
         Text("A µ <b>stranger</b> says so.", "note"),
         Bullets(("one|two",)),
         Table("Prices", ("Option", "Price"), rows),
-        Details("More", (Pictures((Picture("../prices", "Prices as a line", "Prices.", image),)),)),
+        Details("More", (Pictures((chart,)),)),
     ]
 
 
@@ -114,7 +115,7 @@ def _made_again_is_the_same(folder: Path) -> None:
     words = ("report", folder / "run" / "results.nc", "--out", folder / "again")
     command_here(*words).check_returncode()
     files = sorted(path for path in (folder / "again").rglob("*.*") if path.is_file())
-    assert (folder / "again" / "figures" / "_prices.png") in files
+    assert (folder / "again" / "figures" / "_prices.svg") in files
     for path in files:
         if path.name == "files.json":  # says that the dataset does not lie there
             continue
