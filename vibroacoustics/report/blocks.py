@@ -258,21 +258,21 @@ def from_json(text: str) -> tuple[Block, ...]:
 
 def pictures(blocks: Sequence[Block]) -> Iterator[Picture]:
     """All pictures of some blocks, folded ones too."""
-    for block in flat(drawn(blocks)):
+    for block in _flat(drawn(blocks)):
         if isinstance(block, Pictures):
             yield from (each for each in block.pictures if isinstance(each, Picture))
 
 
 def charts(blocks: Sequence[Block]) -> Iterator[Chart]:
     """All charts of some blocks, folded ones too."""
-    for block in flat(blocks):
+    for block in _flat(blocks):
         if isinstance(block, Pictures):
             yield from (each for each in block.pictures if isinstance(each, Chart))
 
 
 def tables(blocks: Sequence[Block]) -> Iterator[Table]:
     """All tables of some blocks, folded ones too."""
-    return (block for block in flat(blocks) if isinstance(block, Table))
+    return (block for block in _flat(blocks) if isinstance(block, Table))
 
 
 def drawn(blocks: Sequence[Block]) -> tuple[Block, ...]:
@@ -291,14 +291,14 @@ def _drawn(block: Block) -> Block:
     return block
 
 
-def flat(blocks: Sequence[Block]) -> Iterator[Block]:
+def _flat(blocks: Sequence[Block]) -> Iterator[Block]:
     """Yield blocks and those within them."""
     for block in blocks:
         yield block
         if isinstance(block, Details):
-            yield from flat(block.blocks)
+            yield from _flat(block.blocks)
         elif isinstance(block, Beside):
-            yield from flat((block.narrow, block.wide))
+            yield from _flat((block.narrow, block.wide))
 
 
 @cache

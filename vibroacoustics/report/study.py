@@ -6,7 +6,7 @@ from ..base.fault import collected
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.processes import side_by_side
 from ..results.over_speed.avoid import avoided
-from ..results.stored_study import has_sources, parameters
+from ..results.stored_study import parameters
 from ..results.titles import titled
 from .analysis import Analysis
 from .avoid import avoid_data
@@ -17,13 +17,10 @@ from .kept_sections import sections_of
 from .kwave_words import kwave_line
 from .left_out import with_lines
 from .sections import SECTIONS
-from .sections.comparison.tables import comparison_data, terminal_blocks
-from .sections.paths.tables import has_paths, paths_data
-from .sections.scores.tables import scores_data
-from .sections.sources.tables import sources_data
+from .sections.comparison.tables import terminal_blocks
 from .sections.verdict.words import sentences
 from .shown_speeds import over_speed
-from .side_tables import side_tables
+from .tables import DataTable
 
 
 def analysis_of_study(results: xr.Dataset) -> Analysis:
@@ -51,12 +48,8 @@ def _analysis(results: xr.Dataset) -> Analysis:
         summary=sentences(named),
         shown=(*terminal_blocks(results), Text(kwave_line(results))),
         tables={
-            "comparison.csv": comparison_data(results),
-            "scores.csv": scores_data(results),
-            **({"sources.csv": sources_data(results)} if has_sources(results) else {}),
-            **({"paths.csv": paths_data(results)} if has_paths(results) else {}),
+            **_tables(results),
             **({"speeds.csv": avoid_data(avoided(results))} if over_speed(results) else {}),
-            **side_tables(named),
         },
         figures="figures/",
         in_markdown="comparison.md",
@@ -64,3 +57,9 @@ def _analysis(results: xr.Dataset) -> Analysis:
         kind=of_study["machine"]["name"],
         created=named.attrs["created_utc"],
     )
+
+
+def _tables(results: xr.Dataset) -> dict[str, DataTable]:
+    """Return the tables that sections write beside the page, by the name of their file."""
+    tables = [section.tables(results) for section in sections_of(results)]
+    return {name: table for each in tables for name, table in each.items() if any(table.values())}

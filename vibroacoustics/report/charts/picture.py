@@ -1,11 +1,11 @@
 """Finished pictures of a page."""
 
-import re
 from typing import Final, Literal, NamedTuple
 from weakref import WeakKeyDictionary
 
 from pydantic import Base64Bytes
 
+from ..file_names import file_name
 from .marks import Chart
 from .svg import svg
 
@@ -33,7 +33,7 @@ class Picture(NamedTuple):
 
 def picture_file(drawn: Picture) -> str:
     """Return the name of the file of a picture."""
-    return f"{re.sub(r'[^A-Za-z0-9_-]+', '_', drawn.name)}.{drawn.ending}"
+    return f"{file_name(drawn.name)}.{drawn.ending}"
 
 
 _DRAWN: Final[WeakKeyDictionary[Chart, Picture]] = WeakKeyDictionary()

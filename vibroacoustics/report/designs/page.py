@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Sequence
-from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -17,8 +16,6 @@ from .csv import designs_data
 from .evaluated import Column, Evaluated
 from .figures import front_chart, main_effects_charts, parallel_chart
 from .reading import evaluated, objectives_of, variable_label, variables_of
-
-_PANELS: Final = 4
 
 
 def analysis_of_designs(search: xr.Dataset) -> Analysis:

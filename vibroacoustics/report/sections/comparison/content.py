@@ -6,8 +6,9 @@ from ....base.registry import register
 from ...blocks import Block, Text
 from ...kept_columns import columns_of
 from ...remainder import total_sentence
+from ...tables import DataTable
 from .. import Section
-from .tables import bands_sentence, comparison_table
+from .tables import bands_sentence, comparison_data, comparison_table
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
@@ -29,4 +30,8 @@ def _legend(results: xr.Dataset) -> Text:
     )
 
 
-register(Section("comparison", "Comparison", _blocks, position=20.0))
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    return {"comparison.csv": comparison_data(results)}
+
+
+register(Section("comparison", "Comparison", _blocks, position=20.0, tables=_data))

@@ -156,7 +156,7 @@ def orders_table(results: xr.Dataset, receiver: str) -> Table:
 
 
 def path_data(results: xr.Dataset) -> dict[str, DataTable]:
-    """Return bands, orders and motions of all microphones without a balancer, forces into feet."""
+    """Return paths of all options; bands, orders, motions without a balancer; forces into feet."""
     here = results.sel(option=REFERENCE_OPTION, path_speed=path_speed(results))
     named = {name: here[name] for name in _NAMED}
     pressure = here["path_pressure"].transpose("receiver", "path_order", "path")
@@ -164,6 +164,7 @@ def path_data(results: xr.Dataset) -> dict[str, DataTable]:
     size = abs(total) ** 2
     share = (pressure * np.conj(total)).real / size.where(size > 0.0)
     files = {
+        "paths.csv": paths_data(results),
         "path_bands.csv": data_table(
             ("receiver", "band", "path"),
             {
@@ -224,7 +225,7 @@ def _modelled_level(results: xr.Dataset, receiver: str) -> float:
 
 
 def paths_data(results: xr.Dataset) -> DataTable:
-    """Return a row per option, speed, microphone and path."""
+    """One row per option, speed, microphone and path."""
     dims = ("option", "path_speed", "receiver", "path")
     share = results["path_share"].transpose(*dims)
     level = results["level_modelled"].sel(weighting="A", drop=True).rename(speed="path_speed")

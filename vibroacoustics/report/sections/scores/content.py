@@ -34,7 +34,7 @@ def _data(results: xr.Dataset) -> dict[str, DataTable]:
     """Weights and scales, ranks in the samples, published scores."""
     names = ("weight", "criterion_best", "criterion_worst", "rank_acceptability",
              "published_score", "published_sum", "recomputed_sum")  # fmt: skip
-    return {"scoring.csv": long_table(results, names)}
+    return {"scores.csv": scores.scores_data(results), "scoring.csv": long_table(results, names)}
 
 
 def _ranks(results: xr.Dataset) -> list[Chart]:

@@ -9,6 +9,7 @@ from ...blocks import Block, Bullets, Heading, Pictures, Text
 from ...charts.marks import Chart
 from ...figures.sources import changing_options, option_third_octaves, source_third_octaves
 from ...figures.stacked import stacked_lines, stacked_third_octaves
+from ...tables import DataTable
 from .. import Section
 from . import energy as energy_words
 from . import tables as source_tables
@@ -58,4 +59,8 @@ def _alternatives(results: xr.Dataset) -> list[Block]:
     ]
 
 
-register(Section("sources", "Dominant sources", _blocks, has_sources, 30.0))
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    return {"sources.csv": source_tables.sources_data(results)}
+
+
+register(Section("sources", "Dominant sources", _blocks, has_sources, 30.0, tables=_data))
