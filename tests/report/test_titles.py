@@ -7,6 +7,7 @@ import pytest
 from support import ROOT, TINY, assert_refused, command_here, made_up_radiation
 
 import vibroacoustics as va
+from vibroacoustics.report.charts.marks import Line
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.sections.comparison.tables import comparison_data
 from vibroacoustics.report.sections.scores.tables import criteria_table, scores_data
@@ -55,8 +56,8 @@ def test_csv_keeps_the_names(results):
 
 
 def test_figures_show_titles_and_take_names(results):
-    figure = va.plot.levels_over_speed(results, options=["none", NAME])
-    labels = [line.get_label() for line in figure.axes[0].lines]
+    chart = va.plot.levels_over_speed.__wrapped__(results, options=["none", NAME])
+    labels = [mark.label for mark in chart.panels[0].marks if isinstance(mark, Line)]
     assert [label.replace("\n", " ") for label in labels] == ["none", TITLE]
     assert va.plot.levels_over_speed(results, options=[TITLE]).axes[0].lines
     shown = titled(results)

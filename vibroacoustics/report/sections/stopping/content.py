@@ -16,12 +16,13 @@ def _applies(results: xr.Dataset) -> bool:
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     shown = few_speeds(results)
+    maps = [stopping_order_map(shown)] if "stopping_order_map" in shown else []
     return [
         *(Text(sentence) for sentence in sentences(results)),
         *chosen_speeds(results, "results.nc"),
         forces_table(shown),
         Text("Levels at all microphones are in stopping.csv.", "note"),
-        Pictures((stopping(shown), stopping_order_map(shown))),
+        Pictures((stopping(shown), *maps)),
     ]
 
 
