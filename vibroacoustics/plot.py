@@ -6,7 +6,7 @@ The report draws the same charts. A notebook shows what these functions return;
 >>> results = va.open_results("results.nc")
 >>> va.plot.levels(results).savefig("levels.png")
 
-Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_orders`,
+From `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_orders`,
 `mount_transmissibility`, `transfer`, `green_difference`, `levels`, `line_map`, `room_map`,
 `room_seam`, `scores`, `rank_acceptability`, `source_third_octaves`, `option_third_octaves`,
 `baseline_third_octaves`, `path_shares`, `stopping`, `stopping_order_map`, `stacked_third_octaves`,
@@ -15,18 +15,18 @@ Of `run`: `force_over_revolution`, `force_orders`, `foot_force_orders`, `level_o
 Over several speeds of `run`: `levels_over_speed`, `source_levels_over_speed`,
 `orders_over_speed`, `speed_frequency_map`, `campbell`.
 
-Of `radiate`: `transfer_vectors`, `unit_level_map`, `directivity`.
+From `radiate`: `transfer_vectors`, `unit_level_map`, `directivity`.
 
-Of `analyse_orders`: `order_spectrum`, `orders_over_speed`, `order_map`.
+From `analyse_orders`: `order_spectrum`, `orders_over_speed`, `order_map`.
 
-Of `speed_frequency_map`: `speed_frequency_map`, `levels_over_speed`. Of `track_orders`:
+From `speed_frequency_map`: `speed_frequency_map`, `levels_over_speed`. From `track_orders`:
 `tracked_orders`.
 
-Of `blocked_forces`: `blocked_force`, `blocked_validation`.
+From `blocked_forces`: `blocked_force`, `blocked_validation`.
 
-Of `compare`: `compared_orders`, `order_differences`, `orders_over_speed`.
+From `compare`: `compared_orders`, `order_differences`, `orders_over_speed`.
 
-Of `curves`: `curves`. Of `predict`: `predicted_levels`.
+From `curves`: `curves`. From `predict`: `predicted_levels`.
 """
 
 from .report.charts.needs import plotted

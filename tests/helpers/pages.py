@@ -1,7 +1,7 @@
 """Pages and terminal texts of made-up sections."""
 
 import xarray as xr
-from vibroacoustics.report.comparison import terminal_blocks
+from vibroacoustics.report.sections.comparison.tables import terminal_blocks
 
 from vibroacoustics.report.analysis import Analysis
 from vibroacoustics.report.blocks import Part

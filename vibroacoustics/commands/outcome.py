@@ -98,10 +98,10 @@ class Outcome:
         from ..results.provenance import software_version
 
         files = _with_further(self.files)
-        found = {prefix: each.json() for prefix, each in self.analyses.items()}
+        parts = {prefix: each.json() for prefix, each in self.analyses.items()}
         tables = {
             f"{prefix}{table}": columns
-            for prefix, each in found.items()
+            for prefix, each in parts.items()
             for table, columns in each["tables"].items()
         }
         for key, path in files.items():
@@ -113,8 +113,8 @@ class Outcome:
             "version": software_version(),
             "inputs": inputs,
             "tables": {**tables, **self.tables},
-            "numbers": [number for each in found.values() for number in each["numbers"]],
-            "charts": [chart for each in found.values() for chart in each["charts"]],
+            "numbers": [number for each in parts.values() for number in each["numbers"]],
+            "charts": [chart for each in parts.values() for chart in each["charts"]],
             "files": files,
             "warnings": warnings,
         })  # fmt: skip

@@ -31,17 +31,17 @@ _METHOD: Final = (
 )
 
 
-def analysis_of_tones(found: xr.Dataset) -> Analysis:
+def analysis_of_tones(tones: xr.Dataset) -> Analysis:
     """Return tones of every channel with loudness and sharpness.
 
     Parameters
     ----------
-    found : from `recorded_tones`
+    tones : from `recorded_tones`
     """
     parts: list[Part] = []
     shown: list[Block] = []
-    for number, name in enumerate(_channels(found)):
-        blocks = tuple(_of_channel(found, name))
+    for number, name in enumerate(_channels(tones)):
+        blocks = tuple(_of_channel(tones, name))
         parts.append(Part(f"channel_{number}", name, blocks))
         shown += blocks
     needed = () if available() else (f"{NEEDED}.",)
@@ -51,27 +51,27 @@ def analysis_of_tones(found: xr.Dataset) -> Analysis:
         about="Tones above the noise of their critical band, the strongest first.",
         parts=tuple(parts),
         shown=(*shown, *map(Text, needed)),
-        tables={"tones.csv": _rows(found)},
-        numbers=tuple(_loudness(found)),
-        **origin(found, "Recording"),
+        tables={"tones.csv": _rows(tones)},
+        numbers=tuple(_loudness(tones)),
+        **origin(tones, "Recording"),
     )
 
 
-def _rows(found: xr.Dataset) -> DataTable:
+def _rows(tones: xr.Dataset) -> DataTable:
     """Every tone, a row each."""
     rows: list[tuple[str | float, ...]] = []
-    for name in _channels(found):
-        values = (found[variable].sel(channel=name).item() for variable in _LOUDNESS)
+    for name in _channels(tones):
+        values = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
         loudness = ["" if math.isnan(value) else value for value in values]
-        rows += [(name, *_numbers(tone), _which(tone), *loudness) for tone in tones_of(found, name)]
+        rows += [(name, *_numbers(tone), _which(tone), *loudness) for tone in tones_of(tones, name)]
     return columns_of(_COLUMNS, rows)
 
 
-def _loudness(found: xr.Dataset) -> Iterator[Number]:
+def _loudness(tones: xr.Dataset) -> Iterator[Number]:
     """Loudness and sharpness of every channel where they are available."""
-    for name in _channels(found):
+    for name in _channels(tones):
         for variable, unit in _LOUDNESS.items():
-            value = found[variable].sel(channel=name).item()
+            value = tones[variable].sel(channel=name).item()
             if not math.isnan(value):
                 text = f"{value:.3g}" if unit == "sone" else f"{value:.2f}"
                 yield Number(value, unit, variable, {"channel": name}, text=text)
@@ -84,16 +84,16 @@ def _channels(tones: xr.Dataset) -> list[str]:
     return [str(name) for name in tones["channel"].values]
 
 
-def _of_channel(found: xr.Dataset, name: str) -> Iterator[Table | Bullets | Text]:
+def _of_channel(tones: xr.Dataset, name: str) -> Iterator[Table | Bullets | Text]:
     """Table of the strongest tones of a channel, and its loudness in words."""
-    tones = tones_of(found, name)
-    if tones:
-        rows = tuple(_tone(tone, name) for tone in tones[:MOST_TONES])
-        caption = f"{name}: {len(tones)} tones above the noise of their critical band"
+    listed = tones_of(tones, name)
+    if listed:
+        rows = tuple(_tone(tone, name) for tone in listed[:MOST_TONES])
+        caption = f"{name}: {len(listed)} listed above the noise of their critical band"
         yield Table(caption, (*TONE_HEAD, *_TIME_HEAD, "prominent"), rows, frozenset({0, 7}))
     else:
         yield Text(f"{name}: no tone stands above the noise of its critical band")
-    loudness, sharpness = (found[variable].sel(channel=name).item() for variable in _LOUDNESS)
+    loudness, sharpness = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
     if not math.isnan(loudness):
         yield Bullets((f"loudness {loudness:.3g} sone, sharpness {sharpness:.2f} acum",))
 

@@ -67,18 +67,18 @@ def number(
     ParameterError
         The results hold no such variable or label.
     """
-    found = estimate(results, variable, **selection)
+    value_with_ends = estimate(results, variable, **selection)
     sampled = is_sampled(results, variable)
     unsampled = NOMINAL if has_samples(results) else VALUE
     return Number(
-        value=found.value,
+        value=value_with_ends.value,
         unit=unit or str(results[variable].attrs.get("units", "")),
         variable=variable,
         selection={str(dim): _plain(selection[str(dim)]) for dim in results[variable].dims},
         statistic=VARIABLES[variable].statistic if sampled else unsampled,
-        low=found.low if sampled else None,
-        high=found.high if sampled else None,
-        text=write(found),
+        low=value_with_ends.low if sampled else None,
+        high=value_with_ends.high if sampled else None,
+        text=write(value_with_ends),
     )
 
 

@@ -319,7 +319,7 @@ def test_report_has_a_section(results):
     assert forces_table(results).rows[0][-1] == f"{foot:.1f}"
     assert "stop from the highest speed without gas load" in sentences(results)[1]
     without = sentences(results.drop_vars("stopping_order_map"))
-    assert "There is no order map" in without[1]
+    assert "too few for an order map" in without[1]
 
 
 def test_no_section_without_a_stop():

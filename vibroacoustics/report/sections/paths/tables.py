@@ -238,7 +238,7 @@ def paths_data(results: xr.Dataset) -> DataTable:
         "level_dba": results["path_level"],
         "share_of_modelled_energy": share,
         "share_so_far": _so_far(share, share),
-        "cosine_to_sum": share * 10.0 ** (0.05 * (total - results["path_level"])),
+        "cosine_to_sum": share * amplitude_of_level(total - results["path_level"]),
     }
     return data_table(dims, columns)
 
