@@ -1,10 +1,10 @@
 """Pages and terminal texts of made-up sections."""
 
 import xarray as xr
-from vibroacoustics.report.sections.comparison.tables import terminal_blocks
 
 from vibroacoustics.report.analysis import Analysis
 from vibroacoustics.report.blocks import Part
+from vibroacoustics.report.sections.comparison.tables import terminal_blocks
 
 
 def page_of(*parts: Part) -> Analysis:

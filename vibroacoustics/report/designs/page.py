@@ -31,12 +31,12 @@ def analysis_of_designs(search: xr.Dataset) -> Analysis:
     limits = () if reason else (Bullets(tuple(limiting(search, designs))),)
     best_data = {} if reason else {"best.csv": best_designs(designs)}
     unchanged = _sentence(search.attrs["no_change"]) if search.attrs["no_change"] else ""
-    evaluated = Text(f"{designs.count} designs were evaluated, {designs.met.sum()} meet every "
+    counts = Text(f"{designs.count} designs were evaluated, {designs.met.sum()} meet every "
                  f"constraint{_failed(search)}.", "note")  # fmt: skip
     promised = () if reason else (Text(_promised(search), "note"),)
     closing = (Text(unchanged),) if unchanged and not reason else ()
     parts = (
-        Part("best", "The best few", (*best, *closing, *limits, evaluated, *promised)),
+        Part("best", "The best few", (*best, *closing, *limits, counts, *promised)),
         Part("front", "Front", tuple(_front(designs))),
         Part("deciding", "What decides", tuple(_deciding(search))),
         Part("searched", "What was searched", tuple(_searched(search, designs))),
