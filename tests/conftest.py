@@ -8,7 +8,6 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 from kept_results import FOLDER
-from pictures import draw_nothing, draw_pixels, lay_out
 from reading_here import read_here
 from support import PIPELINES
 
@@ -47,28 +46,6 @@ def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
             (shared / folder).mkdir(exist_ok=True)
             patch.setenv(name, str(shared / folder))
         yield
-
-
-@pytest.fixture(autouse=True, scope="session")
-def _pictures_are_no_subject() -> Iterator[None]:
-    """Figures are painted, neither laid out nor drawn; the fixture `real_pictures` draws them."""
-    with pytest.MonkeyPatch.context() as patch:
-        draw_nothing(patch)
-        yield
-
-
-@pytest.fixture(scope="module")
-def real_pictures(_pictures_are_no_subject: None) -> Iterator[None]:
-    """From here to the end of the module pictures are those that a user sees."""
-    with pytest.MonkeyPatch.context() as patch:
-        draw_pixels(patch)
-        yield
-
-
-@pytest.fixture
-def laid_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Texts of figures find their room, as in a command; their files show one pixel."""
-    lay_out(monkeypatch)
 
 
 @pytest.fixture(autouse=True, scope="session")

@@ -71,7 +71,7 @@ def test_page_shows_what_comes_out(workplace, left_out):
             shown.append(block)
             check_session(block)
     assert len(shown) >= 4
-    assert (workplace / "reports/motor/map_1_Acceleration.png").is_file()
+    assert (workplace / "reports/motor/map_1_Acceleration.svg").is_file()
 
 
 def check_session(block: str) -> None:

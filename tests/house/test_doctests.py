@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 import pyuff
 import xarray as xr
+from pictures import draw_nothing
 from sources_study import SOURCES_STUDY, run_made_up
 from support import ROOT
 
@@ -217,7 +218,8 @@ def _examples(name: str, thing: object) -> list[doctest.DocTest]:
 @pytest.mark.parametrize(
     "name", [pytest.param(one, marks=[pytest.mark.long] * (one in LONG)) for one in PUBLIC]
 )
-def test_examples_run(name):
+def test_examples_run(name, monkeypatch):
+    draw_nothing(monkeypatch)
     tests = _examples(name, PUBLIC[name])
     assert tests[0].examples, "has no example"
     runner = doctest.DocTestRunner(optionflags=FLAGS)

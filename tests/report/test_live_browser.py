@@ -27,7 +27,7 @@ from selenium.webdriver.common.keys import Keys
 
 from vibroacoustics.levels import a_weighting
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("real_pictures")]
+pytestmark = pytest.mark.slow
 
 EVERY = """const model = vibroacoustics.panel.model;
 return model.every({...model.given(arguments[0]), ...arguments[1]})

@@ -33,7 +33,6 @@ from vibroacoustics.results.over_speed.order_cuts import order_cuts
 from vibroacoustics.results.over_speed.plane import MOST_COLUMNS, MOST_ROWS, plane_of
 from vibroacoustics.results.over_speed.sound_lines import loudest_lines, sound_lines
 
-pytestmark = pytest.mark.usefixtures("real_pictures")
 TUNED_RPM = 3500.0
 SPRING_MASS = {
     "kind": "spring-mass", "stiffness_n_per_mm": 3.255, "tuned_speed_rpm": TUNED_RPM,

@@ -13,7 +13,6 @@ from vibroacoustics.report.charts.marks import Chart
 from vibroacoustics.report.charts.svg import svg
 from vibroacoustics.report.figures.orders import loudest_orders
 
-pytestmark = pytest.mark.usefixtures("real_pictures")
 OF_A_RUN = (
     "force_over_revolution", "force_orders", "foot_force_orders", "level_orders",
     "mount_transmissibility", "green_difference", "levels", "scores",

@@ -12,8 +12,6 @@ from unicodedata import normalize
 import pytest
 import xarray as xr
 from browsers import program
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from pages import page_of
 from pypdf import PdfReader
 from support import assert_refused, command_here, tiny_run
@@ -21,7 +19,6 @@ from support import assert_refused, command_here, tiny_run
 from vibroacoustics.commands import printing
 from vibroacoustics.commands.outputs import with_pdf, write_report
 from vibroacoustics.report.blocks import Beside, Block, Details, Lights, Part, Text
-from vibroacoustics.report.figures import style
 from vibroacoustics.report.paper import for_paper
 from vibroacoustics.report.study import analysis_of_study
 from vibroacoustics.report.tables import Table
@@ -36,18 +33,6 @@ SIZES = {"a4": (595, 842), "letter": (612, 792)}
 @pytest.fixture(scope="module")
 def results() -> xr.Dataset:
     return tiny_run(options=MICROPHONES)
-
-
-@pytest.fixture
-def blank_figures(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Figures of their size without curves, which take longer to draw than to print."""
-
-    def blank(width_inch: float, height_inch: float, paint: object) -> Figure:
-        figure = style.Drawing(figsize=(width_inch, height_inch), dpi=style.DOTS_PER_INCH)
-        FigureCanvasAgg(figure)
-        return figure
-
-    monkeypatch.setattr(style, "render", blank)
 
 
 def folded_page() -> bytes:
@@ -110,7 +95,6 @@ def test_every_page_has_a_pdf_of_its_name() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("blank_figures")
 def test_every_table_is_in_the_pdf(results: xr.Dataset) -> None:
     page = analysis_of_study(results)
     reader = _read(printing.Printer(program("chromium"), "a4").printed(page.html()))

@@ -49,8 +49,6 @@ from vibroacoustics.report.tables import to_csv
 from vibroacoustics.scoring import score
 from vibroacoustics.study.scoring import CriterionScale, Scoring
 
-pytestmark = pytest.mark.usefixtures("real_pictures")
-
 COLUMNS = (
     "option,speed_rpm,receiver,force_1x_n,force_2x_n,moment_1x_nm,foot_force_1x_n,level_1x_db,"
     "level_2x_db,level_1x_dba,level_modelled_dba,level_total_dba,change_1x_db,change_modelled_db,"

@@ -9,7 +9,7 @@ from test_report import make_results
 
 from vibroacoustics.report import render
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("real_pictures")]
+pytestmark = pytest.mark.slow
 
 HEADINGS = (
     "Summary",

@@ -15,7 +15,7 @@ from vibroacoustics.results.estimates import estimate
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.uncertainty.slider_variables import HOOD
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("real_pictures")]
+pytestmark = pytest.mark.slow
 
 TOTALS = """const {model, page} = vibroacoustics.panel;
 return page.options.map((_, option) =>

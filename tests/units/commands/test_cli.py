@@ -74,9 +74,9 @@ def test_radiation_alone(tmp_path: Path) -> None:
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
         "transfer_vectors.nc",
         "files.json",
-        "transfer_vectors.png",
-        "map.png",
-        "directivity.png",
+        "transfer_vectors.svg",
+        "map.svg",
+        "directivity.svg",
     }
 
 

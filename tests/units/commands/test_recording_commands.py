@@ -67,8 +67,8 @@ def test_map_shows_orders_and_levels(file, tmp_path):
     level = mapped["block_level"].sel(channel="front", weighting="Z")
     np.testing.assert_allclose(level, 10.0 * np.log10(2e-4 * power / (20e-6) ** 2), atol=0.2)
     assert mapped["block_level"].sel(channel="ring").isnull().all()
-    pictures = {file.name for file in tmp_path.glob("*.png")}
-    assert pictures == {"speed_map_1_ring.png", "speed_map_2_front.png", "levels_2_front.png"}
+    pictures = {file.name for file in tmp_path.glob("*.svg")}
+    assert pictures == {"speed_map_1_ring.svg", "speed_map_2_front.svg", "levels_2_front.svg"}
 
 
 @pytest.mark.parametrize(

@@ -141,7 +141,7 @@ def test_the_machine_by_table_runs_with_them(tmp_path):
     assert np.isfinite(results["level_total"]).all()
     names = {path.name for path in tmp_path.iterdir()}
     assert {"blocked_forces.nc", "blocked_forces.csv", "validation.csv", "blocked_forces.md",
-            "blocked_forces.png", "validation.png"} <= names  # fmt: skip
+            "blocked_forces.svg", "validation.svg"} <= names  # fmt: skip
     rows = (tmp_path / "validation.csv").read_text().splitlines()
     assert len(rows) == 1 + 3 * FREQUENCY.size
 

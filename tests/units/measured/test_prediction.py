@@ -292,7 +292,7 @@ def test_the_command_writes_results_table_report_and_figures(tmp_path):
     assert outcome.exit_code == 0, outcome.output
     assert "halved  front       dB(A)" in outcome.output
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert {"prediction.nc", "prediction.csv", "prediction.md", "prediction_1_front.png"} <= names
+    assert {"prediction.nc", "prediction.csv", "prediction.md", "prediction_1_front.svg"} <= names
     predicted = va.open_results(tmp_path / "out" / "prediction.nc")
     rows = (tmp_path / "out" / "prediction.csv").read_text().splitlines()
     assert len(rows) == 1 + predicted.sizes["frequency"] * predicted.sizes["receiver"]

@@ -14,7 +14,8 @@ import vibroacoustics as va
 from vibroacoustics.base.curve_dataset import shown
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.machine.machine import MACHINES, Machine
-from vibroacoustics.report.figures.curves import curves as figure
+from vibroacoustics.report.charts.marks import Bars, Line
+from vibroacoustics.report.figures.curves import curves as chart_of
 from vibroacoustics.sources.gas import ScrollGasForces
 from vibroacoustics.sources.keys import OldhamKeyForces
 from vibroacoustics.sources.scroll_gas.opening import REPEATED
@@ -65,7 +66,8 @@ def test_opening_with_inertia_has_curves_of_its_own():
         0.068, rel=0.02
     )
     for name in ("opening_pressure", "opening_flow"):
-        assert "Crank angle since a pocket has opened" in figure(curves, name).axes[0].get_xlabel()
+        (*_, panel) = chart_of(curves, name).panels
+        assert "Crank angle since a pocket has opened" in panel.x.label
 
 
 def test_suction_and_discharge_line_of_a_scroll_with_inertia():
@@ -90,9 +92,17 @@ def test_suction_and_discharge_line_of_a_scroll_with_inertia():
 def test_every_curve_has_a_picture_with_labels(name):
     curves = inner(name)
     for variable in curves.data_vars:
-        drawn = figure(curves, str(variable))
-        assert all(axes.get_xlabel() for axes in drawn.axes)
-        assert curves[variable].attrs["title"][:20] in drawn.get_suptitle()
+        drawn = chart_of(curves, str(variable))
+        assert drawn.panels[-1].x.label  # which those above share
+        assert all(panel.y.label or panel.y.ticks for panel in drawn.panels)
+        assert curves[variable].attrs["title"][:20] in drawn.title
+        marks = [mark for panel in drawn.panels for mark in panel.marks]
+        values = [
+            m.size if isinstance(m, Bars) else m.y for m in marks if isinstance(m, Bars | Line)
+        ]
+        if curves[variable].attrs["picture"] != "orbit":
+            in_chart = np.concatenate(values)[: curves[variable].size]
+            np.testing.assert_array_equal(in_chart, shown(curves[variable]).ravel())
 
 
 def test_every_built_in_kind_has_curves():
@@ -159,12 +169,12 @@ def test_command_writes_dataset_tables_and_pictures(tmp_path: Path):
     written = va.open_results(tmp_path / "curves.nc")
     xr.testing.assert_identical(written, inner("zhao_minicrank"))
     for name, curve in written.items():
-        assert (tmp_path / f"{name}.png").read_bytes()[:4] == b"\x89PNG"
+        assert (tmp_path / f"{name}.svg").read_bytes()[:4] == b"<svg"
         table = _table(tmp_path / f"{name}.csv")
         np.testing.assert_allclose(table[:, 0], shown(curve[curve.dims[-1]]), rtol=1e-8)
         values = shown(curve).reshape(-1, curve.shape[-1]).T
         np.testing.assert_allclose(table[:, 1:], values, rtol=1e-8, atol=1e-12)
-    figure(written, "pin_force")  # is drawn from the file alone
+    chart_of(written, "pin_force")  # is drawn from the file alone
 
 
 def _table(path: Path) -> np.ndarray:
@@ -200,7 +210,7 @@ def test_machine_without_curves_is_refused():
 
 def test_unknown_curve_names_those_that_there_are():
     with pytest.raises(ParameterError, match="curve film: unknown; allowed external_force, "):
-        figure(inner("zhao_minicrank"), "film")
+        chart_of(inner("zhao_minicrank"), "film")
 
 
 def test_page_names_every_curve():

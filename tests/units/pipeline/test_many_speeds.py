@@ -252,7 +252,7 @@ def test_time_series_of_many_speeds_only_on_request(folder, tmp_path, many):
     dropped = run_at(folder, "speed_rpm = [2900.0]\nkeep_time_series = false")
     page = outputs.write_report(dropped, tmp_path).read_text()
     assert "operation.keep_time_series" in page
-    assert not (tmp_path / "figures" / "force_over_revolution.png").exists()
+    assert not (tmp_path / "figures" / "force_over_revolution.svg").exists()
     again = outputs.write_report_again(tmp_path / "results.nc", tmp_path / "again")
     assert again.read_text() == page
 

@@ -16,7 +16,7 @@ from vibroacoustics.report.compared.order_rows import (
     compared_facts,
     matching_orders,
 )
-from vibroacoustics.report.figures.compared_orders import compared_order_figures
+from vibroacoustics.report.figures.compared_orders import compared_order_charts
 from vibroacoustics.report.tables import to_csv, to_text
 from vibroacoustics.results.order_comparison import NEGLIGIBLE, channel_orders
 from vibroacoustics.study.order_analysis import OrderAnalysis, SpeedChannel
@@ -298,11 +298,11 @@ def _printed_orders(text):
 
 def test_figures_of_what_both_have(study):
     """Neither force y nor force z is there; names that read the same get files of their own."""
-    names = [picture.name for picture in compared_order_figures(compare(study, study))]
+    names = [chart.name for chart in compared_order_charts(compare(study, study))]
     shown = [name.split("_", 2)[2] for name in names]
     assert "force_x" in shown
     assert "force_y" not in shown
     same = recorded({"a b": ("Pa", 1.0), "a_b": ("Pa", 1.0), "a" * 300: ("Pa", 1.0)})
-    names = [picture.name for picture in compared_order_figures(compare(same, same))]
+    names = [chart.name for chart in compared_order_charts(compare(same, same))]
     assert len(set(names)) == 3
     assert max(map(len, names)) < 100
