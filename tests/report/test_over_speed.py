@@ -15,6 +15,7 @@ from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.report.avoid import avoid_data
 from vibroacoustics.report.blocks import Part, from_json, pictures, to_json
 from vibroacoustics.report.blocks import drawn as drawn_blocks
+from vibroacoustics.report.charts.marks import Line, Points, Segments
 from vibroacoustics.report.compared.over_speed import channel_charts, over_speed_parts
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.tables import to_csv
@@ -63,49 +64,59 @@ def results():
     return made.assign(modes)
 
 
-def drawn(figure, label, panel=0):
-    (line,) = [line for line in figure.axes[panel].lines if line.get_label() == label]
-    return line.get_xdata(), line.get_ydata()
+def chart(verb, *args, **keywords):
+    """What a function of `va.plot` draws, as data."""
+    return getattr(va.plot, verb).__wrapped__(*args, **keywords)
+
+
+def drawn(made, label, panel=0):
+    (mark,) = [mark for mark in made.panels[panel].marks if getattr(mark, "label", None) == label]
+    return mark.x, mark.y
 
 
 def test_levels_are_those_of_the_dataset(results):
-    figure = va.plot.levels_over_speed(results)
+    made = chart("levels_over_speed", results)
     for panel, level in enumerate(
         (results["level_total"], results["level_modelled"].sel(weighting="A"))
     ):
         expected = level.sel(option="spring-mass", receiver="front_1m").values
-        speed, values = drawn(figure, "spring-mass", panel)
+        speed, values = drawn(made, "spring-mass", panel)
         np.testing.assert_array_equal(speed, results["speed"])
         shown = np.isfinite(values)  # what lies far below the highest is not drawn
         assert shown.sum() > 10
         np.testing.assert_array_equal(values[shown], expected[shown])
-    source = va.plot.source_levels_over_speed(results, option="spring-mass")
+    source = chart("source_levels_over_speed", results, option="spring-mass")
     values = drawn(source, "all modelled")[1]
     np.testing.assert_array_equal(values[np.isfinite(values)], expected[np.isfinite(values)])
 
 
 def test_levels_beside_another_result_are_dashed(results):
-    figure = va.plot.levels_over_speed(
-        results, options=["none"], beside=results, beside_options=["spring-mass"]
+    made = chart(
+        "levels_over_speed",
+        results,
+        options=["none"],
+        beside=results,
+        beside_options=["spring-mass"],
     )
-    values = drawn(figure, "B: spring-mass")[1]
+    values = drawn(made, "B: spring-mass")[1]
     np.testing.assert_array_equal(
         values, results["level_total"].sel(option="spring-mass", receiver="front_1m")
     )
-    assert [line.get_linestyle() for line in figure.axes[0].lines] == ["-", "--"]
+    lines = [mark for mark in made.panels[0].marks if isinstance(mark, Line)]
+    assert [line.dash for line in lines] == ["-", "--"]
 
 
 def test_order_cuts_of_a_study(results):
-    figure = va.plot.orders_over_speed(results, option="spring-mass")
+    made = chart("orders_over_speed", results, option="spring-mass")
     level = results["order_level"].sel(
         option="spring-mass", receiver="front_1m", order=1, weighting="Z"
     )
-    np.testing.assert_allclose(drawn(figure, "1×")[1], level, atol=1e-9)
-    force = va.plot.orders_over_speed(results, "force x")
+    np.testing.assert_allclose(drawn(made, "1×")[1], level, atol=1e-9)
+    force = chart("orders_over_speed", results, "force x")
     expected = abs(results["force_order"].sel(option="none", axis="x", order=1).sum("source"))
     np.testing.assert_allclose(drawn(force, "1×")[1], expected / np.sqrt(2.0), rtol=1e-12)
     with pytest.raises(ParameterError, match="channel = behind: not in these results"):
-        va.plot.orders_over_speed(results, "behind")
+        chart("orders_over_speed", results, "behind")
 
 
 def test_order_cuts_of_a_comparison(results):
@@ -166,11 +177,11 @@ def test_campbell_marks_the_crossings(results):
     for one in met:
         key = one.line.name, one.mode.frequency_hz
         assert one.speed_rpm == pytest.approx(expected[key], rel=1e-12)
-    figure = va.plot.campbell(results)
-    above = figure.axes[0]
-    marks = [drawn(figure, label) for label in ("crossings", "loud crossings")]
+    made = chart("campbell", results)
+    above = made.panels[0].marks
+    marks = [(mark.x, mark.y) for mark in above if isinstance(mark, Points)]
     assert sum(len(speeds) for speeds, _ in marks) == sum(one.mode.kind != "mounts" for one in met)
-    level_lines = {line.get_ydata()[0] for line in above.lines if len(line.get_ydata()) == 2}
+    level_lines = {hz for mark in above if isinstance(mark, Segments) for hz in mark.y}
     assert level_lines >= {*SHELL_HZ, 600.0}
 
 
@@ -271,9 +282,9 @@ def test_a_recording_that_stays_at_a_speed_is_drawn_over_the_time():
     tone = np.cos(2.0 * np.pi * 50.0 * np.arange(8192) / 1024.0)
     recording = va.label_recording([0.1 * tone], 1024.0, ["front"], ["Pa"])
     mapped = va.speed_frequency_map(recording, va.NominalSpeed(3000.0), 8.0)
-    figure = va.plot.levels_over_speed(mapped)
-    assert figure.axes[0].get_xlabel() == "Time, s"
-    time, level = drawn(figure, "unweighted")
+    made = chart("levels_over_speed", mapped)
+    assert made.panels[-1].x.label == "Time, s"
+    time, level = drawn(made, "unweighted")
     np.testing.assert_array_equal(time, mapped["block_time"])
     np.testing.assert_array_equal(level, mapped["block_level"].sel(channel="front", weighting="Z"))
     assert isinstance(mapped, xr.Dataset)
