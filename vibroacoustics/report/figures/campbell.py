@@ -137,7 +137,7 @@ def _name(line: SoundLine, visible: IndexArray, speed_rpm: Array, highest_hz: fl
         x, y = float(speed_rpm[last]), float(line.frequency_hz[last])
         return Note(x, y, words, _TONE, shift=(3.0, 3.0))
     y = min(highest_hz, line.order * float(speed_rpm[-1]) / 60.0)
-    below = -9.0 if y > 0.93 * highest_hz else 3.0
+    below = -9.0 if y > 0.96 * highest_hz else 3.0
     x = 60.0 * y / line.order
     if x < 0.98 * speed_rpm[-1]:
         return Note(x, y, words, COLOURS[0], "left", (2.0, below))
