@@ -147,7 +147,7 @@ def margins(panel: Panel) -> tuple[float, float, float, float]:
     if panel.polar:
         return 34.0, 34.0, 24.0, 26.0 + title
     named = [letters(word) for _, word in panel.y.ticks or ()]
-    ticks = 8.0 + LETTER * max(named, default=5 if panel.y.ticks is None else 0)
+    ticks = 8.0 + LETTER * max(named, default=7 if panel.y.ticks is None else 0)
     last = letters(panel.x.ticks[-1][1]) if panel.x.ticks else 0
     right = _BAR if any(isinstance(mark, Image) for mark in panel.marks) else 14.0
     right = max(right, 0.5 * LETTER * last + 4.0)
