@@ -54,9 +54,9 @@ def test_table_has_level_and_share_of_every_part_by_alternative(results: xr.Data
     assert rows["Share of gas forces"] == [
         "30 % (10 % to 50 %)", "70 % (56 % to 84 %)", "30 % (24 % to 36 %)",
     ]  # fmt: skip
-    assert rows["Share of motor at twice the line frequency"][2] == "<1 %"
+    assert "Share of motor at twice the line frequency" not in rows  # below 1 % everywhere
     assert rows["Share of unmodelled noise"][1] == "10 % (8 % to 12 %)"
-    assert len(rows) == 1 + len(PARTS)
+    assert len(rows) < 1 + len(PARTS)
     assert alternatives_table(results.drop_dims("alternative")) is None
 
 

@@ -330,20 +330,22 @@ def changed(change_db: float, low: float, high: float, up: float, down: float) -
 
 
 @pytest.mark.parametrize(
-    ("up", "down", "expected"),
+    ("ends", "up", "down", "expected"),
     [
-        (0.6, 0.0, "louder"),
-        (0.6, 0.6, "uncertain"),
-        (0.0, 0.6, "quieter"),
-        (0.4, 0.0, "uncertain"),
-        (0.0, 0.2, "uncertain"),
-        (0.09, 0.09, "no change"),
+        ((0.6, 2.0), 0.9, 0.0, "louder"),
+        ((0.0, 2.0), 0.6, 0.0, "uncertain"),  # the interval reaches what cannot be measured
+        ((-1.0, 2.0), 0.6, 0.6, "uncertain"),
+        ((-2.0, -0.6), 0.0, 0.9, "quieter"),
+        ((-2.0, 0.0), 0.0, 0.6, "uncertain"),
+        ((-1.0, 2.0), 0.4, 0.0, "uncertain"),
+        ((-1.0, 2.0), 0.0, 0.2, "uncertain"),
+        ((-0.2, 0.3), 0.09, 0.09, "no change"),
     ],
 )
-def test_the_word_on_a_change_follows_its_probabilities(
-    up: float, down: float, expected: str
+def test_the_word_on_a_change_follows_interval_and_probabilities(
+    ends: tuple[float, float], up: float, down: float, expected: str
 ) -> None:
-    one = changed(1.0, -1.0, 2.0, up, down)
+    one = changed(sum(ends) / 2.0, *ends, up, down)
     assert first_screen.word(one) == expected
     assert first_screen.largest(one) == 1
 

@@ -13,7 +13,7 @@ pytestmark = pytest.mark.slow
 
 HEADINGS = (
     "Summary",
-    "Reasons, and each option in words",
+    "Forces and options",
     "Comparison",
     "Orders",
     "Force over a revolution",

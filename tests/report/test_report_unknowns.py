@@ -77,7 +77,7 @@ def test_shares_are_given_only_where_their_interval_lies_above_chance():
     assert plain(gain[5]) == "70 % (56 % to 77 %)"
     assert len(gain) == 6  # no column of the prior with which nothing is resolved
     text = plain(resolved_sentence(results))
-    assert text.startswith("Number of the 3 unknowns with a resolved share")
+    assert text.startswith("Resolved shares in the variance")
     assert "1 by the ranges alone, 1 with the published data, prior flat, 0 with" in text
     index = unknowns_table(with_unknowns(floors=(0.121, 0.1, 0.9))).rows[1]
     assert plain(index[4]) == NOT_RESOLVED
@@ -99,7 +99,7 @@ def test_the_unknown_worth_a_measurement_is_named():
 @pytest.mark.parametrize("told", [{"votes": (4, 1, 0)}, {"gain": (0.39, 0.2, 0.0)}])
 def test_no_unknown_is_named_by_four_of_five_or_below_chance(told):
     text = measure_next_sentence(with_unknowns(**told))
-    assert "worth 0.9 dB for a choice on sound and foot force; which one to measure, 11" in text
+    assert "worth 0.9 dB for a choice on sound and foot force; 11 samples do not" in text
     assert "Before" not in text
 
 

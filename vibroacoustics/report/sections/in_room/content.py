@@ -5,11 +5,11 @@ import xarray as xr
 from ....base.registry import register
 from ...blocks import Block, Details, Pictures, Text
 from ...figures.in_room import room_map, room_seam
+from ...tables import DataTable, long_table
 from .. import Section
 from .tables import (
     absorption,
     has_room,
-    listeners,
     loudest_listener,
     loudness_words,
     power_sentence,
@@ -19,32 +19,33 @@ from .tables import (
     seam_table,
 )
 
+_LEVELS = ("room_level", "room_plate_level", "room_loudness", "room_sharpness")
+
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     loudest = loudest_listener(results)
-    others = [name for name in listeners(results) if name != loudest]
     return [
         Text(room_sentence(results), "strong"),
         room_table(results, loudest),
-        *(Details(f"At {name}", (room_table(results, name),)) for name in others),
         Text(power_sentence(results)),
         Text(seam_sentence(results)),
         Pictures((room_map(results), room_seam(results, loudest))),
         Details("Both methods at every listener", (seam_table(results),)),
         *(Details("Absorption of walls and furniture", (table,)) for table in absorption(results)),
         Text(
-            "Waves to the seam, above it direct sound and the diffuse field of the power that the "
-            "machine sends out on a hard floor in the open. What no source explains is taken as "
-            "sent alike everywhere from the machine's axis, and to come to the listeners as the "
-            "sound of a machine that shakes along x, y and z with equal powers. The sound of the "
-            "plate is that of its mean power, sent out beside the machine's foot (assumed); where "
-            "modes of the room cancel, one listener has 20 dB and more less of it than another. "
-            "Bands of the samples are those at the published microphone, of the model and of what "
-            "it does not explain each. "
-            f"{loudness_words(results)}",
+            "Below the crossover frequency sound is a wave field, above it direct sound and the "
+            "diffuse field of the sound power. Unmodelled noise is radiated equally in all "
+            "directions from the machine's axis; the plate by its mean power beside a foot "
+            "(assumed). Intervals are those at the published microphone. "
+            f"{loudness_words(results)} Other listeners and speeds are in room.csv.",
             "note",
         ),
     ]
 
 
-register(Section("in-room", "In the room", _blocks, has_room, 33.5))
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    names = [name for name in map(str, results.data_vars) if name.startswith(_LEVELS)]
+    return {"room.csv": long_table(results, names)}
+
+
+register(Section("in-room", "In the room", _blocks, has_room, 33.5, tables=_data))

@@ -1,4 +1,4 @@
-"""Which way the sound comes: paths from sources to microphones, forces into the feet."""
+"""Transfer paths from sources to microphones, forces into the feet."""
 
 import xarray as xr
 
@@ -9,6 +9,7 @@ from ...figures.paths import foot_bars, path_shares
 from .. import Section
 from .tables import (
     foot_orders,
+    has_motions,
     has_paths,
     leading_sentence,
     orders_table,
@@ -32,8 +33,8 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Pictures((path_shares(results, receiver),)),
         orders_table(results, receiver),
         Text(
-            "Other microphones and options are in paths.csv; bands, orders and motions in "
-            "path_bands.csv, path_orders.csv and path_motions.csv.",
+            "Other microphones and options are in paths.csv, bands and orders in path_bands.csv "
+            f"and path_orders.csv{', motions in path_motions.csv' * has_motions(results)}.",
             "note",
         ),
         *_of_feet(results, speed),

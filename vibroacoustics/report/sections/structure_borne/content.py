@@ -1,10 +1,11 @@
-"""By air or by the feet: sound of a plate under the machine beside that of the machine."""
+"""Structure-borne sound: a plate under the machine beside the airborne sound."""
 
 import xarray as xr
 
 from ....base.registry import register
-from ....results.stored_study import catalogue_receiver, other_receivers
-from ...blocks import Block, Details, Text
+from ....results.stored_study import catalogue_receiver
+from ...blocks import Block, Text
+from ...tables import DataTable, long_table
 from .. import Section
 from .tables import has_plate, plate_lines_table, way_sentence, ways_table
 
@@ -14,23 +15,24 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         Text(way_sentence(results, receiver), "strong"),
         Text(
-            "The feet push on a plate; its near field and its bending waves radiate. Levels by the "
-            "plate are those of its mean power; the span holds 90 % of plates of the same size and "
-            "make, whose modes lie elsewhere, and what such predictions err by otherwise. They are "
-            "no part of the levels by air, of shares or of ranks. Forces along the plate, moments "
-            "and what goes on from the plate into the building are left out.",
+            "The feet excite a plate, whose near field and bending waves radiate. Levels of the "
+            "plate are those of its mean power, with the interval of 90 % of such plates. They are "
+            "not in airborne levels, shares and ranks. Neglected: forces along the plate, moments, "
+            "transmission into the building.",
             "note",
         ),
         ways_table(results, receiver),
         plate_lines_table(results, receiver),
-        *(
-            Details(
-                f"By air and by the plate at {other}",
-                (ways_table(results, other), plate_lines_table(results, other)),
-            )
-            for other in other_receivers(results)
-        ),
+        Text("Other microphones and speeds are in structure_borne.csv.", "note"),
     ]
 
 
-register(Section("structure-borne", "By air or by the feet", _blocks, has_plate, 33.0))
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    names = [name for name in map(str, results.data_vars) if name.startswith("structure_borne_")]
+    table = long_table(results, [*names, "level_both_ways"], weighting="A")
+    return {"structure_borne.csv": table}
+
+
+register(
+    Section("structure-borne", "Structure-borne sound", _blocks, has_plate, 33.0, tables=_data)
+)
