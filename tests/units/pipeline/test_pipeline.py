@@ -99,9 +99,9 @@ NOT_MADE_HERE = {
 OF_OTHER_JOBS = (
     "predicted_", "blocked_", "validation_", "inversion_", "shell_", "best_design",
     "structure_borne_", "level_both_ways", "gas_frequency", "room_", "hemisphere_",
-    "measured_", "background_", "mean_position_", "environment_", "slider_",
+    "measured_", "background_", "mean_position_", "environment_", "slider_", "polar_",
 )  # fmt: skip
-"""Of measurements, a test of the shell, a search of designs, a plate, gas, a room, sliders."""
+"""Of measurements, a test of the shell, a search of designs, a plate, gas, a room, sliders, boundary elements."""
 
 
 @pytest.fixture(scope="module")

@@ -481,6 +481,8 @@ def test_sources_do_not_change_the_moving_parts(results, without):
     heard |= {"total_band_level", "unmodelled_share", "loudness", "sharpness"}
     heard |= {"increase_probability", "decrease_probability", "sources_band_level"}
     heard |= {name for name in map(str, without.data_vars) if "tone_" in name}
+    shown = ("run_up_", "polar_", "deflection", "line_energy", "band_energy", "section_force")
+    heard |= {name for name in map(str, without.data_vars) if name.startswith(shown)}
     heard |= {name for name, array in without.data_vars.items() if "path_speed" in array.dims}
     same = set(without.data_vars) - heard
     places = (one["rank_acceptability"].values for one in (without, results))

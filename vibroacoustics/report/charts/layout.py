@@ -206,12 +206,10 @@ def _ends(low: float, high: float, logarithmic: bool) -> tuple[float, float]:
     return (0.0 if low == 0.0 else low - room), (0.0 if high == 0.0 else high + room)
 
 
-def round_ticks(
-    low: float, high: float, integer: bool = False, most: int = 7
-) -> tuple[tuple[float, str], ...]:
+def round_ticks(low: float, high: float, integer: bool = False, most: int = 7) -> Ticks:
     """Return round numbers within a range, with their words."""
     low, high = min(low, high), max(low, high)
-    rough = (high - low) / most
+    rough = ((high - low) or abs(high) or 1.0) / most
     power = 10.0 ** np.floor(np.log10(rough))
     step = next(power * digit for digit in _STEPS if power * digit >= rough * (1.0 - 1e-9))
     step = max(1.0, float(np.ceil(step))) if integer else step
