@@ -17,7 +17,7 @@ from pypdf import PdfReader
 from support import assert_refused, command_here, tiny_run
 
 from vibroacoustics.commands import printing
-from vibroacoustics.commands.outputs import with_pdf, write_report
+from vibroacoustics.commands.outputs import write_report
 from vibroacoustics.report.blocks import Beside, Block, Details, Lights, Part, Text
 from vibroacoustics.report.paper import for_paper
 from vibroacoustics.report.study import analysis_of_study
@@ -90,8 +90,7 @@ def test_every_page_has_a_pdf_of_its_name() -> None:
             return b"%PDF of " + page
 
     files = {"report.html": b"page", "scores.csv": b""}
-    assert with_pdf(files, Silent("", "a4"))["report.pdf"] == b"%PDF of page"
-    assert with_pdf(files, None) == files
+    assert Silent("", "a4").pages(files) == {"report.pdf": b"%PDF of page"}
 
 
 @pytest.mark.slow
@@ -135,7 +134,7 @@ def _size(reader: PdfReader) -> tuple[int, int]:
 
 def _squeezed(text: str) -> str:
     """Without blanks, which a line's end may be, and without ligatures."""
-    return re.sub(r"\s", "", normalize("NFKC", text))
+    return re.sub(r"\s", "", normalize("NFKC", str(text)))
 
 
 def _rows(blocks: Sequence[Block]) -> Iterator[tuple[str, ...]]:

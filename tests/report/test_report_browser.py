@@ -20,7 +20,6 @@ HEADINGS = (
     "Mounts",
     "Radiation and levels",
     "Scores",
-    "Evidence",
     "Assumptions",
     "Provenance",
 )
@@ -107,14 +106,6 @@ def test_first_screen_shows_every_option_and_folds_the_rest(opened: Chrome) -> N
 def test_a_link_opens_its_section(opened: Chrome) -> None:
     opened.get(f"{opened.current_url.partition('#')[0]}#assumptions")
     assert opened.find_element(By.ID, "assumptions").is_displayed()
-
-
-def test_other_microphones_open_on_click(opened: Chrome) -> None:
-    _open(opened, "comparison")
-    details = opened.find_element(By.CSS_SELECTOR, "#comparison details")
-    assert not details.find_element(By.TAG_NAME, "table").is_displayed()
-    details.find_element(By.TAG_NAME, "summary").click()
-    assert details.find_element(By.TAG_NAME, "table").is_displayed()
 
 
 def test_all_text_can_be_read(opened: Chrome) -> None:

@@ -101,7 +101,7 @@ OF_OTHER_JOBS = (
     "structure_borne_", "level_both_ways", "gas_frequency", "room_", "hemisphere_",
     "measured_", "background_", "mean_position_", "environment_", "slider_", "polar_",
 )  # fmt: skip
-"""Of measurements, a test of the shell, a search of designs, a plate, gas, a room, sliders, boundary elements."""
+"""Of measurements, a test of the shell, a search of designs, a plate, gas, a room, sliders."""
 
 
 @pytest.fixture(scope="module")
