@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-import scipy  # loads its subpackages when they are needed
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
@@ -36,9 +35,9 @@ class Window:
 
     def samples(self, length: int) -> Array:
         """The window over `length` samples, mean 1."""
-        return np.asarray(
-            scipy.signal.windows.general_cosine(length, np.asarray(self.cosines), sym=False)
-        )
+        angle = np.linspace(-np.pi, np.pi, length + 1)[:-1]
+        parts = (size * np.cos(number * angle) for number, size in enumerate(self.cosines))
+        return np.asarray(sum(parts))
 
 
 WINDOWS: Final = {

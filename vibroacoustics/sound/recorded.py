@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+import scipy  # loads its subpackages when they are needed
 from numpy.typing import NDArray
-from scipy import signal as filters
 
 from ..base.arrays import Array, IndexArray
 from ..base.decibel import level_of_power
@@ -93,8 +93,8 @@ def narrow_bands(pressure_pa: Array, sample_rate_hz: float) -> NarrowBands:
         raise ParameterError(f"recording of {duration:.3g} s: tones need at least {SHORTEST_S:g} s")
     hop = round(min(SEGMENT_S, duration / SEGMENTS) * sample_rate_hz / _HOPS)
     length = _HOPS * hop
-    window = filters.get_window("blackmanharris", length)
-    fade = filters.windows.tukey(pressure_pa.size, 2.0 * _FADE_S / duration)
+    window = scipy.signal.get_window("blackmanharris", length)
+    fade = scipy.signal.windows.tukey(pressure_pa.size, 2.0 * _FADE_S / duration)
     weight = np.pad(fade**2, length)
     pressure = np.pad(fade * (pressure_pa - np.mean(pressure_pa)), length)
     starts = range(hop, pressure.size - length, hop)
@@ -178,7 +178,7 @@ def _course(bands: NarrowBands, peak: int, first: int, last: int) -> tuple[float
 def _tone_lines(hertz: Array, square: Array) -> tuple[IndexArray, IndexArray, IndexArray]:
     """Peaks of the tones with their first line and that after their last."""
     high = square > STANDS_OUT * _median(hertz, square)
-    peaks, _ = filters.find_peaks(np.where(high, square, 0.0), distance=4)
+    peaks, _ = scipy.signal.find_peaks(np.where(high, square, 0.0), distance=4)
     kept = []
     for number, peak in enumerate(peaks):
         before = peaks[number - 1] if number else 0

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
+import scipy  # loads its subpackages when they are needed
 import xarray as xr
-from scipy.signal import find_peaks
 
 from ...base.arrays import Array
 from ...base.decibel import level_of_amplitude, level_of_power, power_of_level
@@ -74,7 +74,7 @@ def ranges_to_avoid(speed_rpm: Array, level_db: Array) -> list[Range]:
     speed_rpm : rising, shape (speed,)
     level_db : shape (speed,)
     """
-    peaks, of_peaks = find_peaks(level_db, prominence=STANDS_OUT_DB)
+    peaks, of_peaks = scipy.signal.find_peaks(level_db, prominence=STANDS_OUT_DB)
     return [
         Range(
             _falls_to(speed_rpm[peak::-1], level_db[peak::-1]),
