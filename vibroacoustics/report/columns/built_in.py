@@ -65,7 +65,7 @@ _COLUMNS: Final = (
     ),
     _of("level_total_dba", "level_total", {}, head="Total level, dB(A)",
         terminal="total dB(A)", write=_level),
-    _of("change_1x_db", "change_1x", {}, head="Δ 1×, dB", write=_change,
+    _of("change_1x_db", "change_1x", {}, write=_change,
         change_of="level_1x_db"),
     _of("change_modelled_db", "change_modelled", {}, write=_change,
         change_of="level_modelled_dba"),

@@ -37,7 +37,7 @@ def path_shares(results: xr.Dataset, receiver: str | None = None) -> Chart:
     return Chart(
         f"paths_{dict(numbered(results, 'receiver'))[name]}",
         f"Shares of the leading paths of the modelled A-weighted energy at {name} as bars, to the "
-        "left where a path works against the others; the numbers are in the table.",
+        "left where a path works against the others; the numbers are in paths.csv.",
         f"{name}, {path_speed(results):g} rpm, option {REFERENCE_OPTION}: shares add up to 100 % "
         "over all paths; to the left what works against the others.",
         (Panel(x, named_axis(labels), bars, height=height),),
@@ -68,7 +68,7 @@ def foot_bars(results: xr.Dataset, speed: float) -> Chart:
     return Chart(
         "paths_feet",
         "Peak force into each foot along x, y and z at the first and second order as bars; the "
-        "numbers are in the table.",
+        "numbers are in feet.csv.",
         f"{speed:g} rpm, option {REFERENCE_OPTION}: force into each foot, peak.",
         panels,
     )

@@ -59,7 +59,7 @@ def rank_acceptability(results: xr.Dataset) -> Chart:
     return Chart(
         "ranks",
         "Probability of every rank of every option as a stacked bar, the first rank leftmost; the "
-        "numbers are in the table of ranks.",
+        "numbers are in scoring.csv.",
         f"Probability of each rank over {sampled}: the more of the dark left end, the surer an "
         "option is among the first.",
         (_stacked(results, "Probability", zip(labels, colours, ranks.values, strict=True)),),

@@ -3,7 +3,7 @@
 import xarray as xr
 
 from ....base.registry import register
-from ...blocks import Block, Bullets
+from ...blocks import Block, Text
 from ...option_verdict import option_verdicts
 from .. import Section
 from . import words
@@ -11,7 +11,7 @@ from . import words
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     table = words.options_table(option_verdicts(results))
-    return [Bullets(tuple(words.reasons(results))), *filter(None, [table])]
+    return [*map(Text, words.reasons(results)), *filter(None, [table])]
 
 
 register(Section("reasons", "Forces and options", _blocks, position=15.0))

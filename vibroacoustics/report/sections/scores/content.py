@@ -51,7 +51,7 @@ def _published(results: xr.Dataset) -> list[Block]:
     if not wrong:
         return []
     source = scores.published_source(results)
-    return [Text(f"Published scores ({source}): the printed sum does not add up for {wrong}.")]
+    return [Text(f"Published scores: the printed sum does not add up for {wrong} ({source})")]
 
 
 register(Section("scores", "Scores", _blocks, position=90.0, tables=_data))
