@@ -101,7 +101,7 @@ def test_every_table_is_in_the_pdf(results: xr.Dataset) -> None:
     pages = [sheet.extract_text() for sheet in reader.pages]
     text = _squeezed("".join(re.sub(r"^\d+ / \d+$", "", sheet, flags=re.M) for sheet in pages))
     wanted = [_squeezed(cell) for part in page.parts for row in _rows(part.blocks) for cell in row]
-    assert len(wanted) > 500
+    assert len(wanted) > 200
     assert [cell for cell in wanted if cell not in text] == []
     for number, sheet in enumerate(pages, 1):
         assert f"{number} / {len(pages)}" in sheet
