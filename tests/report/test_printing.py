@@ -107,8 +107,7 @@ def test_every_table_is_in_the_pdf(results: xr.Dataset) -> None:
         assert f"{number} / {len(pages)}" in sheet
     for part in page.parts:
         assert _squeezed(part.title) in text
-    for name in ("front_1m", "side_1m", "rear_1m"):
-        assert _squeezed(f"2900 rpm (1× at 48.3 Hz), microphone {name}") in text
+    assert _squeezed("2900 rpm (1× at 48.3 Hz), microphone front_1m") in text
 
 
 @pytest.mark.long
