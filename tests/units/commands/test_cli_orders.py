@@ -40,7 +40,7 @@ def analysed(recording: Path) -> Path:
     outcome = command_here("orders", recording, "--speed-channel", "tacho", "--map", "--out", out)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stderr == ""
-    assert f"results: {out / 'orders.nc'}" in outcome.stdout
+    assert f": {out / 'orders.nc'}\n" in outcome.stdout
     assert "speed: tacho tacho, 1 pulse a revolution" in outcome.stdout
     assert "crank angle zero: pulse of tacho" in outcome.stdout
     assert "microphone 1" in outcome.stdout
@@ -135,6 +135,7 @@ def test_compare_study_with_recording(analysed: Path, tmp_path: Path) -> None:
         "compared_orders.csv",
         "compared.html",
         "compared_1_acceleration_tx.svg",
+        "compared_differences.svg",
     }
     compared = open_results(tmp_path / "out" / "compared_orders.nc")
     assert abs(compared["compared_order"].sel(order=1).item()) == pytest.approx(0.3, rel=1e-3)
