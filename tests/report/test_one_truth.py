@@ -9,8 +9,9 @@ import pytest
 from sources_study import sources_run
 
 from vibroacoustics import report
+from vibroacoustics.base import rounding
 from vibroacoustics.base.ellipse import semi_major_axis
-from vibroacoustics.base.vocabulary import HIGH, LOW, NOMINAL, SUFFIXES
+from vibroacoustics.base.vocabulary import HIGH, LOW, NOMINAL, SUFFIXES, VARIABLES
 from vibroacoustics.report.bands import band
 from vibroacoustics.report.columns import COLUMNS
 from vibroacoustics.report.sections.comparison.tables import comparison_table
@@ -33,8 +34,13 @@ def results():
 
 
 @pytest.fixture(scope="module")
-def files(results):
-    return report.render(results)
+def analysis(results):
+    return report.analysis_of_study(results)
+
+
+@pytest.fixture(scope="module")
+def files(analysis):
+    return analysis.files()
 
 
 def rows_of(files, name):
@@ -56,6 +62,36 @@ def test_every_column_is_the_estimate_of_its_variable(results, files):
             got = [float(row[name.replace("__", "_")]) for name in names]
             assert got == pytest.approx(list(known), rel=ROUNDED, abs=1e-9), column.name
             assert f"{stem}{SUFFIXES[NOMINAL]}_{unit}" in row
+
+
+def test_numbers_of_json_are_estimates_and_read_as_their_text(results, analysis):
+    numbers = analysis.json()["numbers"]
+    assert len(numbers) > 20
+    for number in numbers:
+        known = estimate(results, number["variable"], **number["selection"])
+        assert number["value"] == known.value
+        if number["low"] is not None:
+            assert (number["low"], number["high"]) == (known.low, known.high)
+            assert number["statistic"] == VARIABLES[number["variable"]].statistic
+
+
+def test_columns_of_json_are_those_of_the_files(analysis, files):
+    tables = analysis.json()["tables"]
+    assert {f"{name}.csv" for name in tables} == {name for name in files if name.endswith(".csv")}
+    for name, columns in tables.items():
+        for row, values in zip(rows_of(files, f"{name}.csv"), zip(*columns.values(), strict=True),
+                               strict=True):  # fmt: skip
+            for cell, value in zip(row.values(), values, strict=True):
+                if isinstance(value, float) and np.isfinite(value):
+                    assert float(cell) == pytest.approx(value, rel=ROUNDED)
+
+
+def test_terminal_is_headed_by_the_first_screen(results, analysis):
+    """Value and interval of the total in the words of the page."""
+    lines = analysis.text().splitlines()
+    assert lines[0].startswith(first_screen.sentences(results)[0].split(" at ")[0])
+    total = band(results, "level_total", option="none", speed=nearest_speed(results))
+    assert total.middle_and_ends(rounding.level) in analysis.text()
 
 
 def test_sources_have_the_estimates_of_level_and_share(results, files):

@@ -8,6 +8,7 @@ import xarray as xr
 
 from ..base.vocabulary import NOMINAL, VARIABLES
 from .estimates import Estimate, estimate, has_samples, is_sampled
+from .titles import option_names
 
 VALUE: Final = "value"
 """Statistic of what no samples were computed of: measured and derived values."""
@@ -22,7 +23,7 @@ class Number:
     value : in the unit
     unit : empty for a pure number
     variable : name in the vocabulary
-    selection : label of each dimension of the variable
+    selection : label of each dimension of the variable; of options their names, not titles
     statistic : value, nominal, or the median or mean of samples
     low, high : ends of its interval; None for none
     text : rounded, with the interval where it is printed
@@ -70,11 +71,14 @@ def number(
     value_with_ends = estimate(results, variable, **selection)
     sampled = is_sampled(results, variable)
     unsampled = NOMINAL if has_samples(results) else VALUE
+    at = {str(dim): _plain(selection[str(dim)]) for dim in results[variable].dims}
+    if "option" in at:
+        at["option"] = option_names(results).get(str(at["option"]), at["option"])
     return Number(
         value=value_with_ends.value,
         unit=unit or str(results[variable].attrs.get("units", "")),
         variable=variable,
-        selection={str(dim): _plain(selection[str(dim)]) for dim in results[variable].dims},
+        selection=at,
         statistic=VARIABLES[variable].statistic if sampled else unsampled,
         low=value_with_ends.low if sampled else None,
         high=value_with_ends.high if sampled else None,

@@ -7,11 +7,18 @@ import xarray as xr
 
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
+from ..base.remembered import remembered
 
 
 def option_titles(results: xr.Dataset) -> dict[str, str]:
     """Titles of options by their names; none of results without."""
     return dict(_titles(results).get("options", {}))
+
+
+@remembered
+def option_names(results: xr.Dataset) -> dict[str, str]:
+    """Names of options by their titles; none of results without."""
+    return {title: name for name, title in option_titles(results).items()}
 
 
 def titled(results: xr.Dataset) -> xr.Dataset:

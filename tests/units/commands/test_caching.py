@@ -148,7 +148,7 @@ def test_a_file_of_an_older_run_is_named_by_readers(results, tmp_path):
 def test_a_report_that_fails_leaves_the_older_run(results, tmp_path, monkeypatch):
     write_report(results, tmp_path)
     before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
-    monkeypatch.setattr("vibroacoustics.report.study.comparison_data", lambda _: 1 / 0)
+    monkeypatch.setattr("vibroacoustics.report.study.terminal_blocks", lambda _: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         write_report(results.assign_attrs(title="another"), tmp_path)
     assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before

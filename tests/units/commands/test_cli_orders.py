@@ -172,6 +172,7 @@ def test_orders_and_comparison_with_limits(recording: Path, tmp_path: Path) -> N
     outcome = command_here(*to, "--limits", limits)
     assert outcome.returncode == 1, outcome.stderr
     assert "1 of 2 orders exceeds its limit, the worst by 0.5 dB: order 1 of sh" in outcome.stdout
+    assert (out / "orders_limits.csv").is_file()
     with (out / "orders_limits.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [(row["channel"], row["within"]) for row in rows] == [

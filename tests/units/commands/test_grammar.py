@@ -4,6 +4,7 @@ import csv
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -176,12 +177,26 @@ def test_json_and_quiet(name: str, inputs: Path, tmp_path: Path) -> None:
         if label.endswith(".csv"):
             head = next(csv.reader(path.read_text(encoding="utf-8").splitlines()))
             assert list(envelope["tables"][label.removesuffix(".csv")]) == head
+    check_numbers(envelope["numbers"], files.get("results", Path()))
     if log:
         assert (tmp_path / "log.txt").read_text()
     again = tmp_path / "again" if name == "new" else tmp_path / "out"
     outcome = command_here(*words_of(name, inputs, again), "--quiet")
     assert (outcome.returncode, outcome.stdout) == (0, "")
     assert all(line.startswith("warning: ") for line in outcome.stderr.splitlines())
+
+
+def check_numbers(numbers: list[dict[str, Any]], file: Path) -> None:
+    """Each number is the value of its variable in the dataset beside it."""
+    if file.suffix != ".nc":
+        return
+    results = va.open_results(file)
+    for number in numbers:
+        variable, selection = number["variable"], number["selection"]
+        if variable in results and set(results[variable].dims) == set(selection):
+            value = results[variable].sel(selection).item()
+            shown = np.nan if number["value"] is None else number["value"]
+            assert shown == pytest.approx(value, rel=1e-12, nan_ok=True), number
 
 
 @pytest.mark.parametrize("name", sorted(set(COMMANDS) - {"new", "cache", "doctor", "schema"}))

@@ -147,7 +147,7 @@ def test_score_writes_a_report(tmp_path: Path) -> None:
     assert "added_mass_kg" in (scored / "scores.csv").read_text().splitlines()[0]
     again = command_here("score", scored / "results.nc", "--out", tmp_path / "again")
     assert again.returncode == 0, again.stderr
-    assert again.stdout.splitlines()[:-1] == outcome.stdout.splitlines()[:-1]
+    assert again.stdout.splitlines()[:-2] == outcome.stdout.splitlines()[:-2]
     assert (tmp_path / "again" / "scores.csv").read_bytes() == (scored / "scores.csv").read_bytes()
 
 
