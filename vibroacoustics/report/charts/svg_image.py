@@ -104,7 +104,7 @@ def colour_bar(mark: Image, box: Box) -> str:
     ticks = "".join(
         words(
             left + width + 4.0,
-            box.y + box.height * (1.0 - (value - low) / (high - low)) + 4.0,
+            box.y + box.height * (1.0 - (value - low) / ((high - low) or 1.0)) + 4.0,
             word,
         )
         for value, word in round_ticks(low, high, most=5)
