@@ -71,14 +71,15 @@ def number(
     value_with_ends = estimate(results, variable, **selection)
     sampled = is_sampled(results, variable)
     unsampled = NOMINAL if has_samples(results) else VALUE
-    at = {str(dim): _plain(selection[str(dim)]) for dim in results[variable].dims}
-    if "option" in at:
-        at["option"] = option_names(results).get(str(at["option"]), at["option"])
+    labels = {str(dim): _plain(selection[str(dim)]) for dim in results[variable].dims}
+    if "option" in labels:
+        option = labels["option"]
+        labels["option"] = option_names(results).get(str(option), option)
     return Number(
         value=value_with_ends.value,
         unit=unit or str(results[variable].attrs.get("units", "")),
         variable=variable,
-        selection=at,
+        selection=labels,
         statistic=VARIABLES[variable].statistic if sampled else unsampled,
         low=value_with_ends.low if sampled else None,
         high=value_with_ends.high if sampled else None,
