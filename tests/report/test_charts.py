@@ -179,3 +179,11 @@ def test_long_lines_keep_their_extremes():
     assert len(points) < 1000
     frame = frame_of(drawn.panels[0], layout(drawn).boxes[0])
     assert points[:, 1].min() == pytest.approx(frame.points([0.0], [3.0])[0, 1], abs=0.06)
+
+
+def test_an_image_of_equal_values_has_a_scale():
+    image = Image([1.0, 2.0], [1.0, 2.0], np.full((2, 2), 30.0), (30.0, 30.0), "dB")
+    drawn = chart(image, x=Axis("x"), y=Axis("y"))
+    assert image.ends == (29.5, 30.5)
+    assert b">30.0</text>" in svg(drawn)
+    assert figure(drawn).axes[0].collections[0].get_clim() == (29.5, 30.5)

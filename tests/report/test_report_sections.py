@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 import xarray as xr
 from pages import comparison_text, page_of
+from support import ROOT
 from test_report import make_results
 from test_report_unknowns import with_unknowns
 
+from vibroacoustics.commands.outputs import REPORT_FILES
 from vibroacoustics.report import blocks, render
 from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.charts.marks import Axis, Chart, Line, Panel
@@ -162,9 +164,20 @@ def test_a_chart_of_intervals_is_drawn_to_its_scale() -> None:
 
 
 def test_what_is_no_block_is_refused() -> None:
+    chart = {"name": "a", "alt": "", "caption": "", "panels": []}
+    with pytest.raises(ValueError, match="a chart where a finished picture is expected"):
+        blocks.from_json(json.dumps([{"block": "pictures", "pictures": [chart]}]))
     for wrong in ("words", [blocks.Text(3)], [Table("c", ("a",), ((1,),))]):  # type: ignore[arg-type]
         with pytest.raises(ValueError, match="validation error"):
             blocks.to_json(wrong)  # type: ignore[arg-type]
+
+
+def test_files_of_sections_belong_to_the_report() -> None:
+    """`report` warns of older ones beside it, so it knows their names."""
+    folder = ROOT / "vibroacoustics" / "report" / "sections"
+    texts = [file.read_text("utf-8") for file in folder.rglob("*.py")]
+    names = {name for text in texts for name in re.findall(r'"(\w+\.csv)"', text)}
+    assert {"inputs.csv", "uncertainty.csv"} <= names <= set(REPORT_FILES)
 
 
 def test_sections_are_in_their_order() -> None:

@@ -23,13 +23,33 @@ RESULTS_NAME: Final = "results.nc"
 REPORT_NAME: Final = "report.html"
 REPORT_FILES: Final = (
     REPORT_NAME,
-    "comparison.csv",
-    "comparison.md",
-    "scores.csv",
-    "sources.csv",
-    "paths.csv",
-    "speeds.csv",
     "report.pdf",
+    "comparison.md",
+    *(
+        f"{table}.csv"
+        for table in (
+            "comparison",
+            "conflict",
+            "evidence",
+            "feet",
+            "figures",
+            "inputs",
+            "path_bands",
+            "path_motions",
+            "path_orders",
+            "paths",
+            "provenance",
+            "room",
+            "scores",
+            "scoring",
+            "sources",
+            "speeds",
+            "stopping",
+            "structure_borne",
+            "tones",
+            "uncertainty",
+        )
+    ),
     "figures/*.png",
     "figures/*.svg",
 )

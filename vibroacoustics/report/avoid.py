@@ -80,7 +80,7 @@ def _words(one: Avoided) -> tuple[str, str, str, str]:
 
 
 def recorded_avoid_table(channel: str, ranges: Sequence[Range]) -> Table | None:
-    """Of a recording; none for none."""
+    """Return the speed ranges to avoid of a recorded channel as a table; None without any."""
     if not ranges:
         return None
     rows = tuple(
@@ -137,7 +137,7 @@ def _ends(span: Range) -> str:
 
 
 def _share(results: xr.Dataset, one: Avoided) -> str:
-    """Of the modelled energy in the total's; none of a force."""
+    """Return the share of the modelled energy in the total; a dash for a force."""
     if one.quantity != LEVEL:
         return rounding.NOTHING
     at = {"option": one.option, "receiver": catalogue_receiver(results),

@@ -119,11 +119,6 @@ def written(value: Estimate, effective: float, finest: float | None = None) -> B
     return Band(*value, (low, middle, high))
 
 
-def bands_by_speed(results: xr.Dataset, name: str, **at: Any) -> tuple[Band, ...]:
-    """Return the bands of a variable at every speed, at an option and a receiver."""
-    return tuple(band(results, name, speed=speed, **at) for speed in results["speed"].values)
-
-
 def hull(bands: Sequence[Band]) -> Band:
     """Lowest and highest of the ends of several bands; those that are not numbers do not count."""
     finite = [band for band in bands if np.isfinite([band.lowest, band.highest]).all()] or bands

@@ -253,7 +253,10 @@ def from_json(text: str) -> tuple[Block, ...]:
     ValueError
         The text is no JSON of blocks.
     """
-    return _adapter().validate_json(text)
+    blocks = _adapter().validate_json(text)
+    if next(charts(blocks), None) is not None:
+        raise ValueError("a chart where a finished picture is expected")
+    return blocks
 
 
 def pictures(blocks: Sequence[Block]) -> Iterator[Picture]:

@@ -7,8 +7,6 @@ from ..base import rounding
 
 NO_BREAK: Final = "\u00a0"
 
-TOLERANCE_DB: Final = 0.05
-"""Smaller changes read as none."""
 
 HEARD_DB: Final = 1.0
 """A change of the total below about 1 dB is not heard, even side by side."""

@@ -125,10 +125,6 @@ def _changes(
     return tuple(written(one, effective, 100.0 * FINEST_RATIO) for one in ratios), gain_db
 
 
-def _in_percent(change_db: float) -> float:
-    return 100.0 * (amplitude_of_level(change_db) - 1.0)
-
-
 def extent(shifts: Sequence[Shift]) -> Band:
     """Band of a change over the speeds and microphones of shifts of one quantity."""
     return hull([band for shifted in shifts for band in shifted.bands])

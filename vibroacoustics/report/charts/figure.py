@@ -169,7 +169,7 @@ def _bars(mark: Bars, on: _Axes, look: Look) -> Any:
 @_mark.register
 def _image(mark: Image, on: _Axes, look: Look) -> None:
     x, y, values = map(numbers, (mark.x, mark.y, mark.values))
-    axes, (low, high) = on.axes, mark.scale
+    axes, (low, high) = on.axes, mark.ends
     axes.grid(visible=False)
     axes.set_facecolor(f"#{BLANK}")
     mesh = axes.pcolormesh(x, y, values, vmin=low, vmax=high, shading="nearest", rasterized=True)

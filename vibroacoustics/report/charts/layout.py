@@ -209,7 +209,7 @@ def _ends(low: float, high: float, logarithmic: bool) -> tuple[float, float]:
 def round_ticks(low: float, high: float, integer: bool = False, most: int = 7) -> Ticks:
     """Return round numbers within a range, with their words."""
     low, high = min(low, high), max(low, high)
-    rough = ((high - low) or abs(high) or 1.0) / most
+    rough = (high - low) / most
     power = 10.0 ** np.floor(np.log10(rough))
     step = next(power * digit for digit in _STEPS if power * digit >= rough * (1.0 - 1e-9))
     step = max(1.0, float(np.ceil(step))) if integer else step

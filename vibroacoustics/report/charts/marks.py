@@ -116,6 +116,12 @@ class Image:
     label: str
     contours: tuple[float, ...] = ()
 
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Ends of the scale, apart where all values are equal."""
+        low, high = self.scale
+        return (low, high) if high > low else (low - 0.5, low + 0.5)
+
 
 @dataclass(frozen=True, eq=False)
 class Segments:

@@ -9,7 +9,7 @@ import xarray as xr
 
 from ...base.errors import ParameterError
 from ...base.vocabulary import VARIABLES
-from ..titles import titled
+from ...results.titles import titled
 from .marks import Chart
 
 if TYPE_CHECKING:

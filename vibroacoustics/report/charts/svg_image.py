@@ -17,9 +17,9 @@ def image(mark: Image, frame: Frame) -> str:
     """Return the colours and contours of an image within its axes."""
     from PIL import Image as Raster
 
-    low, high = mark.scale
+    low, high = mark.ends
     grid = _resampled(mark, frame)
-    share = np.clip((grid - low) / max(high - low, 1e-30), 0.0, 1.0)
+    share = np.clip((grid - low) / (high - low), 0.0, 1.0)
     index = np.where(np.isfinite(grid), np.round(np.nan_to_num(share) * 254.0), 255.0)
     raster = Raster.fromarray(index.astype(np.uint8), "P")
     raster.putpalette(PALETTE)
@@ -91,7 +91,7 @@ def _contours(mark: Image, frame: Frame) -> str:
 
 def colour_bar(mark: Image, box: Box) -> str:
     """Return the scale of the colours at the right of the axes."""
-    low, high = mark.scale
+    low, high = mark.ends
     left, width = box.x + box.width + 9.0, 11.0
     count = 32
     each = box.height / count
@@ -104,7 +104,7 @@ def colour_bar(mark: Image, box: Box) -> str:
     ticks = "".join(
         words(
             left + width + 4.0,
-            box.y + box.height * (1.0 - (value - low) / ((high - low) or 1.0)) + 4.0,
+            box.y + box.height * (1.0 - (value - low) / (high - low)) + 4.0,
             word,
         )
         for value, word in round_ticks(low, high, most=5)

@@ -1,7 +1,6 @@
 """A study beside recordings in the form of ASME V&V 20: error and validation uncertainty."""
 
 from collections.abc import Iterator
-from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -15,8 +14,6 @@ from ...results.validation import Validation
 from ..order_tables import shown_speeds
 from .levels import levels_at
 from .orders import known_channels, loud_orders
-
-FORCE_1X: Final = "force "
 
 
 def is_study(result: xr.Dataset) -> bool:

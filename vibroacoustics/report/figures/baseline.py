@@ -4,12 +4,12 @@ import xarray as xr
 
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results.stored_study import options, speeds
+from ...results.titles import chosen
 from ..charts.axes import stacked
 from ..charts.layout import wrapped
 from ..charts.marks import Axis, Chart, Panel, frequency_axis, lines
 from ..charts.needs import needs
 from ..shown_speeds import few_speeds
-from ..titles import chosen
 
 
 @needs("baseline_band_level")

@@ -12,11 +12,11 @@ from ...results.over_speed.avoid import LEVEL, speeds_to_avoid
 from ...results.over_speed.modes import KINDS, Crossing, Mode, crossings, modes_of
 from ...results.over_speed.sound_lines import SoundLine, loudest_lines
 from ...results.stored_study import catalogue_receiver
+from ...results.titles import chosen
 from ..charts.axes import stacked
 from ..charts.layout import COLOURS, shortened
 from ..charts.marks import Axis, Chart, Line, Mark, Note, Panel, Points, Segments
 from ..charts.needs import needs
-from ..titles import chosen
 from .levels_over_speed import SHADED, spans
 
 LOUD_DB: Final = 10.0

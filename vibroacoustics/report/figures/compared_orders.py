@@ -7,12 +7,12 @@ import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array
+from ...results.titles import chosen
 from ..charts.axes import amplitude_axis, stacked
 from ..charts.layout import COLOURS, shortened
 from ..charts.marks import Axis, Chart, Panel, Points, Segments
 from ..charts.needs import needs
 from ..file_names import numbered
-from ..titles import chosen
 
 _MOST_PANELS: Final = 4
 _MOST_CHANNELS: Final = 6

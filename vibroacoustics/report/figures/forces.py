@@ -4,10 +4,10 @@ import numpy as np
 import xarray as xr
 
 from ...results.stored_study import options, speeds, words
+from ...results.titles import chosen
 from ..charts.layout import wrapped
 from ..charts.marks import Axis, Chart, Panel, lines
 from ..charts.needs import needs
-from ..titles import chosen
 
 
 @needs("force", from_="`run` (above 100 speeds with operation.keep_time_series)")

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ...results.stored_study import parameters
+from ...results.titles import chosen
 from ..charts.layout import shortened
 from ..charts.marks import (
     Area,
@@ -22,7 +23,6 @@ from ..charts.marks import (
     frequency_axis,
 )
 from ..charts.needs import needs
-from ..titles import chosen
 
 
 @needs("room_map_level", from_="`run` of a study with a table room")

@@ -18,13 +18,13 @@ from ...results.over_speed.level_curves import (
     source_curves,
 )
 from ...results.stored_study import catalogue_receiver
+from ...results.titles import chosen, titled
 from ..bands import INTERVAL
 from ..charts.axes import stacked
 from ..charts.layout import shortened, wrapped
 from ..charts.marks import Axis, Chart, Line, Mark, Panel, Span
 from ..charts.needs import needs
 from ..file_names import numbered
-from ..titles import chosen, titled
 
 FEW_POINTS: Final = 12
 """Points of a line that have a marker each."""

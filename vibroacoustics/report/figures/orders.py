@@ -9,11 +9,11 @@ from ...base import rounding
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results.stored_study import catalogue_receiver, options
+from ...results.titles import chosen
 from ..charts.layout import wrapped
 from ..charts.marks import Axis, Chart, Panel, Points, named_axis
 from ..charts.needs import needs
 from ..shown_speeds import few_speeds
-from ..titles import chosen
 
 HIGHEST_ORDER: Final = 4
 """Highest order of forces that is shown: that of the balance of masses."""

@@ -5,12 +5,12 @@ import xarray as xr
 
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results.stored_study import catalogue_receiver
+from ...results.titles import chosen
 from ..charts.layout import COLOURS, wrapped
 from ..charts.marks import Axis, Bars, Chart, Panel, named_axis
 from ..charts.needs import needs
 from ..file_names import numbered
 from ..sections.paths.tables import at_path_speed, foot_forces, leading, path_speed, path_words
-from ..titles import chosen
 
 
 @needs("path_share")

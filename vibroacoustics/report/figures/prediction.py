@@ -3,12 +3,12 @@
 import xarray as xr
 
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.titles import chosen
 from ..charts.axes import level_axis, stacked
 from ..charts.layout import COLOURS, shortened
 from ..charts.marks import Axis, Chart, Line, Panel
 from ..charts.needs import needs
 from ..file_names import numbered
-from ..titles import chosen
 
 
 @needs("predicted_level", "predicted_level_low", from_="`predict`, command `predict`")

@@ -8,6 +8,7 @@ import xarray as xr
 from ...base import rounding
 from ...results.estimates import has_samples
 from ...results.stored_study import catalogue_receiver, options, speeds
+from ...results.titles import chosen
 from ..charts.layout import COLOURS, wrapped
 from ..charts.marks import (
     Axis,
@@ -25,7 +26,6 @@ from ..file_names import file_name
 from ..kwave_words import computed_by_kwave, kwave_to_hz
 from ..sections.comparison.tables import comparison
 from ..shown_speeds import few_speeds
-from ..titles import chosen
 from .first_order import first_order_mark, first_order_words
 
 NEGLIGIBLE: Final = 1e-4

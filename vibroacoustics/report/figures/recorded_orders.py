@@ -7,13 +7,13 @@ import xarray as xr
 
 from ...results.map_levels import map_level
 from ...results.over_speed.level_curves import is_run_up
+from ...results.titles import chosen
 from ..charts.axes import amplitude_axis
 from ..charts.layout import COLOURS, shortened
 from ..charts.marks import Axis, Chart, Image, Panel, Segments, lines
 from ..charts.marks import Line as Curve
 from ..charts.needs import needs
 from ..file_names import numbered
-from ..titles import chosen
 from .levels_over_speed import levels_over_speed
 from .orders_over_speed import orders_over_speed
 from .speed_maps import speed_frequency_map

@@ -4,9 +4,9 @@ import xarray as xr
 
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results.stored_study import catalogue_receiver
+from ...results.titles import chosen
 from ..charts.marks import Axis, Chart, Image, Line, Panel
 from ..charts.needs import needs
-from ..titles import chosen
 from .stacked import DEPTH_DB, part_colours
 
 

@@ -18,12 +18,12 @@ from ...results.stored_study import (
     source_name,
     speeds,
 )
+from ...results.titles import chosen
 from ..charts.layout import wrapped
 from ..charts.marks import Axis, Chart, Panel, frequency_axis, lines
 from ..charts.needs import needs
 from ..quantities import HEARD_DB
 from ..shown_speeds import few_speeds
-from ..titles import chosen
 
 QUIETEST_DB: Final = -10.0
 """Levels below are not drawn."""

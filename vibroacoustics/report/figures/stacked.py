@@ -11,11 +11,11 @@ from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_power
 from ...base.units import shaft_frequency_hz
 from ...results.stored_study import catalogue_receiver, source_name
+from ...results.titles import chosen
 from ..charts.layout import COLOURS
 from ..charts.marks import Axis, Bars, Chart, Panel
 from ..charts.needs import needs
 from ..sections.sources.words import UNMODELLED
-from ..titles import chosen
 
 DEPTH_DB: Final = 40.0
 """From the highest bar down to the foot of all."""

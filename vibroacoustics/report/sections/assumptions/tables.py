@@ -177,7 +177,7 @@ def discrepancy_sentence(results: xr.Dataset) -> str:
     return (
         f"Standard deviations of each sample from the model: {path} common to all sources, "
         f"{source} of each source, {band_db} of each third octave of a source, {added} of what an "
-        "option adds. They are the same for all options, speeds and microphones, and judgement."
+        "option adds. They are assumed, the same for all options, speeds and microphones."
     )
 
 

@@ -26,17 +26,17 @@ _RELATIONS: Final = (
 )
 """Words from a cosine on."""
 LEAST: Final = 0.005
-"""Smaller shares are not told in words."""
+"""Smaller shares are omitted in sentences."""
 _KINDS: Final = {"f": "force along", "m": "moment about"}
 
 
 def has_paths(results: xr.Dataset) -> bool:
-    """Whether the results tell paths apart and any of them sounds."""
+    """Return whether the results hold transfer paths with sound."""
     return "path_share" in results and bool(results["path_share"].any())
 
 
 def has_motions(results: xr.Dataset) -> bool:
-    """Whether what radiates tells more than the paths do: of several sources, or of modes."""
+    """Return whether motions differ from paths: several sources, or modes of the shell."""
     sources = set(results["path_source"].values.tolist())
     return len(sources) > 1 or results.sizes["radiating_motion"] > len(DOF_WORDS)
 
@@ -252,26 +252,6 @@ def foot_orders(results: xr.Dataset, speed: float) -> list[int]:
 def foot_forces(results: xr.Dataset, speed: float) -> xr.DataArray:
     """Complex peaks without a balancer, over source, foot, axis and order, N."""
     return _forces(results, speed, foot_orders(results, speed))
-
-
-def foot_table(results: xr.Dataset, speed: float) -> Table:
-    """Peak force of each foot along each axis, and of what presses it most by itself."""
-    forces = foot_forces(results, speed)
-    rows = [
-        (
-            str(foot).replace("_", " "),
-            str(axis),
-            *(cell for order in there["order"].values for cell in _cells(there.sel(order=order))),
-        )
-        for foot in forces["foot"].values
-        for axis in forces["axis"].values
-        for there in [forces.sel(foot=foot, axis=axis)]
-    ]
-    orders = forces["order"].values
-    head = [text for order in orders for text in (f"{order:g}×, N", f"{order:g}×, largest part")]
-    words = frozenset({0, 1, *range(3, 2 + len(head), 2)})
-    caption = f"{speed:g} rpm, option {REFERENCE_OPTION}: force into each foot, peak"
-    return Table(caption, ("Foot", "along", *head), tuple(rows), words)
 
 
 def _forces(results: xr.Dataset, speed: float, orders: list[int]) -> xr.DataArray:

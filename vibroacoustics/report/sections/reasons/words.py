@@ -27,7 +27,7 @@ from ..baseline.tables import not_measured
 from ..comparison.tables import comparison
 
 _HALF: Final = 0.5
-"""Of the energy of the total level, from which on it is not called measured."""
+"""Share of the modelled energy in the total from which on the level is not called measured."""
 
 
 def reasons(results: xr.Dataset) -> list[str]:
@@ -106,10 +106,10 @@ def _remainder(results: xr.Dataset) -> str:
     gap = _total_dba(results) - modelled
     carried = (
         f"all shaft orders together reach at most {rounding.level(modelled)} dB(A) at {receiver}, "
-        f"whatever the option: {rounding.fixed(gap)} dB below the level of the whole machine"
+        f"whatever the option: {rounding.fixed(gap)} dB below the level of the machine"
         if gap > 0.0
         else f"the shaft orders reach {rounding.level(modelled)} dB(A) at {receiver} with some "
-        "option, above the level of the whole machine"
+        "option, above the level of the machine"
     )
     speed = measured_rpm(results)
     if speed is not None:
@@ -131,7 +131,7 @@ def _remainder(results: xr.Dataset) -> str:
 
 
 def _total_dba(results: xr.Dataset) -> float:
-    """As it was measured, else as it is published, else as it is modelled."""
+    """Return the measured level, else the published one, else the modelled one, dB(A)."""
     speed = measured_rpm(results)
     if speed is None:
         return quoted_dba(results)
