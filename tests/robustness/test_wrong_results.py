@@ -46,7 +46,6 @@ POSITIVE: Final = {
 }  # fmt: skip
 """Numbers without which nothing can be drawn."""
 both = pytest.mark.parametrize("name", RUNS)
-laid_out = pytest.mark.usefixtures("laid_out")
 both_at_length = pytest.mark.parametrize(
     "name", ["rigid", pytest.param("sources", marks=pytest.mark.long)]
 )
@@ -214,7 +213,6 @@ def test_a_variable_or_coordinate_holds_other_things(name: str, step: int) -> No
             assert_no_run(changed)
 
 
-@laid_out
 @pytest.mark.parametrize(
     ("name", "value"),
     [("rigid", np.nan), ("rigid", 0.0), ("rigid", 1e300), ("sources", np.nan),
@@ -230,7 +228,6 @@ def test_all_that_may_be_so_holds_one_value(name: str, value: float, tmp_path: P
     refused_or_made(results, tmp_path)
 
 
-@laid_out
 @pytest.mark.parametrize("value", [0.0, pytest.param(1e29, marks=pytest.mark.long)])
 @pytest.mark.parametrize("key", ["force_amplitude", "transfer_vector", "natural_frequency"])
 @pytest.mark.long

@@ -48,8 +48,8 @@ def test_stamp_keeps_further_attributes():
 
 
 def test_stamp_refuses_unknown_names_and_shapes():
-    with pytest.raises(SchemaError, match="loudness is not in the vocabulary"):
-        stamp("loudness", 1.0)
+    with pytest.raises(SchemaError, match="roughness is not in the vocabulary"):
+        stamp("roughness", 1.0)
     with pytest.raises(SchemaError, match=r"natural_frequency: has 2 dimensions"):
         stamp("natural_frequency", np.zeros((2, 2)))
 
@@ -124,14 +124,14 @@ def _registries(monkeypatch):
 
 @pytest.mark.usefixtures("_registries")
 def test_a_strangers_variable_and_coordinate():
-    register(Coordinate("loudness_band", ("loudness_band",), "Bark", "critical band"))
-    register(Variable("loudness", ("loudness_band",), "sone Bark-1", "specific loudness"))
-    coords = {"loudness_band": [0.5, 1.5]}
-    dataset = check(xr.Dataset({"loudness": stamp("loudness", [1.0, 2.0], coords)}))
-    assert label_coordinates(dataset)["loudness_band"].attrs["units"] == "Bark"
-    assert VARIABLES.origin("loudness").file == "test_vocabulary.py"
-    with pytest.raises(SchemaError, match=r"variable loudnes is not .*, did you mean loudness\?"):
-        stamp("loudnes", [1.0, 2.0])
+    register(Coordinate("roughness_band", ("roughness_band",), "Bark", "critical band"))
+    register(Variable("roughness", ("roughness_band",), "asper Bark-1", "specific roughness"))
+    coords = {"roughness_band": [0.5, 1.5]}
+    dataset = check(xr.Dataset({"roughness": stamp("roughness", [1.0, 2.0], coords)}))
+    assert label_coordinates(dataset)["roughness_band"].attrs["units"] == "Bark"
+    assert VARIABLES.origin("roughness").file == "test_vocabulary.py"
+    with pytest.raises(SchemaError, match=r"variable roughnes is not .*, did you mean roughness\?"):
+        stamp("roughnes", [1.0, 2.0])
 
 
 @pytest.mark.usefixtures("_registries")
@@ -145,10 +145,10 @@ def test_name_of_a_built_in_one_is_refused(noun):
 @pytest.mark.parametrize(
     ("dims", "units", "message"),
     [
-        ("speed", "N", "loudness: dims = 'speed': must be a tuple of names"),
-        (("speed",), "m/s²", "loudness: 'm/s²': must be text in ASCII"),
+        ("speed", "N", "roughness: dims = 'speed': must be a tuple of names"),
+        (("speed",), "m/s²", "roughness: 'm/s²': must be text in ASCII"),
     ],
 )
 def test_malformed_variable_is_refused(dims, units, message):
     with pytest.raises(SchemaError, match=message):
-        Variable("loudness", dims, units, "mine")
+        Variable("roughness", dims, units, "mine")

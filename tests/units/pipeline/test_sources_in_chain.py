@@ -480,6 +480,7 @@ def test_sources_do_not_change_the_moving_parts(results, without):
     heard |= {"first_place_share", "noise_band_level", "unmodelled_band_level", "residual_level"}
     heard |= {"total_band_level", "unmodelled_share", "loudness", "sharpness"}
     heard |= {"increase_probability", "decrease_probability", "sources_band_level"}
+    heard |= {"evidence_simulation", "evidence_inputs"}
     heard |= {name for name in map(str, without.data_vars) if "tone_" in name}
     shown = ("run_up_", "polar_", "deflection", "line_energy", "band_energy", "section_force")
     heard |= {name for name in map(str, without.data_vars) if name.startswith(shown)}
