@@ -28,7 +28,9 @@ from vibroacoustics.commands import messages, outputs
 from vibroacoustics.design.evaluation import Evaluation
 from vibroacoustics.design.store.chunks import opened_store
 from vibroacoustics.pipeline.study import run as run_study
-from vibroacoustics.report.figures import Picture
+from vibroacoustics.report.analysis import Analysis
+from vibroacoustics.report.blocks import Part, Pictures
+from vibroacoustics.report.charts.picture import Picture
 from vibroacoustics.results import cache, manifest, storage
 
 LONGEST_S: Final = 100.0
@@ -110,8 +112,11 @@ Plant = Callable[[Path, Path], None]
 
 def write_run(ground: Ground) -> None:
     """A dataset, a table and a figure, as each command writes them."""
-    pictures = [Picture("figures/a", "a", "a figure", b"figure")]
-    outputs.write_analysis(DATA, ground.folder, "results.nc", {"a.csv": b"a"}, lambda _: pictures)
+    picture = Picture("a", "a", "a figure", b"figure")
+    part = Part("a", "A", (Pictures((picture,)),))
+    table = {"a.csv": {"a": [1.0]}}
+    analysis = Analysis("a", "A", "a", "", "", (part,), tables=table, figures="figures/")
+    outputs.write_analysis(analysis, DATA, ground.folder, "results.nc")
 
 
 def look(ground: Ground) -> None:
