@@ -31,6 +31,7 @@ from .remainder import OF_THE_REMAINDER, OverallNoise, Remainder
 from .shell import Shell
 from .speed_growth import Growth
 from .suspension import BLOCK, Suspension
+from .usual import Usual, of_density, of_mounts
 
 PART_MASS = Field(gt=0.0, le=100.0)
 
@@ -130,6 +131,15 @@ class Machine(KindOfParameters):
         reason = self.floor_mobility and self.floor_mobility.why_not_under(feet)
         if reason:
             yield f"floor_mobility: {reason}"
+
+    def usual(self) -> Iterable[Usual]:
+        """Ranges that other values set, beside those of `usual.toml`; outside it is doubted."""
+        yield of_density(self)
+        yield from of_mounts(self)
+
+    def doubts(self) -> Iterable[str]:
+        """What is hardly right otherwise, with the dotted name of the value, a line each."""
+        return ()
 
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:
         """One steady revolution: force and moment of the moving parts by source.

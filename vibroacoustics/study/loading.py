@@ -24,6 +24,7 @@ from .machine_file import (
     read_redesign,
     take_changes,
 )
+from .plausible import warn_of_doubts
 from .ranges import is_used, ranges_of, tables_used
 from .reader import Reader
 from .samples import warn_of_contradictions
@@ -119,7 +120,7 @@ def _study_of(written: Written) -> Study:
     if machine.overall_noise is None and isinstance(content.get("receivers"), dict):
         content.setdefault("catalogue_receiver", next(iter(content["receivers"]), ""))
     content["catalogue_machine"] = at_catalogue
-    for name, (redesigned, change_records) in redesigns.items():
+    for name, (redesigned, _, change_records) in redesigns.items():
         content["options"][name]["machine"] = (
             redesigned if plate is None else plate.under(redesigned)
         )
@@ -134,6 +135,9 @@ def _study_of(written: Written) -> Study:
     ranges, held = ranges_of(machine, machine_records, content, machine_reader)
     content.update(ranges=ranges, held_ranges=held)
     study = validated(Study, content, reader).remember(written, study_of)
+    warn_of_doubts(machine, machine_reader, reader)
+    for redesigned, redesigned_reader, _ in redesigns.values():
+        warn_of_doubts(redesigned, redesigned_reader)
     warn_of_contradictions(study)
     return study
 
@@ -157,8 +161,14 @@ def load_machine(path: str | Path) -> Machine:
     """
     path = Path(path)
     for point in operating_points(path):  # refused here, not where a study first names them
-        read_machine(path, {}, Reader(path, {}), point)
-    return read_machine(path, {}, Reader(path, {}))[0]
+        _machine_alone(path, point)
+    return _machine_alone(path, None)
+
+
+def _machine_alone(path: Path, point: str | None) -> Machine:
+    machine, reader = read_machine(path, {}, Reader(path, {}), point)
+    warn_of_doubts(machine, reader)
+    return machine
 
 
 FILLED_IN: Final = (

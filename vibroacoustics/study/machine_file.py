@@ -134,17 +134,21 @@ def read_redesign(
     study: Reader,
     point: str | None = None,
     without: Iterable[str] = (),
-) -> tuple[Machine, list[ParameterRecord]]:
-    """The changed machine, and the records of the change, which is the last one."""
+) -> tuple[Machine, Reader, list[ParameterRecord]]:
+    """The changed machine, its reader, and the records of the change, which is the last one."""
     machine, reader = read_machine(path, changes, study, point, without)
     prefix = list(changes)[-1]
     changed = {".".join(keys) for keys in leaves(changes[prefix])}
     dotted = ".".join(prefix)
-    return machine, [
-        record.model_copy(update={"field": f"{dotted}.{record.field}"})
-        for record in reader.records
-        if record.field in changed
-    ]
+    return (
+        machine,
+        reader,
+        [
+            record.model_copy(update={"field": f"{dotted}.{record.field}"})
+            for record in reader.records
+            if record.field in changed
+        ],
+    )
 
 
 def _apply(

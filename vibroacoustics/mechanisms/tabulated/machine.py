@@ -1,12 +1,16 @@
 """A machine described by a table of its forces, with what options may work on."""
 
+from collections.abc import Iterable
 from typing import ClassVar, Final
 
+import numpy as np
 from pydantic import Field
 
 from ...base.parameters import Contradictions, Parameters
 from ...base.registry import register
+from ...base.units import shaft_frequency_hz
 from ...machine.machine import PART_MASS, Machine
+from ...machine.usual import doubt_of_forces
 from ...mechanics.capabilities import (
     HEIGHT,
     BalancePlanes,
@@ -64,6 +68,14 @@ class TabulatedMachine(Machine):
     def contradictions(self) -> Contradictions:
         if self.sliding_mass is not None and self.counterweights is None:
             yield "sliding_mass: needs the table counterweights"
+
+    def doubts(self) -> Iterable[str]:
+        """Forces at the table's highest speed, against mass and speed of the machine."""
+        speed_rpm = max(self.forces.speed_rpm)
+        first = self.forces.at(speed_rpm).sum(axis=0)[:3, 1]
+        force = float(np.linalg.norm(first))
+        if words := doubt_of_forces(self, force, 2.0 * np.pi * shaft_frequency_hz(speed_rpm)):
+            yield f"forces.file = {self.forces.file}: {words}"
 
     @property
     def crank_frame(self) -> CrankFrame:
