@@ -1,6 +1,7 @@
 # make run   sets up, runs the calibrated study, prints the table and where the report is; STUDY=… runs another
 # make test  sets up and runs every test, the slow physics included
-# make long  tests that take longer; kills, full disks, flipped bits and signals for an hour
+# make long  tests that take longer, with some minutes of kills, full disks, flipped bits and signals
+# make torture COUNT=200  those so often each; a later call goes on; ONLY=damage for those trials alone
 # make coverage  400 synthetic machines a world: how often intervals hold the truth; half an hour
 # make faults  200 changes of formulas, signs, factors and thresholds: which do the tests see; about an hour
 # make docs  sets up and builds the site into docs/_build/html
@@ -10,9 +11,11 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STUDY ?= pipelines/copeland_sources.toml
-MINUTES ?= 60
+MINUTES ?= 10
+COUNT ?= 200
+ONLY ?=
 
-.PHONY: run test long coverage faults docs check lock clean versions newest
+.PHONY: run test long torture coverage faults docs check lock clean versions newest
 
 run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
@@ -23,6 +26,9 @@ test: $(VENV)/.dev
 long: $(VENV)/.dev
 	$(BIN)/pytest -n auto -m long
 	$(BIN)/python -W ignore tests/robustness/torture.py --minutes $(MINUTES)
+
+torture: $(VENV)/.dev
+	$(BIN)/python -W ignore tests/robustness/torture.py --tries $(COUNT) --file build/torture.csv --only $(ONLY)
 
 coverage: $(VENV)/.dev
 	$(BIN)/pytest -n 0 -s -m long tests/invariants/test_coverage.py

@@ -19,11 +19,12 @@ from typing import Any, Final
 import h5py
 import numpy as np
 import xarray as xr
-from torture import Trial, child, ended
+from torture import Trial, child, damage, ended
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "helpers"))
 from mutated_studies import PATHS, make_tree, write_changed
 from support import TINY, append_hash, made_up_radiation, tiny_run
+from test_bad_recordings import GOOD
 
 from vibroacoustics import pipeline, report, scoring
 from vibroacoustics.base.csv_text import FORMULA_STARTS
@@ -251,9 +252,23 @@ def is_formula(cell: str) -> bool:
     return False
 
 
+def damage_a_recording(name: str) -> Trial:
+    """One file of a format with a bit flipped or its end cut off: refused, or read."""
+
+    def trial(folder: Path, chance: random.Random) -> list[str]:
+        path = folder / name
+        GOOD[name](path)
+        damage(path, chance)
+        return limited(lambda: _record(path))
+
+    trial.__name__ = f"damage_{name.replace('.', '_')}"
+    return trial
+
+
 INPUT_TRIALS: Final[tuple[Trial, ...]] = (
     mutate_a_study,
     mutate_results,
     give_a_hostile_file,
     give_a_hostile_name,
+    *map(damage_a_recording, GOOD),
 )

@@ -1,7 +1,8 @@
 """Kills, full disks, writers beside readers, flipped bits, signals and hostile input, counted.
 
-`python tests/robustness/torture.py --minutes 60` is the long form, `--tries 20` the short one. Each
-try ends with a look at what lies on the disk:
+`make torture COUNT=200` tries each so often; counts lie in `build/torture.csv`, and a later call
+goes on where the last one ended, `ONLY=kill` with those trials alone. Each try ends with a look at
+what lies on the disk:
 
 - lost: results that were whole before cannot be read, or a value that was computed did not come
 - wrong: other values than were written, or files of two runs and nobody says so
@@ -11,6 +12,7 @@ try ends with a look at what lies on the disk:
 """
 
 import argparse
+import csv
 import functools
 import os
 import random
@@ -38,6 +40,7 @@ from vibroacoustics.results import cache, manifest, storage
 from vibroacoustics.results.files import write
 
 KINDS: Final = ("lost", "wrong", "traceback", "left")
+COLUMNS: Final = ("tries", *KINDS)
 NAMES: Final = ("report.html", "comparison.csv", "figures/a.png")
 FAILED: Final = 70
 """Exit code of a child whose error is no `StorageError`."""
@@ -345,48 +348,111 @@ TRIALS: Final[tuple[Trial, ...]] = (
 )
 
 
-def torture(trials: tuple[Trial, ...], tries: int, minutes: float, seed: int) -> int:
-    """Try each in turn, so often or so long; prints counts, returns how much went wrong."""
-    chance = random.Random(seed)
-    counts: dict[str, Counter[str]] = {trial.__name__: Counter() for trial in trials}
-    end = time.monotonic() + 60.0 * minutes
-    rounds = 0
-    while rounds < tries or (minutes and time.monotonic() < end):
-        for trial in trials:
-            folder = Path(tempfile.mkdtemp(prefix="torture-"))
-            try:
-                bad = trial(folder, chance)
-            except Exception:
-                bad = [f"traceback: {traceback.format_exc()}"]
-            shutil.rmtree(folder, ignore_errors=True)
-            counts[trial.__name__].update(["tries", *(reason.partition(":")[0] for reason in bad)])
-            for reason in bad:
-                print(f"{trial.__name__}, round {rounds}, seed {seed}: {reason}")
-        rounds += 1
-    print(f"{'':28}" + "".join(f"{kind:>10}" for kind in ("tries", *KINDS)))
-    for name, count in counts.items():
-        print(f"{name:28}" + "".join(f"{count[kind]:10}" for kind in ("tries", *KINDS)))
-    return sum(count[kind] for count in counts.values() for kind in KINDS)
+class Counts:
+    """Tries of every trial and what went wrong, in a file that is kept after each of them.
+
+    A try has its chance from seed, trial and number, so that a later call goes on where this one
+    ends and any try can be made again.
+    """
+
+    def __init__(self, file: Path | None, seed: int) -> None:
+        self.file = file
+        self.seed = seed
+        self.of: dict[str, Counter[str]] = {}
+        if file is not None and file.exists():
+            with file.open(encoding="utf-8", newline="") as text:
+                for row in csv.DictReader(text):
+                    self.seed = int(row["seed"])
+                    self.of[row["trial"]] = Counter({kind: int(row[kind]) for kind in COLUMNS})
+
+    def tries(self, trial: Trial) -> int:
+        """How often a trial was made."""
+        return self.of.setdefault(trial.__name__, Counter())["tries"]
+
+    def make(self, trial: Trial) -> None:
+        """Try once more and count."""
+        number = self.tries(trial)
+        folder = Path(tempfile.mkdtemp(prefix="torture-"))
+        try:
+            bad = trial(folder, random.Random(f"{self.seed} {trial.__name__} {number}"))
+        except Exception:
+            bad = [f"traceback: {traceback.format_exc()}"]
+        shutil.rmtree(folder, ignore_errors=True)
+        kinds = (reason.partition(":")[0] for reason in bad)
+        self.of[trial.__name__].update(["tries", *kinds])
+        for reason in bad:
+            print(f"{trial.__name__}, try {number}, seed {self.seed}: {reason}", flush=True)
+        self._keep()
+
+    def _keep(self) -> None:
+        if self.file is None:
+            return
+        self.file.parent.mkdir(parents=True, exist_ok=True)
+        written = self.file.with_suffix(".new")
+        with written.open("w", encoding="utf-8", newline="") as text:
+            rows = csv.writer(text)
+            rows.writerow(("seed", "trial", *COLUMNS))
+            for name, count in self.of.items():
+                rows.writerow((self.seed, name, *(count[kind] for kind in COLUMNS)))
+        written.replace(self.file)
+
+    def __str__(self) -> str:
+        head = f"{'':28}" + "".join(f"{kind:>10}" for kind in COLUMNS)
+        rows = (
+            f"{name:28}" + "".join(f"{count[kind]:10}" for kind in COLUMNS)
+            for name, count in self.of.items()
+        )
+        return "\n".join((head, *rows))
+
+    @property
+    def wrong(self) -> int:
+        """How much went wrong in all."""
+        return sum(count[kind] for count in self.of.values() for kind in KINDS)
+
+
+def torture(
+    trials: tuple[Trial, ...], tries: int, minutes: float, seed: int, file: Path | None = None
+) -> int:
+    """Try in turn until each was tried so often, or so long; returns how much went wrong.
+
+    Parameters
+    ----------
+    trials : what is done
+    tries : of each, those that the file counts included; at least one where there are minutes
+    minutes : after which no further try begins; 0 for no end
+    seed : of the chances, where there is no file
+    file : keeps the counts; none for none
+    """
+    counts = Counts(file, seed)
+    end = time.monotonic() + 60.0 * minutes if minutes else float("inf")
+    while open_trials := [trial for trial in trials if counts.tries(trial) < tries]:
+        for trial in open_trials:
+            counts.make(trial)
+            if time.monotonic() > end:
+                print(counts)
+                return counts.wrong
+    print(counts)
+    return counts.wrong
 
 
 def main() -> None:
     """From the command line; exit code 1 where anything went wrong."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--minutes", type=float, default=0.0)
-    parser.add_argument("--tries", type=int, default=1)
-    parser.add_argument("--only", nargs="*", help="names of trials")
+    parser.add_argument("--tries", type=int, default=10**9)
+    parser.add_argument("--only", nargs="*", help="names of trials, or how they begin")
+    parser.add_argument("--file", type=Path, help="keeps the counts; a later call goes on")
     parser.add_argument("--seed", type=int, default=20061)
     arguments = parser.parse_args()
+    from commands_torture import COMMAND_TRIALS
     from input_torture import INPUT_TRIALS
 
-    trials = TRIALS + INPUT_TRIALS
-    if arguments.minutes:
-        from commands_torture import COMMAND_TRIALS
-
-        trials += COMMAND_TRIALS
+    trials = TRIALS + INPUT_TRIALS + COMMAND_TRIALS
     if arguments.only:
-        trials = tuple(trial for trial in trials if trial.__name__ in arguments.only)
-    sys.exit(bool(torture(trials, arguments.tries, arguments.minutes, arguments.seed)))
+        begin = tuple(arguments.only)
+        trials = tuple(trial for trial in trials if trial.__name__.startswith(begin))
+    given = (arguments.tries, arguments.minutes, arguments.seed, arguments.file)
+    sys.exit(bool(torture(trials, *given)))
 
 
 if __name__ == "__main__":
