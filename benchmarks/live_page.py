@@ -14,9 +14,8 @@ from live_pages import largest_study, open_page, page_of, vectors_of_a_box
 from selenium.webdriver import Chrome
 
 import vibroacoustics as va
-from vibroacoustics.report.live.assets import live_script, live_style, unpacking_script
-from vibroacoustics.report.live.data import live_data
-from vibroacoustics.report.live.numbers import packed
+from vibroacoustics.live.section import live_data
+from vibroacoustics.report.live.assets import live_script, live_style, packed, unpacking_script
 
 LONGEST_MS = 16.0
 LONGEST_RETUNE_MS = 50.0

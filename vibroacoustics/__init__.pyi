@@ -25,8 +25,8 @@ from .commands.exporting import export_forces as export_forces
 from .commands.exporting import export_functions as export_functions
 from .commands.exporting import export_recording as export_recording
 from .commands.listening import listen as listen
+from .commands.outputs import write_data_sheet as write_data_sheet
 from .commands.outputs import write_report as write_report
-from .commands.sheets import write_data_sheet as write_data_sheet
 from .declaration.sheet import data_sheet as data_sheet
 from .design.engine.seen import Need as Need
 from .design.figure import DesignFigure as DesignFigure

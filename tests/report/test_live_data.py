@@ -12,17 +12,17 @@ from test_report import make_results
 
 import vibroacoustics as va
 from vibroacoustics.balancers.counterweight import Counterweight
+from vibroacoustics.live.lines import Lines
+from vibroacoustics.live.mounts import mount_matrices
+from vibroacoustics.live.moving import moving_of
+from vibroacoustics.live.numbers import FEW_BITS, NOTHING, Numbers
+from vibroacoustics.live.section import full_scale_pa, live_data
+from vibroacoustics.live.weight import unit_loads, weight_of
 from vibroacoustics.mechanics.moving_parts import derivative, wrench
 from vibroacoustics.mechanics.rotation import Rotation
 from vibroacoustics.orders.spectrum import order_spectrum_at_speed
 from vibroacoustics.report.blocks import Live, Part
-from vibroacoustics.report.live.assets import live_script, live_style, unpacking_script
-from vibroacoustics.report.live.data import full_scale_pa, live_data
-from vibroacoustics.report.live.lines import Lines
-from vibroacoustics.report.live.mounts import mount_matrices
-from vibroacoustics.report.live.moving import moving_of
-from vibroacoustics.report.live.numbers import FEW_BITS, NOTHING, Numbers, packed
-from vibroacoustics.report.live.weight import unit_loads, weight_of
+from vibroacoustics.report.live.assets import live_script, live_style, packed, unpacking_script
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.transfer import on_mounts
 

@@ -16,11 +16,7 @@ def csv_bytes(
 ) -> bytes:
     """A table with a head line; text that would be a formula gets a leading apostrophe.
 
-    Parameters
-    ----------
-    head : names of the columns
-    rows : text and numbers; numbers stay numbers, negative ones too
-    write_number : as `repr`, the shortest text that is read back bit by bit
+    Numbers stay numbers, negative ones too; `repr` is the shortest text that is read back.
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")

@@ -16,10 +16,6 @@ from .units import UNITS
 def curves_dataset(curves: Iterable[Curve], attrs: Mapping[str, Any]) -> xr.Dataset:
     """Curves as variables of one dataset; an axis that differs from one of its name is renamed.
 
-    Parameters
-    ----------
-    curves : each with a name of its own
-    attrs : of the dataset
 
     Raises
     ------
@@ -75,12 +71,7 @@ def _unit_attrs(suffix: str) -> dict[str, str | float]:
 
 
 def shown(values: xr.DataArray) -> Array:
-    """Numbers in the unit in which they are read.
-
-    Parameters
-    ----------
-    values : variable or coordinate of a dataset of curves
-    """
+    """Numbers in the unit in which they are read."""
     return np.asarray(values.values / values.attrs["read_factor"])
 
 

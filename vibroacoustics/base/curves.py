@@ -83,12 +83,8 @@ class Curve:
     orders: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        if reason := self._why_not():
+        if reason := next(filter(None, self._reasons()), None):
             raise ParameterError(f"curve {self.name}: {reason}")
-
-    def _why_not(self) -> str | None:
-        """Why the curve cannot be; None where it can."""
-        return next((reason for reason in self._reasons() if reason), None)
 
     def _reasons(self) -> Iterator[str | None]:
         """What is wrong; what comes later takes for granted that nothing was before."""
@@ -118,14 +114,7 @@ class Curve:
 def angle_axis(
     crank_angle: Array, name: str = "crank_angle", label: str = "Crank angle"
 ) -> CurveAxis:
-    """Crank angle as an abscissa.
-
-    Parameters
-    ----------
-    crank_angle : rad, shape (samples,)
-    name : of the dimension
-    label : in a picture
-    """
+    """Crank angle, rad, shape (samples,), as an abscissa."""
     return CurveAxis(name, crank_angle, "deg", label)
 
 

@@ -68,13 +68,7 @@ def cut(words: str) -> str:
 
 
 def leave_out(fault: FaultError, what: str = "") -> None:
-    """Tell that something is omitted: to all that collect, and once by a warning.
-
-    Parameters
-    ----------
-    fault : why
-    what : is omitted; the fault's thing where it is empty
-    """
+    """Tell that something is omitted: to all that collect, and once by a warning."""
     line = f"{what or f'{fault.noun} {fault.name}'} is omitted: {fault.reason}"
     collecting = _COLLECTING.get()
     is_known = bool(collecting) and line in collecting[0]

@@ -22,12 +22,8 @@ REFUSALS: Final = (ParameterError, StorageError)
 
 @contextmanager
 def fence(owner: Owner, passing: tuple[type[Exception], ...] = ()) -> Iterator[None]:
-    """Turn whatever a plug-in raises into a `FaultError`, `sys.exit` too.
+    """Turn whatever a plug-in raises into a `FaultError`, `sys.exit` too; errors may pass, cut.
 
-    Parameters
-    ----------
-    owner : whose code runs
-    passing : errors that stay what they are, their words cut
 
     Raises
     ------
@@ -47,11 +43,6 @@ def fence(owner: Owner, passing: tuple[type[Exception], ...] = ()) -> Iterator[N
 def fenced(thing: Any, base: type, owner: Owner) -> None:
     """Put the fence around the methods of a class, or the functions of an object, in place.
 
-    Parameters
-    ----------
-    thing : subclass of `base`, or an instance
-    base : declares the methods or fields, and what they return
-    owner : where the thing comes from
 
     Raises
     ------

@@ -44,14 +44,7 @@ def attribute_hints(base: type) -> dict[str, Any]:
 
 
 def misfit(value: Any, hint: Any, location: str = "") -> str:
-    """Return why a value does not fit an annotation; empty where it does.
-
-    Parameters
-    ----------
-    value : returned by a plug-in
-    hint : annotation
-    location : of the value within what was returned
-    """
+    """Return why a value does not fit an annotation; empty where it does."""
     origin, arguments = get_origin(hint), get_args(hint)
     if origin is Annotated:
         return misfit(value, arguments[0], location)

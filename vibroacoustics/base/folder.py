@@ -172,10 +172,6 @@ class Folder:
     def below(self, name: str | PurePosixPath, make: bool = False) -> Iterator["Folder"]:
         """Open a folder at any depth below; `.` is this one.
 
-        Parameters
-        ----------
-        name : of the folder
-        make : whether it is made where it is missing
 
         Raises
         ------
@@ -239,10 +235,6 @@ def missing_folders(path: Path) -> list[Path]:
 def make_folder(path: Path, mode: int = 0o777) -> None:
     """Make a folder and those above it, where they are missing.
 
-    Parameters
-    ----------
-    path : of the folder
-    mode : permissions of each folder that is made
 
     Raises
     ------

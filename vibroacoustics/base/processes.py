@@ -94,12 +94,7 @@ class ProcessPool:
         items: Iterable[Item],
         on_loss: Callable[[Item, str], Result] | None = None,
     ) -> Iterator[tuple[int, Result]]:
-        """Apply a function like `in_order`; gives index and result of an item when it is finished.
-
-        Parameters
-        ----------
-        function, items, on_loss : as for `in_order`
-        """
+        """Apply a function like `in_order`; gives index and result when an item is finished."""
         return self._finished(function, items, on_loss, None)
 
     def _finished(
@@ -222,12 +217,6 @@ def side_by_side(
     """Apply a function in copies of this process; the results are in the order of the items.
 
     What the function changes in a copy is lost; results are what pickle takes.
-
-    Parameters
-    ----------
-    function : of any kind
-    items : anything that pickle takes
-    otherwise : applies it where this process cannot be copied, or has one processor alone
     """
     if processors() == 1 or not can_fork():
         yield from otherwise(function, items)

@@ -53,13 +53,16 @@ class Registry(Generic[Thing]):
     label : attribute that holds a thing's name
     folder : package, relative to this one, whose modules hold the built-in things
     group : entry points of installed packages
+    further : more such packages
     """
 
-    def __init__(self, noun: str, base: type, label: str, folder: str, group: str) -> None:
+    def __init__(
+        self, noun: str, base: type, label: str, folder: str, group: str, *further: str
+    ) -> None:
         self.noun = noun
         self.base = base
         self._label = label
-        self._folder = folder
+        self._folders = folder, *further
         self._group = group
         self._things: dict[str, Thing] = {}
         self._origins: dict[str, Origin] = {}
@@ -107,13 +110,7 @@ class Registry(Generic[Thing]):
         return self._things.get(name)
 
     def fenced(self, name: str, *passing: type[Exception]) -> AbstractContextManager[None]:
-        """Return the fence around work on a thing; none around work on a built-in one.
-
-        Parameters
-        ----------
-        name : of the thing
-        passing : errors that stay what they are
-        """
+        """Return the fence around work on a thing; none around work on a built-in one."""
         origin = self.origin(name)
         if origin is None:
             return nullcontext()
@@ -137,10 +134,6 @@ class Registry(Generic[Thing]):
     def unknown(self, name: str, further: Iterable[str] = ()) -> str:
         """What a refusal of a name says: names that come close, or all that there are.
 
-        Parameters
-        ----------
-        name : the unknown one
-        further : names that are allowed beside those of the registry
 
         Raises
         ------
@@ -203,12 +196,12 @@ class Registry(Generic[Thing]):
         if self._filled:
             return
         self._filled = True
-        folder = import_module(f"{PACKAGE}.{self._folder}")
-        for module in iter_modules(folder.__path__):
-            name = f"{folder.__name__}.{module.name}"
-            import_module(name)
-            if module.ispkg and find_spec(f"{name}.content"):
-                import_module(f"{name}.content")
+        for folder in (import_module(f"{PACKAGE}.{name}") for name in self._folders):
+            for module in iter_modules(folder.__path__):
+                name = f"{folder.__name__}.{module.name}"
+                import_module(name)
+                if module.ispkg and find_spec(f"{name}.content"):
+                    import_module(f"{name}.content")
         for point in metadata.entry_points(group=self._group):
             self._add_installed(point)
 

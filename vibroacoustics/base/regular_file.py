@@ -22,11 +22,6 @@ def opened(
 ) -> Iterator[BinaryIO]:
     """Open a regular file of a limited size for reading.
 
-    Parameters
-    ----------
-    path : file
-    maximum_bytes : its largest size
-    opener : returns a descriptor from path and flags
 
     Raises
     ------

@@ -167,10 +167,6 @@ def stamp(
 def stamped(values: Mapping[str, Any], coords: Mapping[str, Any]) -> xr.Dataset:
     """Label arrays as variables of the vocabulary, each with the coordinates of its dimensions.
 
-    Parameters
-    ----------
-    values : arrays by name of a registered variable
-    coords : coordinate values by dimension, of all of them
 
     Raises
     ------

@@ -11,20 +11,14 @@ import typer
 
 from ..base.errors import VibroacousticsError
 from ..base.fault import collected
-from . import (
-    comparison_commands,
-    curve_commands,
-    data_sheet_commands,
+from . import (  # noqa: F401 - each registers its commands
     design_commands,
     installation_commands,
-    listen_commands,
     messages,
     prediction_commands,
     recording_commands,
-    run_commands,
-    schema_commands,
-    score_commands,
-    sound_power_commands,
+    results_commands,
+    study_commands,
 )
 from .command import COMMANDS, HelpedCommand, HelpedGroup
 
@@ -33,20 +27,6 @@ NOT_COMPLETE = 3
 COLLECTIONS: Final = (100_000, 10, 10)
 """Thresholds of the collector of cyclic garbage: imports and figures make next to none of it, and
 at the usual 700 it takes a tenth of a run's time."""
-MODULES: Final = (
-    run_commands,
-    schema_commands,
-    curve_commands,
-    score_commands,
-    comparison_commands,
-    data_sheet_commands,
-    listen_commands,
-    design_commands,
-    recording_commands,
-    sound_power_commands,
-    prediction_commands,
-    installation_commands,
-)
 
 app = typer.Typer(
     cls=HelpedGroup,

@@ -44,10 +44,7 @@ class LongSpeech(Speech):
     """Options of commands that compute."""
 
     verbose: Annotated[bool, "Print a line for every stage on stderr."] = False
-    log: Annotated[
-        Path | None,
-        "File: append stages, warnings and errors with their times.",
-    ] = None
+    log: Annotated[Path | None, "File: append stages, warnings and errors with their times."] = None
 
 
 @dataclass(frozen=True)
@@ -143,12 +140,7 @@ def command(
     renamed: Mapping[str, str] | None = None,
     computes: bool = True,
 ) -> Callable[[Callable[..., Outcome]], Callable[..., Outcome]]:
-    """Take a function in as a command.
-
-    Parameters
-    ----------
-    name, job, example, renamed, computes : see `Command`
-    """
+    """Take a function in as a command."""
 
     def registered(function: Callable[..., Outcome]) -> Callable[..., Outcome]:
         COMMANDS[name] = Command(name, job, example, function, renamed or {}, computes)

@@ -1,8 +1,9 @@
 """Commands for designs. Heavy imports wait until they are needed."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -13,15 +14,16 @@ from . import messages
 from .command import command
 from .options import Plugins, Printing, StudyOut, load_plugins
 from .outcome import Outcome
-from .workers import Workers
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from ..design.evaluation import Evaluate
     from ..design.problem import Problem
+    from ..design.workers.spread import ParallelMap
     from ..report.analysis import Analysis
-    from .workers import Opener
+
+    Opener = Callable[[], AbstractContextManager[ParallelMap]]
 
 SWEEP_NAME: Final = "sweep.nc"
 TABLE_NAME: Final = "sweep.csv"
@@ -30,6 +32,39 @@ SWEEP_CHUNKS: Final = "sweep_chunks"
 SEARCH_CHUNKS: Final = "search_chunks"
 
 StudyFile = Annotated[Path, "STUDY: Study file, .toml, with a table `design`."]
+
+
+@dataclass(frozen=True)
+class Workers:
+    """Options of local processes and of a scheduler, as the command line has them."""
+
+    workers: Annotated[
+        int, typer.Option(min=0, max=1000, help="Local processes that compute; 0: this one alone.")
+    ] = 0
+    scheduler: Annotated[
+        str | None, "Address, tls://HOST:PORT, of a running scheduler of dask.distributed."
+    ] = None
+    tls_ca: Annotated[Path | None, "Certificate of the scheduler's own authority, .pem."] = None
+    tls_cert: Annotated[Path | None, "Your certificate, signed by this authority, .pem."] = None
+    tls_key: Annotated[Path | None, "Private key of your certificate, .pem."] = None
+    insecure: Annotated[
+        bool, "Use a scheduler without TLS: whoever reaches it may run code as its users."
+    ] = False
+
+    def opener(self) -> "Opener | None":
+        """Return what opens the workers; None where this process computes."""
+        from ..base.errors import ParameterError
+        from ..design.workers.scheduler import SchedulerAccess, opened_scheduler
+        from ..design.workers.spread import local_workers
+
+        tls = (self.tls_ca, self.tls_cert, self.tls_key, self.insecure)
+        if self.scheduler is not None:
+            if self.workers:
+                raise ParameterError("--workers contradicts --scheduler: remove one of both")
+            return partial(opened_scheduler, SchedulerAccess(self.scheduler, *tls))
+        if any(tls):
+            raise ParameterError("--tls-ca, --tls-cert, --tls-key, --insecure: need --scheduler")
+        return partial(local_workers, self.workers) if self.workers else None
 
 
 @command("sweep", "Designs", "pipelines/copeland_designs.toml --workers 4")
@@ -41,8 +76,7 @@ def sweep_command(
     workers: Workers,
     plugin: Plugins = None,
     longest: Annotated[
-        float,
-        typer.Option("--longest", min=0.0, help="Refuse a sweep that takes longer, hours."),
+        float, typer.Option("--longest", min=0.0, help="Refuse a sweep that takes longer, hours.")
     ] = 12.0,
     printing: Printing,
 ) -> Outcome:
@@ -75,8 +109,7 @@ def sweep_command(
     else:
         analysis = _analysis(problem, search, study_file, folder)
     analysis = replace(analysis, further={**analysis.further, **table})
-    files = outputs.write_analysis(analysis, results, folder, SWEEP_NAME, prints)
-    return Outcome(files=files, analyses={"": analysis})
+    return outputs.Target(folder, prints).outcome(analysis, results, SWEEP_NAME)
 
 
 @command("optimise", "Designs", "pipelines/copeland_designs.toml --json")
@@ -102,8 +135,7 @@ def optimise_command(
     with _evaluating(problem, study_file, folder / SEARCH_CHUNKS, opened, plugin) as evaluate:
         search = searched_designs(problem, evaluate, progress)
     analysis = _analysis(problem, search, study_file, folder)
-    files = outputs.write_analysis(analysis, search, folder, DESIGNS_NAME, prints)
-    return Outcome(files=files, analyses={"": analysis})
+    return outputs.Target(folder, prints).outcome(analysis, search, DESIGNS_NAME)
 
 
 def _problem(

@@ -17,21 +17,11 @@ Absorption = float | dict[float, float] | None
 
 
 def read_files(
-    files: Sequence[Path],
-    all_files: Sequence[Path],
-    reading: Reading,
-    plugins: list[Path] | None,
+    files: Sequence[Path], all_files: Sequence[Path], reading: Reading, plugins: list[Path] | None
 ) -> list[xr.Dataset]:
     """Recordings, each with the assignments that are its own.
 
     `CHANNEL=…` holds in every file, `FILE:CHANNEL=…` in that file alone, named without its ending.
-
-    Parameters
-    ----------
-    files : to be read
-    all_files : that assignments may name
-    reading : options of the command line
-    plugins : files with readers
     """
     stems = [file.stem for file in all_files]
     return [

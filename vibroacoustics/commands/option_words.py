@@ -42,13 +42,7 @@ _ARGUMENT: Final = re.compile(
 
 
 def in_options(message: str, options: Collection[str]) -> str:
-    """Return a message of the library as the command line says it.
-
-    Parameters
-    ----------
-    message : of an error
-    options : names of the command's options, as Python writes them
-    """
+    """Return a message of the library as the command line says it."""
 
     def argument(match: re.Match[str]) -> str:
         option = _ARGUMENTS[match[1] or match[2]]

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 if TYPE_CHECKING:
+    from .outputs import Target
     from .printing import Printer
 
 StudyFile = Annotated[Path, "STUDY: Study file, .toml."]
@@ -55,6 +56,21 @@ class Printing:
         from .printing import printer
 
         return printer(self.pdf, self.paper, self.brief)
+
+    def target(self, folder: Path) -> "Target":
+        """Return the folder of the results, which can be written, with what prints.
+
+        Raises
+        ------
+        StorageError
+            The folder cannot be written.
+        ParameterError
+            See `printer`.
+        """
+        from . import outputs
+
+        outputs.check_folder(folder)
+        return outputs.Target(folder, self.printer())
 
 
 def used_cache(unused: bool) -> AbstractContextManager[None]:

@@ -1,10 +1,10 @@
 """What a run leaves on disk: the dataset, the report, its tables and figures."""
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import xarray as xr
 
@@ -17,7 +17,11 @@ from ..results.complete import check_run
 from ..results.files import LOCK_NAME, STAGING_NAME, write, write_together
 from ..results.files import naming as writing
 from ..results.provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
+from .outcome import Outcome
 from .printing import Printer
+
+if TYPE_CHECKING:
+    from ..results.data_sheet import DataSheet
 
 RESULTS_NAME: Final = "results.nc"
 REPORT_NAME: Final = "report.html"
@@ -114,10 +118,6 @@ def _open_of_this_version(path: str | Path) -> tuple[xr.Dataset, str]:
 def check_folder(folder: str | Path, files: Iterable[str] = ()) -> None:
     """Refuse a folder that cannot be written, before anything is computed.
 
-    Parameters
-    ----------
-    folder : of the results
-    files : names of what will be written in it
 
     Raises
     ------
@@ -170,6 +170,34 @@ def write_report(results: xr.Dataset, folder: str | Path) -> Path:
     return write_study(results, folder)[1]["report"]
 
 
+def write_data_sheet(sheet: "DataSheet", folder: str | Path) -> Path:
+    """Write page, CSV and JSON of a data sheet, together or not at all.
+
+    Option and speed stand in their names: sheets of several fit one folder.
+
+    Parameters
+    ----------
+    sheet : of `data_sheet`
+    folder : made where it is missing
+
+    Returns
+    -------
+    path of the page
+
+    Raises
+    ------
+    StorageError
+        The folder cannot be written; what was there before then stays.
+
+    Examples
+    --------
+    >>> sheet = va.data_sheet(va.open_results("results.nc"), "none")
+    >>> va.write_data_sheet(sheet, "sheets").name
+    'data_sheet_none_2900_rpm.html'
+    """
+    return write_analysis(report.analysis_of_data_sheet(sheet), None, folder)["report"]
+
+
 def write_study(
     results: xr.Dataset, folder: str | Path, printer: Printer | None = None
 ) -> tuple[Analysis, dict[str, Path]]:
@@ -212,15 +240,8 @@ def write_analysis(
     dataset_name: str = "",
     printer: Printer | None = None,
 ) -> dict[str, Path]:
-    """Write an analysis with its dataset, together or not at all.
+    """Write an analysis with its dataset, where there is one, together or not at all.
 
-    Parameters
-    ----------
-    analysis : page, tables and pictures
-    dataset : what the analysis is of; None for none
-    folder : made where it is missing
-    dataset_name : file of the dataset
-    printer : makes a PDF of the page; None for none
 
     Returns
     -------
@@ -242,6 +263,24 @@ def write_analysis(
         digest = storage.stage_results(dataset, staged, dataset_name)
         _stage(_files(analysis, digest, printer), staged)
     return paths
+
+
+class Target(NamedTuple):
+    """Where the results of a command go: their folder, and what makes a PDF of the page."""
+
+    folder: Path
+    printer: Printer | None
+
+    def outcome(
+        self,
+        analysis: Analysis,
+        dataset: xr.Dataset | None = None,
+        dataset_name: str = "",
+        broken: Sequence[str] = (),
+    ) -> Outcome:
+        """Write an analysis with its dataset; the outcome names the files and broken limits."""
+        files = write_analysis(analysis, dataset, self.folder, dataset_name, self.printer)
+        return Outcome(files=files, analyses={"": analysis}, broken=broken)
 
 
 def written_files(

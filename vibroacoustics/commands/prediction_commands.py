@@ -10,10 +10,7 @@ from .outcome import Outcome
 
 @command("predict", "Measurements", "softer_mounts.toml")
 def predict_command(
-    file: Annotated[
-        Path,
-        "FILE: File, .toml, of measurements, mounts and changes.",
-    ],
+    file: Annotated[Path, "FILE: File, .toml, of measurements, mounts and changes."],
     out: FileOut = None,
     *,
     printing: Printing,
@@ -21,15 +18,10 @@ def predict_command(
     """Predict a change of mounts, masses or absorbers from measurements alone, with a band."""
     from .. import report
     from ..measured.prediction import predict
-    from . import outputs
 
-    folder = out or Path("reports") / file.stem
-    outputs.check_folder(folder)
-    prints = printing.printer()
+    target = printing.target(out or Path("reports") / file.stem)
     predicted = predict(file)
-    analysis = report.analysis_of_prediction(predicted)
-    files = outputs.write_analysis(analysis, predicted, folder, "prediction.nc", prints)
-    return Outcome(files=files, analyses={"": analysis})
+    return target.outcome(report.analysis_of_prediction(predicted), predicted, "prediction.nc")
 
 
 @command("blocked-forces", "Measurements", "fan_in_situ.toml")
@@ -45,13 +37,10 @@ def blocked_forces_command(
     from ..measured.blocked_orders import blocked_orders_csv
     from . import outputs
 
-    folder = out or Path("reports") / file.stem
-    outputs.check_folder(folder)
-    prints = printing.printer()
+    target = printing.target(out or Path("reports") / file.stem)
     blocked = blocked_forces(file)
     with outputs.naming(file):
         orders = blocked_orders_csv(blocked)
     further = {} if orders is None else {"orders.csv": orders}
     analysis = report.analysis_of_blocked_forces(blocked, further)
-    files = outputs.write_analysis(analysis, blocked, folder, "blocked_forces.nc", prints)
-    return Outcome(files=files, analyses={"": analysis})
+    return target.outcome(analysis, blocked, "blocked_forces.nc")

@@ -19,12 +19,9 @@ PAUSE_S: Final = 30.0
 
 @contextmanager
 def progress_on_stderr(quiet: bool = False, verbose: bool = False) -> Iterator[Progress]:
-    """A bar with remaining time; where stderr is no terminal, lines. The log gets lines.
+    """A bar with remaining time; where stderr is no terminal, lines; verbose, one for every stage.
 
-    Parameters
-    ----------
-    quiet : nothing on stderr
-    verbose : lines, and every stage has one
+    The log gets lines.
     """
     shortest_s = 0.0 if verbose else SHORTEST_S
     if quiet:
@@ -39,13 +36,7 @@ def progress_on_stderr(quiet: bool = False, verbose: bool = False) -> Iterator[P
 @contextmanager
 def _bar() -> Iterator[Progress]:
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        TaskID,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
+    from rich.progress import BarColumn, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
     from rich.progress import Progress as Bars
 
     columns = (
@@ -80,13 +71,7 @@ class _Stage:
 class Lines:
     """Advance as lines: of a stage that takes seconds one at its end, of a long one some before.
 
-    Stages may run in several threads at once.
-
-    Parameters
-    ----------
-    write : takes a line
-    clock : in s
-    shortest_s : a stage that takes less gets no line
+    Stages may run in several threads at once. One that takes less than `shortest_s` gets no line.
     """
 
     def __init__(

@@ -1,4 +1,7 @@
-"""A recording as the options of a command ask for it. Heavy imports wait until it is read."""
+"""A recording and its speed as the options of a command ask for them.
+
+Heavy imports wait until it is read.
+"""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +15,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from ..base.recording_blocks import RecordingBlocks
+    from ..study.order_analysis import SpeedSource
 
 SampleRate = Annotated[float | None, "Actual sample rate, Hz, instead of the file's."]
 
@@ -29,12 +33,10 @@ class Reading:
     """
 
     unit: Annotated[
-        list[str] | None,
-        "CHANNEL=UNIT, where the file states none; may be repeated.",
+        list[str] | None, "CHANNEL=UNIT, where the file states none; may be repeated."
     ] = None
     calibration: Annotated[
-        list[str] | None,
-        "CHANNEL=FACTOR: unit per unit stored in the file; may be repeated.",
+        list[str] | None, "CHANNEL=FACTOR: unit per unit stored in the file; may be repeated."
     ] = None
     channels: Annotated[str | None, "Channels to read, with commas."] = None
     sample_rate: SampleRate = None
@@ -84,3 +86,69 @@ class Reading:
             "from_s": self.from_s,
             "to_s": self.to_s,
         }
+
+
+@dataclass(frozen=True)
+class SpeedOptions:
+    """Options of the speed, as the command line has them."""
+
+    speed_channel: Annotated[
+        str | None, "Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal."
+    ] = None
+    pulses: Annotated[int, "Pulses of the tacho per revolution."] = 1
+    index: Annotated[str | None, "Channel with one pulse a revolution: crank angle zero."] = None
+    threshold: Annotated[
+        float | None, "Level of the tacho that marks the angle, in its unit; default: follows it."
+    ] = None
+    edge: Annotated[str | None, "Edge of the tacho's pulses: rising or falling; default: auto."] = (
+        None
+    )
+    rpm: Annotated[float | None, "Nominal shaft speed, rpm, instead of a channel."] = None
+    tacholess: Annotated[
+        tuple[float, float] | None, "Find the speed in the signal: lowest and highest speed, rpm."
+    ] = None
+    comb: Annotated[
+        str | None, "With --tacholess: orders that the machine has, with commas; default: 1 to 10."
+    ] = None
+    mains: Annotated[
+        float | None, "With --tacholess: frequency of the mains, Hz; its multiples are neglected."
+    ] = None
+
+    def source(self) -> "SpeedSource":
+        """Make the source of the speed that the options give.
+
+        Raises
+        ------
+        ParameterError
+            None or two are given, or an option belongs to another source.
+        """
+        from ..base.errors import ParameterError
+        from ..study.order_analysis import (
+            DEFAULT_COMB,
+            EDGES,
+            NominalSpeed,
+            SpeedChannel,
+            TacholessSpeed,
+        )
+        from .arguments import chosen, order_numbers
+
+        by_channel = self.speed_channel is not None and self.tacholess is None
+        if sum([self.rpm is not None, self.tacholess is not None, by_channel]) != 1:
+            raise ParameterError(
+                "speed: give one of --speed-channel CHANNEL, --rpm NUMBER and "
+                "--tacholess LOWEST HIGHEST"
+            )
+        tacho = any(option is not None for option in (self.index, self.threshold, self.edge))
+        if (tacho or self.pulses != 1) and not by_channel:
+            raise ParameterError(
+                "--index, --pulses, --threshold, --edge: belong to a tacho, --speed-channel CHANNEL"
+            )
+        if (self.comb is not None or self.mains is not None) and self.tacholess is None:
+            raise ParameterError("--comb, --mains: belong to --tacholess LOWEST HIGHEST")
+        if self.tacholess is not None:
+            orders = DEFAULT_COMB if self.comb is None else order_numbers(self.comb, "--comb")
+            return TacholessSpeed(self.speed_channel, *self.tacholess, orders, self.mains)
+        if self.rpm is not None:
+            return NominalSpeed(self.rpm)
+        edge = None if self.edge is None else chosen("--edge", self.edge, EDGES)
+        return SpeedChannel(str(self.speed_channel), self.pulses, self.index, self.threshold, edge)

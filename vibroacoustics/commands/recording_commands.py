@@ -1,4 +1,4 @@
-"""Commands for recordings: orders, track, map, tones, export.
+"""Commands for recordings: orders, track, map, tones, export, sound-power.
 
 Heavy imports wait until a command needs them.
 """
@@ -12,8 +12,7 @@ from ..base.progress import Progress
 from .command import command
 from .options import FileOut, LimitsFile, Plugins, Printing, Recording
 from .outcome import Outcome
-from .reading import Reading
-from .speed_options import SpeedOptions
+from .reading import Reading, SampleRate, SpeedOptions
 
 RENAMED: Final = {"--speed": "--speed-channel"}
 Orders = Annotated[str, "Shaft orders, with commas."]
@@ -40,8 +39,10 @@ def orders_command(
     """Find the orders of a recording: orders.html, netCDF, CSV, figures and a table."""
     from .. import report
     from ..measured.recorded_orders import analyse_orders
+    from ..results.limits_file import read_limits
+    from ..results.order_limits import with_limits
     from ..study.order_analysis import BAND_METHODS, OrderAnalysis
-    from . import arguments, checking, outputs
+    from . import arguments
 
     settings = OrderAnalysis(
         speed.source(),
@@ -52,17 +53,12 @@ def orders_command(
         with_map,
         arguments.chosen("--bands", bands, BAND_METHODS),
     )
-    folder, prints = out or Path("reports") / recording_file.stem, printing.printer()
-    outputs.check_folder(folder)
-    allowed = checking.read(limits)
+    target = printing.target(out or Path("reports") / recording_file.stem)
+    allowed = read_limits(limits) if limits else ()
     recording = reading.in_blocks(recording_file, plugin)
-    results = checking.held_against(analyse_orders(recording, settings, progress), allowed)
-    analysis = report.analysis_of_orders(results)
-    return Outcome(
-        files=outputs.write_analysis(analysis, results, folder, "orders.nc", prints),
-        analyses={"": analysis},
-        broken=report.broken_lines(results, ()),
-    )
+    results = with_limits(analyse_orders(recording, settings, progress), allowed)
+    broken = report.broken_lines(results, ())
+    return target.outcome(report.analysis_of_orders(results), results, "orders.nc", broken)
 
 
 @command("track", "Recordings", "run_up.csv --speed-channel tacho --bandwidth 3", RENAMED)
@@ -81,18 +77,13 @@ def track_command(
     """Track orders over the time of a recording (Vold-Kalman): netCDF, figures and a table."""
     from .. import report
     from ..measured.recorded_orders import track_orders
-    from . import arguments, outputs
+    from .arguments import order_numbers
 
-    source = speed.source()
-    numbers = arguments.order_numbers(orders)
-    folder = out or Path("reports") / recording_file.stem
-    outputs.check_folder(folder)
-    prints = printing.printer()
+    source, numbers = speed.source(), order_numbers(orders)
+    target = printing.target(out or Path("reports") / recording_file.stem)
     recording = reading.at_once(recording_file, plugin)
     tracked = track_orders(recording, source, numbers, bandwidth, poles)
-    analysis = report.analysis_of_tracks(tracked)
-    files = outputs.write_analysis(analysis, tracked, folder, "tracked_orders.nc", prints)
-    return Outcome(files=files, analyses={"": analysis})
+    return target.outcome(report.analysis_of_tracks(tracked), tracked, "tracked_orders.nc")
 
 
 @command("map", "Recordings", "run_up.csv --speed-channel tacho --resolution 4", RENAMED)
@@ -110,17 +101,12 @@ def map_command(
     """Draw a recording over speed and frequency, its level over the speed: page, figures."""
     from .. import report
     from ..measured.recorded_orders import speed_frequency_map
-    from . import outputs
 
     source = speed.source()
-    folder = out or Path("reports") / recording_file.stem
-    outputs.check_folder(folder)
-    prints = printing.printer()
+    target = printing.target(out or Path("reports") / recording_file.stem)
     recording = reading.at_once(recording_file, plugin)
     mapped = speed_frequency_map(recording, source, resolution, maximum_frequency)
-    analysis = report.analysis_of_map(mapped)
-    files = outputs.write_analysis(analysis, mapped, folder, "speed_map.nc", prints)
-    return Outcome(files=files, analyses={"": analysis})
+    return target.outcome(report.analysis_of_map(mapped), mapped, "speed_map.nc")
 
 
 @command("tones", "Recordings", 'machine.wav --unit "channel 1=Pa"')
@@ -137,15 +123,11 @@ def tones_command(
     from . import outputs
     from .tone_tables import analysis_of_tones
 
-    folder = out or Path("reports") / recording_file.stem
-    outputs.check_folder(folder)
-    prints = printing.printer()
+    target = printing.target(out or Path("reports") / recording_file.stem)
     recording = reading.at_once(recording_file, plugin)
     with outputs.naming(recording_file):
         tones = recorded_tones(recording)
-    analysis = analysis_of_tones(tones)
-    files = outputs.write_analysis(analysis, tones, folder, "tones.nc", prints)
-    return Outcome(files=files, analyses={"": analysis})
+    return target.outcome(analysis_of_tones(tones), tones, "tones.nc")
 
 
 @command("export", "Recordings", "machine.uff --out machine.csv", computes=False)
@@ -162,3 +144,52 @@ def export_command(
     outputs.check_folder(out.parent)
     recording = reading.at_once(recording_file, plugin)
     return Outcome(files={"recording": exporting.export_recording(recording, out)})
+
+
+@command("sound-power", "Recordings", 'front.wav rear.wav --hemisphere 1.0 --unit "channel 1=Pa"')
+def sound_power_command(
+    files: Annotated[list[Path], "RECORDING: Files of the microphones' recordings."],
+    hemisphere: Annotated[float | None, "Radius of the hemisphere of the microphones, m."] = None,
+    box: Annotated[
+        tuple[float, float, float, float] | None,
+        "Box of the microphones: length, width and height of the smallest box around the "
+        "machine, distance from it, m.",
+    ] = None,
+    background: Annotated[
+        list[Path] | None, "Recording without the machine running; may be repeated."
+    ] = None,
+    absorption_area: Annotated[
+        str | None, "Absorption area of the room, m², or CSV file by band; default: free field."
+    ] = None,
+    reverberation_time: Annotated[
+        str | None, "Reverberation time of the room, s, or CSV file by band."
+    ] = None,
+    volume: Annotated[float | None, "Volume of the room, m³, with its reverberation time."] = None,
+    unit: Annotated[
+        list[str] | None, "CHANNEL=UNIT or FILE:CHANNEL=UNIT, where a file states none."
+    ] = None,
+    calibration: Annotated[
+        list[str] | None, "CHANNEL=FACTOR or FILE:CHANNEL=FACTOR: unit per unit stored in the file."
+    ] = None,
+    sample_rate: SampleRate = None,
+    out: Annotated[
+        Path | None, "Folder of the results; default: reports/NAME OF THE FIRST."
+    ] = None,
+    plugin: Plugins = None,
+    *,
+    printing: Printing,
+) -> Outcome:
+    """Measure the sound power of a machine with the microphones around it, K1 and K2 (ISO 3744)."""
+    from .. import report
+    from ..measured.sound_power import sound_power
+    from . import microphones
+
+    quiet = background or []
+    surface = microphones.surface_of(hemisphere, box)
+    absorption = microphones.absorption_of(absorption_area, reverberation_time, volume)
+    target = printing.target(out or Path("reports") / files[0].stem)
+    reading = Reading(unit, calibration, sample_rate=sample_rate)
+    given = ([*files, *quiet], reading, plugin)
+    running, still = (microphones.read_files(each, *given) for each in (files, quiet))
+    measured = sound_power(running, surface, still, absorption)
+    return target.outcome(report.analysis_of_sound_power(measured), measured, "sound_power.nc")

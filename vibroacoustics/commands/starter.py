@@ -4,10 +4,12 @@ import re
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from ..base.errors import ParameterError
+from ..base.hashing import canonical_json
 from ..machine.machine import MACHINES
+from ..study.schema.files import machine_schema, study_schema
 
 STUDIES: Final = {
     "oldham-scroll": "copeland_thesis.toml",
@@ -41,9 +43,6 @@ _HEAD: Final = """\
 def starting_files(kind: str) -> dict[str, bytes]:
     """Study, machine and the tables they read, by name; the schemas are not among them.
 
-    Parameters
-    ----------
-    kind : of machine
 
     Raises
     ------
@@ -110,3 +109,13 @@ def _rewritten(text: str, schema: str = "", name: str = "") -> str:
         return text
     head = _HEAD.format(schemas=SCHEMAS_NAME, schema=schema, name=name)
     return head + text.partition("\n")[2]
+
+
+def schemas() -> dict[str, bytes]:
+    """Of study and machine, by name of their file."""
+    return {"study.json": as_file(study_schema()), "machine.json": as_file(machine_schema())}
+
+
+def as_file(schema: dict[str, Any]) -> bytes:
+    """Content of the file of a schema."""
+    return canonical_json(schema).encode() + b"\n"

@@ -1,10 +1,13 @@
-"""Outcome of `run`: text, files and tables of each study, and what the studies took."""
+"""What `run` and `check` say of a study: text, files and tables, and what it takes."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import xarray as xr
 
+from ..base.threads import processors
+from ..machine.machine import Machine
+from ..pipeline.cost import RunCost
 from ..report.analysis import Analysis
 from ..report.kwave_words import kwave_difference_db, receiver_methods
 from ..results.estimates import has_samples, sample_numbers
@@ -13,21 +16,9 @@ from .outcome import Outcome, columns
 
 
 def outcome(
-    study: Study,
-    results: xr.Dataset,
-    analysis: Analysis,
-    files: Mapping[str, Path],
-    seconds: float,
+    study: Study, results: xr.Dataset, analysis: Analysis, files: Mapping[str, Path], seconds: float
 ) -> Outcome:
-    """Give the outcome of one study.
-
-    Parameters
-    ----------
-    study : that was run
-    results : of it
-    analysis, files : its report, and the files that were written
-    seconds : that it took
-    """
+    """Give the outcome of one study, with the seconds that it took."""
     coarse = [f"coarse: {words}" for words in study.coarsened]
     row = {
         "study": study.source_file,
@@ -66,3 +57,35 @@ def summary(outcomes: Mapping[str, Outcome]) -> Outcome:
     }
     analyses = {f"{name}/": each.analyses[""] for name, each in outcomes.items()}
     return Outcome("\n".join(each.text for each in outcomes.values()), files, tables, analyses)
+
+
+def machine_lines(machine: Machine) -> Iterator[str]:
+    """What a machine's file holds."""
+    tables = [name for name in type(machine).model_fields if getattr(machine, name) is not None]
+    yield f"machine: {machine.name}, {machine.kind}"
+    yield f"values: {', '.join(tables)}"
+
+
+def cost_lines(cost: RunCost) -> Iterator[str]:
+    """What a run takes, stage by stage, and how that is known."""
+    yield f"size of the result: {cost.result_bytes / 1e6:.2g} MB, of at most 2147 MB"
+    yield (
+        "radiation: is in the cache"
+        if cost.was_cached
+        else f"radiation: is computed, {cost.radiation_bytes / 1e6:.0f} MB of memory"
+    )
+    for one in cost.costs:
+        yield f"  {_span(one.low_s, one.high_s):>14}  {one.name}: {one.how}"
+    cores = processors()
+    yield (
+        f"time: {_span(cost.low_s, cost.high_s)} of processor time; "
+        f"{_span(cost.low_s / cores, cost.high_s)} on {cores} idle cores"
+    )
+
+
+def _span(low_s: float, high_s: float) -> str:
+    """A range of times in the unit of the larger one."""
+    for unit, seconds in (("h", 3600.0), ("min", 60.0)):
+        if high_s >= 2.0 * seconds:
+            return f"{low_s / seconds:.2g} to {high_s / seconds:.2g} {unit}"
+    return f"{low_s:.2g} to {high_s:.2g} s"

@@ -32,12 +32,7 @@ _METHOD: Final = (
 
 
 def analysis_of_tones(tones: xr.Dataset) -> Analysis:
-    """Return tones of every channel with loudness and sharpness.
-
-    Parameters
-    ----------
-    tones : from `recorded_tones`
-    """
+    """Return tones of every channel with loudness and sharpness."""
     parts: list[Part] = []
     shown: list[Block] = []
     for number, name in enumerate(_channels(tones)):
@@ -103,7 +98,8 @@ def _tone(tone: Tone, channel: str) -> tuple[Cell, ...]:
     name, hertz, level, *ratios = tone_row(tone)
     at = {"channel": channel, "frequency_hz": tone.frequency_hz}
     number = Number(tone.level_db, "dB", "recorded_tone_level", at, text=level)
-    return (name, hertz, number, *ratios, *_times(tone), _which(tone))
+    times = f"{100.0 * tone.share:.0f}", rounding.fixed(tone.swing_db)
+    return (name, hertz, number, *ratios, *times, _which(tone))
 
 
 def _numbers(tone: Tone) -> tuple[float, ...]:
@@ -133,11 +129,6 @@ def tone_row(tone: Tone) -> tuple[str, ...]:
 def _ratio(value_db: float, criterion_db: float) -> str:
     value = rounding.fixed(value_db) if math.isfinite(value_db) else "∞"
     return f"{value} ({rounding.fixed(criterion_db)})"
-
-
-def _times(tone: Tone) -> tuple[str, str]:
-    """Share of the time that a tone sounds, and how its level swings meanwhile."""
-    return f"{100.0 * tone.share:.0f}", rounding.fixed(tone.swing_db)
 
 
 def _which(tone: Tone) -> str:

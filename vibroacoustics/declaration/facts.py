@@ -71,12 +71,7 @@ def mounting(case: xr.Dataset) -> tuple[Fact, ...]:
 
 
 def not_available(microphones: int) -> tuple[str, ...]:
-    """Return what a declaration by ISO 4871 states and the prediction does not have.
-
-    Parameters
-    ----------
-    microphones : number of those from which the sound power comes
-    """
+    """Return what a declaration by ISO 4871 states and the prediction does not have."""
     if microphones >= FEWEST_MICROPHONES:
         return _NOT_AVAILABLE
     surface = f"the {FEWEST_MICROPHONES} microphones of ISO 3744: the study has {microphones}"

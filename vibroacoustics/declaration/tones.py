@@ -16,11 +16,6 @@ def prominent_tones(
 ) -> tuple[Tone, ...]:
     """Return each prominent tone once, at the microphone with its largest excess.
 
-    Parameters
-    ----------
-    results : of a run
-    option, speed_rpm : of the sheet
-    microphones : at which tones are judged
 
     Returns
     -------
@@ -41,8 +36,7 @@ def not_judged(
 ) -> int:
     """Return the number of audible tones that are judged at no microphone.
 
-    A tone is not judged where there is no noise in its critical band; parameters as
-    `prominent_tones`.
+    A tone is not judged where there is no noise in its critical band.
     """
     case = results.sel(option=option, speed=speed_rpm, receiver=list(microphones))
     hertz = case["judged_tone_frequency"].values

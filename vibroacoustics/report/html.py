@@ -11,8 +11,7 @@ from markupsafe import Markup, escape
 
 from .blocks import Part, Text, drawn
 from .charts.picture import Picture
-from .live.assets import live_script, live_style, unpacking_script
-from .live.numbers import packed
+from .live.assets import live_script, live_style, packed, unpacking_script
 
 
 def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = "") -> bytes:

@@ -18,9 +18,6 @@ LONGEST_REASON: Final = 200
 def check_run(results: xr.Dataset) -> None:
     """Refuse what is no complete run.
 
-    Parameters
-    ----------
-    results : from a file that fits its hash
 
     Raises
     ------

@@ -190,13 +190,7 @@ def sample_numbers(results: xr.Dataset) -> SampleNumbers:
 
 
 def estimated(results: xr.Dataset, statistics: xr.Dataset) -> xr.Dataset:
-    """Return results with statistics of samples in place of nominal values, which stay beside them.
-
-    Parameters
-    ----------
-    results : with the nominal values
-    statistics : variables with the ends of their intervals, and others
-    """
+    """Return results with statistics of samples in place of nominal values, which stay beside."""
     kept = {
         f"{name}{SUFFIXES[NOMINAL]}": _nominal(results, name)
         for name in map(str, statistics.data_vars)

@@ -73,10 +73,6 @@ class Compared(NamedTuple):
 def check_figures(compared: Compared, limits: Sequence[FigureLimit]) -> list[CheckedFigure]:
     """Hold figures of both results against their limits.
 
-    Parameters
-    ----------
-    compared : two results
-    limits : of `read_figure_limits`, or made as `FigureLimit`
 
     Raises
     ------

@@ -113,12 +113,8 @@ def write_together(folder: Path, files: Mapping[str, bytes]) -> None:
 
 
 def replace_all(staged: Staging, first: str = "") -> None:
-    """Move all that was written to its names; no signal comes between.
+    """Move all that was written to its names, one before all others; no signal comes between.
 
-    Parameters
-    ----------
-    staged : where it was written, each file synced
-    first : the file that goes first
 
     Raises
     ------
@@ -140,14 +136,11 @@ def replace_all(staged: Staging, first: str = "") -> None:
             for name in names:
                 source, target = folders[name.parent]
                 with naming(target.path / name.name):
-                    _move(name.name, source, target)
+                    ends = {"src_dir_fd": source.descriptor, "dst_dir_fd": target.descriptor}
+                    os.replace(name.name, name.name, **ends)
             for _, target in folders.values():
                 with naming(target.path):
                     target.sync()
-
-
-def _move(name: str, source: Folder, target: Folder) -> None:
-    os.replace(name, name, src_dir_fd=source.descriptor, dst_dir_fd=target.descriptor)
 
 
 @contextmanager

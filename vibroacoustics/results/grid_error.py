@@ -20,9 +20,6 @@ def grid_error_db(results: xr.Dataset, receiver: str) -> float:
 def loud_errors_db(results: xr.Dataset) -> Array:
     """Return the errors where vectors are within 20 dB of the loudest microphone, dB.
 
-    Parameters
-    ----------
-    results : with `transfer_vector_error`
 
     Returns
     -------

@@ -39,12 +39,8 @@ def append_hash(file: BinaryIO) -> str:
 
 
 def read_checked(path: Path, folder: Folder | None = None) -> Checked:
-    """Content of a file that fits its hash.
+    """Content of a file that fits its hash; below a folder no link to another is followed.
 
-    Parameters
-    ----------
-    path : of the file
-    folder : holds it, where no link to another may be followed
 
     Raises
     ------

@@ -25,13 +25,7 @@ _NAMES: Final = {
 
 
 def name(label: str, of_study: Mapping[str, Any] = _NO_WORDS) -> str:
-    """Plain words for a label such as `added_mass_kg`, without its unit.
-
-    Parameters
-    ----------
-    label : name with its unit
-    of_study : words that the results keep, with `labels` of machine and options
-    """
+    """Plain words for a label such as `added_mass_kg`, without its unit."""
     return (
         of_study.get("labels", {}).get(label)
         or _NAMES.get(label)
@@ -40,13 +34,7 @@ def name(label: str, of_study: Mapping[str, Any] = _NO_WORDS) -> str:
 
 
 def unit(label: str, of_study: Mapping[str, Any] = _NO_WORDS) -> str:
-    """Unit in the suffix of a label; empty where it has none.
-
-    Parameters
-    ----------
-    label : name with its unit
-    of_study : words that the results keep, with `units` of plug-ins
-    """
+    """Unit in the suffix of a label; empty where it has none."""
     return _split(label, of_study)[1]
 
 

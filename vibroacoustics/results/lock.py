@@ -33,11 +33,6 @@ _NO_LOCKS: Final = (errno.ENOLCK, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOSYS)
 def locked(folder: Folder, name: str, what: str) -> Iterator[None]:
     """Hold a lock; another's is waited for, and named in one warning.
 
-    Parameters
-    ----------
-    folder : of the lock
-    name : of its file
-    what : what is locked, in words for who waits
 
     Raises
     ------

@@ -1,8 +1,7 @@
 """Several recordings of a machine as one: runs of one or of several specimens."""
 
 import json
-from collections.abc import Callable, Sequence
-from functools import reduce
+from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -13,7 +12,13 @@ from ..base.decibel import amplitude_of_level, level_of_amplitude
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
 from ..base.vocabulary import NO_ANGLE_ZERO, check, label_coordinates, stamp
-from .order_comparison import channel_units, common_orders, common_speeds, values_at
+from .order_comparison import (
+    ORDER_TOLERANCE,
+    channel_units,
+    common_orders,
+    common_speeds,
+    values_at,
+)
 from .scatter import Scatter, scatter
 
 RUNS: Final = "runs"
@@ -58,14 +63,15 @@ def mean_of_runs(runs: Sequence[xr.Dataset], specimens: Sequence[str] = ()) -> x
             title = run.attrs.get("title", "result")
             raise ParameterError(f"{title}: is of no recording; only recordings are averaged")
     at = [_selection(runs, run) for run in runs]
-    rms = np.array([_values(*pair, "channel_order_rms") for pair in zip(runs, at, strict=True)])
+    peaks, rms, coherence = (
+        np.array([values_at(run[name], there) for run, there in zip(runs, at, strict=True)])
+        for name in ("channel_order", "channel_order_rms", "channel_order_coherence")
+    )
     of_orders = scatter(level_of_amplitude(rms), names)
-    peaks = np.array([_values(*pair, "channel_order") for pair in zip(runs, at, strict=True)])
-    held = [_values(*pair, "channel_order_coherence") for pair in zip(runs, at, strict=True)]
     mean = {
         "channel_order": _mean_phasor(peaks, names),
         "channel_order_rms": amplitude_of_level(of_orders.mean),
-        "channel_order_coherence": np.min(held, axis=0),
+        "channel_order_coherence": coherence.min(axis=0),
         **_named("order", of_orders),
     }
     labelled = {name: stamp(name, values, at[0]) for name, values in mean.items()}
@@ -104,9 +110,10 @@ def _selection(runs: Sequence[xr.Dataset], run: xr.Dataset) -> dict[str, Any]:
     common = [name for name, unit in units[0] if all((name, unit) in other for other in units)]
     if not common:
         raise ParameterError("the recordings have no channel of one name and unit in common")
-    orders = reduce(
-        lambda order, one: order[_near(order, common_orders(first, one))], runs, _orders(first)
-    )
+    orders = np.asarray(first["order"].values, dtype=float)
+    for one in runs:
+        off = np.abs(orders[:, None] - common_orders(first, one))
+        orders = orders[off.min(axis=1) < ORDER_TOLERANCE]
     if not orders.size:
         raise ParameterError("the recordings have no order in common")
     speeds = [dict(common_speeds(first, one).tolist()) for one in runs]
@@ -115,18 +122,6 @@ def _selection(runs: Sequence[xr.Dataset], run: xr.Dataset) -> dict[str, Any]:
         raise ParameterError("the recordings have no speed in common")
     of_run = dict(common_speeds(first, run).tolist())
     return {"channel": common, "speed": [of_run[one] for one in shared], "order": orders}
-
-
-def _orders(result: xr.Dataset) -> Array:
-    return np.asarray(result["order"].values, dtype=float)
-
-
-def _near(order: Array, others: Array) -> Array:
-    return np.asarray(np.abs(order[:, None] - others).min(axis=1) < 1e-6)
-
-
-def _values(run: xr.Dataset, at: dict[str, Any], name: str) -> Any:
-    return values_at(run[name], at)
 
 
 def _mean_phasor(peaks: ComplexArray, names: Sequence[str]) -> ComplexArray:
@@ -143,7 +138,7 @@ def _levels(runs: Sequence[xr.Dataset], channels: list[str], names: Sequence[str
             continue
         aligned = xr.align(*(run[variable].sel(channel=channels) for run in runs), join="inner")
         first, stacked = aligned[0], np.array([one.values for one in aligned])
-        of_levels = _skipping_nothing(scatter, stacked, names)
+        of_levels = _scatter_of_known(stacked, names)
         coords = {str(dim): first[dim].values for dim in first.dims}
         levels[variable] = stamp(variable, of_levels.mean, coords)
         for name, values in _named(short, of_levels).items():
@@ -151,14 +146,11 @@ def _levels(runs: Sequence[xr.Dataset], channels: list[str], names: Sequence[str
     return levels
 
 
-def _skipping_nothing(
-    make: Callable[[Array, Sequence[str]], Scatter], level_db: Array, names: Sequence[str]
-) -> Scatter:
+def _scatter_of_known(level_db: Array, names: Sequence[str]) -> Scatter:
     """Scatter where all runs have a level; channels that are no sound pressure have none."""
     known = np.isfinite(level_db).all(axis=0)
-    made = make(level_db[:, known], names)
     filled = []
-    for values in made:
+    for values in scatter(level_db[:, known], names):
         one = np.full(level_db.shape[1:], np.nan)
         one[known] = values
         filled.append(one)

@@ -11,13 +11,7 @@ from numpy.typing import NDArray
 from ..base.arrays import Array, ComplexArray
 from ..base.decibel import level_of_amplitude
 from ..base.errors import ParameterError
-from ..base.vocabulary import (
-    NO_ANGLE_ZERO,
-    REFERENCE_OPTION,
-    check,
-    label_coordinates,
-    stamp,
-)
+from ..base.vocabulary import NO_ANGLE_ZERO, REFERENCE_OPTION, check, label_coordinates, stamp
 from .provenance import software_attributes
 
 SPEED_TOLERANCE: Final = 0.02

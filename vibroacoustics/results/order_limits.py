@@ -80,7 +80,9 @@ def check_limits(
 
 
 def with_limits(results: xr.Dataset, limits: Sequence[Limit]) -> xr.Dataset:
-    """Orders or compared orders that hold, besides, what `check_limits` gives."""
+    """Orders or compared orders that hold, besides, what `check_limits` gives of limits."""
+    if not limits:
+        return results
     checked = check_limits(results, limits)
     added = results.assign(checked.drop_vars(_CHECKED, errors="ignore").data_vars)
     return added.assign_attrs({NOT_CHECKED: checked.attrs[NOT_CHECKED]})

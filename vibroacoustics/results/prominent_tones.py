@@ -37,10 +37,6 @@ def listed_tones(
 ) -> list[ProminentTone]:
     """Return the tones that are audible and prominent in more than half of the weighted samples.
 
-    Parameters
-    ----------
-    results : of a run
-    option, microphone, speed : of its coordinates
 
     Returns
     -------

@@ -51,14 +51,7 @@ def attributes(study: Study) -> dict[str, Any]:
 def radiation_attributes(
     study: Study, radiated: Mapping[str, Any], was_cached: bool
 ) -> dict[str, Any]:
-    """The same, and where the transfer vectors come from.
-
-    Parameters
-    ----------
-    study : of the result
-    radiated : attributes of the transfer vectors
-    was_cached : whether they were read, not computed
-    """
+    """The same, and where the transfer vectors come from."""
     return {
         **attributes(study),
         "reference_pressure_pa": REFERENCE_PRESSURE_PA,
@@ -74,13 +67,7 @@ def recording_attributes(recording: Mapping[str, Any], settings: OrderAnalysis) 
 
 
 def of_recording(recording: Mapping[str, Any], what: str) -> dict[str, Any]:
-    """Global attributes of what is computed from a recording.
-
-    Parameters
-    ----------
-    recording : its attributes
-    what : the result in plain words, lower case
-    """
+    """Global attributes of what is computed from a recording: `what` in words, lower case."""
     name = recording_name(recording)
     kept = (
         "source_sha256", "part_sha256", "part_start_s", "start_time", "sample_rate_hz",

@@ -50,13 +50,13 @@ class RigidBody(Part):
     inertia_zz_kg_m2: Positive
 
 
-class Springs(Part):
+class Mounts(Part):
     pitch_m: Number
 
 
 class Suspension(Part):
     block: RigidBody
-    springs: Springs
+    springs: Mounts
     springs_height_m: Number
     height_m: Number
 
@@ -67,10 +67,6 @@ class Shell(Part):
     dome_height_m: Number
     centre_of_mass_height_m: Number
     floor_clearance_m: Number
-
-
-class Mounts(Part):
-    pitch_m: Number
 
 
 class Foot(Part):

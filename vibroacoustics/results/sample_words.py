@@ -12,12 +12,7 @@ def prior_words(results: xr.Dataset) -> list[str]:
 
 
 def not_sampled_sentence(results: xr.Dataset) -> str:
-    """Say that ranges are not sampled without sources; empty without ranges or with sources.
-
-    Parameters
-    ----------
-    results : of a run without samples
-    """
+    """Say that ranges are not sampled without sources; empty without ranges or with sources."""
     count = sum(record["lowest"] is not None for record in parameters(results)["records"])
     if not count or has_sources(results):
         return ""

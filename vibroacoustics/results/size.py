@@ -21,11 +21,6 @@ OF_SOUND: Final = (
 def check_size(study: Study, first: xr.Dataset, progress: Progress) -> None:
     """State the size of the result, known from the first speed, and refuse too large a one.
 
-    Parameters
-    ----------
-    study : with all speeds
-    first : forces, orders and motion at the first speed
-    progress : called with the size
 
     Raises
     ------
@@ -43,13 +38,7 @@ def check_size(study: Study, first: xr.Dataset, progress: Progress) -> None:
 
 
 def result_bytes(study: Study, first: xr.Dataset) -> int:
-    """Bytes in memory of all that the result holds by speed.
-
-    Parameters
-    ----------
-    study : with all speeds
-    first : forces, orders and motion at the first speed
-    """
+    """Bytes in memory of all that the result holds by speed, of what the first speed holds."""
     sizes = {
         **{str(name): size for name, size in first.sizes.items()},
         "speed": len(study.operation.speed_rpm),

@@ -27,11 +27,6 @@ def gathered(parts: Iterable[xr.Dataset], speeds: int) -> xr.Dataset:
 
     Each block is copied to its rows before the next one is made. Figures that a block does not
     have are NaN.
-
-    Parameters
-    ----------
-    parts : one dataset a block
-    speeds : number of speeds of all blocks
     """
     rows: dict[str, xr.Variable] = {}
     figures: list[xr.DataArray] = []

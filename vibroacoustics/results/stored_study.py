@@ -109,13 +109,7 @@ def quoted_dba(results: xr.Dataset) -> float:
 
 
 def at_catalogue(results: xr.Dataset, **more: Any) -> dict[str, Any]:
-    """Selection of the catalogue's microphone without a balancer, with further labels.
-
-    Parameters
-    ----------
-    results : of a run
-    more : labels by dimension, in place of these too
-    """
+    """Selection of the catalogue's microphone without a balancer, with further labels."""
     return {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results), **more}
 
 

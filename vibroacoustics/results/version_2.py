@@ -67,12 +67,7 @@ def of_this_version(results: xr.Dataset, path: Path) -> xr.Dataset:
 
 
 def raised(results: xr.Dataset) -> xr.Dataset:
-    """Return results of version 2 with the names and variables of the present version.
-
-    Parameters
-    ----------
-    results : of version 2
-    """
+    """Return results of version 2 with the names and variables of the present version."""
     every = [str(name) for name in results.variables]
     by_sample = {
         name: name.replace("_by_draw", "_by_sample") for name in every if "_by_draw" in name

@@ -103,13 +103,7 @@ class Chain:
 
 
 def is_among(thing: str | type, things: Collection[str | type]) -> bool:
-    """Return whether a variable or product is among others, by name or a pattern such as `room_*`.
-
-    Parameters
-    ----------
-    thing : name of a variable, or type of a product
-    things : names and patterns of variables, and types of products
-    """
+    """Return whether a variable or product is among others, by name or pattern, as `room_*`."""
     if not isinstance(thing, str):
         return thing in things
     return any(fnmatchcase(thing, other) for other in things if isinstance(other, str))

@@ -62,10 +62,6 @@ class Forces(Stage):
 def motion_of(study: Study, progress: Progress) -> tuple[xr.Dataset, Cases]:
     """Compute the forces of all sources and the motion that follows, with the nominal values.
 
-    Parameters
-    ----------
-    study : speeds, options, sources
-    progress : called with the number of cases that are done
 
     Returns
     -------

@@ -1,12 +1,17 @@
-"""Levels of all sources at the receivers, with the nominal values."""
+"""Levels of all sources at the receivers, their loudness, and the sound of the plate below."""
 
 from ..base.registry import register
 from ..levels.axes import LevelAxes
 from ..levels.nominal import NominalSound
+from ..levels.structure_borne import structure_borne_variables
 from ..machine.cases import Cases
+from ..sound.ingredients import AT_MICROPHONE, IN_ROOM
+from ..sound.loudness import available
+from ..sound.of_results import hearing_variables
 from ..sound.tone_spectra import tone_variables
 from ..sources.cases import sources_of
 from ..study.study import Study
+from ..transfer.plate.under_feet import plate_sound
 from ..transfer.received import Transmission
 from .chain import Chain
 from .forces import PublishedCases, with_published
@@ -43,3 +48,39 @@ class Levels(Stage):
 
     def tried(self, chain: Chain, study: Study) -> Trial:
         return timed(chain, self, len(study.operation.speed_rpm))
+
+
+@register
+class Loudness(Stage):
+    """Loudness and sharpness at the microphones and in a room, where mosqito is installed."""
+
+    name = "loudness"
+    reads = (*AT_MICROPHONE, *IN_ROOM, "representative_value")
+    gives = ("loudness", "sharpness", "loudness_in_room")
+
+    def applies(self, study: Study) -> bool:
+        return available()
+
+    def run(self, chain: Chain) -> Given:
+        return Given(hearing_variables(chain.results))
+
+
+@register
+class StructureBorneSound(Stage):
+    """Sound of the plate under the feet."""
+
+    name = "structure-borne"
+    reads = (Cases, "pressure_line", "level_total")
+    gives = ("structure_borne_*", "level_both_ways")
+
+    def applies(self, study: Study) -> bool:
+        return study.structure_borne is not None
+
+    def run(self, chain: Chain) -> Given:
+        study, results, settings = chain.study, chain.results, chain.study.structure_borne
+        if settings is None:
+            return Given()
+        frequency = results["tone_frequency"].transpose("speed", "line")
+        sound = plate_sound(settings, chain[Cases], list(study.options), frequency)
+        away_m = [receiver.distance_m for receiver in study.receivers.values()]
+        return Given(structure_borne_variables(settings, sound, away_m, results))

@@ -1,6 +1,11 @@
-"""Paths from the loads of every case to the receivers."""
+"""Paths from the loads of every case to the receivers, measured ones too, and sound by path."""
 
 from ..base.registry import register
+from ..levels.contribution_choice import chosen_speeds, loudest_orders
+from ..levels.contributions import contribution_variables
+from ..levels.nominal import NominalSound
+from ..machine.cases import Cases
+from ..measured.sound_functions import force_sound_of
 from ..radiation.pressure import pressure_per_shell_velocity
 from ..radiation.transfer_vectors import pressure_per_velocity
 from ..study.study import Study
@@ -9,6 +14,7 @@ from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
 from ..transfer.received import Transmission
 from .chain import Chain
+from .representative import Representative
 from .stage import Given, Stage, Trial, advanced
 
 
@@ -28,3 +34,41 @@ class Paths(Stage):
 
     def tried(self, chain: Chain, study: Study) -> Trial:
         return Trial(advanced(chain, self))
+
+
+@register
+class MeasuredForceSound(Stage):
+    """Measured pressure per force, in place of transfer vectors."""
+
+    name = "force-sound"
+    gives = (ForceSound,)
+
+    def applies(self, study: Study) -> bool:
+        return study.measured is not None and study.measured.sound is not None
+
+    def run(self, chain: Chain) -> Given:
+        return Given(products=(force_sound_of(chain.study),))
+
+    def tried(self, chain: Chain, study: Study) -> Trial:
+        return Trial(advanced(chain, self))
+
+
+@register
+class ContributionsByPath(Stage):
+    """Pressure and shares of the transfer paths, of the representative sample if there is one."""
+
+    name = "contributions"
+    reads = (Cases, Transmission, NominalSound, Representative, "order_level")
+    gives = ("path_*", "motion_*", "modelled_band_level")
+
+    def run(self, chain: Chain) -> Given:
+        speeds, nominal, split = chosen_speeds(chain.study), chain[Cases], {}
+        chosen = chain.get(Representative)
+        every = nominal if chosen is None else chosen.cases
+        cases = every.some(key for key in nominal.cases if key[0] in speeds)
+        chain.progress("sound by path", 0, len(cases.cases))
+        for key, of_case in chain[Transmission].contributions(cases):
+            split[key] = of_case
+            chain.progress("sound by path", len(split), len(cases.cases))
+        orders = loudest_orders(chain.results)
+        return Given(contribution_variables(chain[NominalSound].axes, split, orders))

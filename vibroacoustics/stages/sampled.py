@@ -20,14 +20,7 @@ from .chain import Chain
 
 
 def sounds_of(chain: Chain, samples: list[Sample], progress: Callable[[int], None]) -> list[Sound]:
-    """Compute the sound of every case of a chain with every sample.
-
-    Parameters
-    ----------
-    chain : with the nominal cases, paths and sound
-    samples : values by table and field
-    progress : called with the number of samples that are done
-    """
+    """Compute the sound of every case of a chain with every sample."""
     nominal, path = chain[NominalSound], chain[Transmission]
 
     def sound_of(sample: Sample) -> Sound:
@@ -40,15 +33,7 @@ def sounds_of(chain: Chain, samples: list[Sample], progress: Callable[[int], Non
 def values_of(
     chain: Chain, ensemble: Bank, numbers: list[tuple[int, int]], progress: Callable[[int], None]
 ) -> list[SampleValues | None]:
-    """Compute levels and forces of the samples that go on; none of those without a solution.
-
-    Parameters
-    ----------
-    chain : with the nominal cases, paths, sound and forces
-    ensemble : all samples
-    numbers : of those that go on, and how many times each counts
-    progress : called with the number of samples that are done
-    """
+    """Compute levels and forces of the samples that go on; none of those without a solution."""
 
     def of_number(counted: tuple[int, int]) -> SampleValues | None:
         return _values(chain, ensemble, *counted)
@@ -70,11 +55,6 @@ def _values(chain: Chain, ensemble: Bank, number: int, count: int) -> SampleValu
 def deviating(chain: Chain, ensemble: Bank, number: int) -> tuple[Deviating, Pairs, Cases]:
     """Compute the sound of a sample with the discrepancies of its pairs.
 
-    Parameters
-    ----------
-    chain : with the nominal cases, paths and sound
-    ensemble : all samples
-    number : of the sample
 
     Returns
     -------
@@ -93,14 +73,7 @@ def deviating(chain: Chain, ensemble: Bank, number: int) -> tuple[Deviating, Pai
 
 
 def timed_sounds(chain: Chain, study: Study, count: int) -> tuple[list[Sound], float]:
-    """Compute the sound of the first samples of a study; also the processor time of all, s.
-
-    Parameters
-    ----------
-    chain : at the first speed
-    study : with all speeds
-    count : number of samples
-    """
+    """Compute the sound of the first samples of a study; also the processor time of all, s."""
     samples = next(batches_of_samples(study))[:count]
     start = _processor_time_s()
     sounds = sounds_of(chain, samples, lambda _: None)

@@ -1,7 +1,9 @@
-"""Criteria, scores and ranks of the options."""
+"""Criteria, scores and ranks of the options, and results beside published values."""
 
+from ..base.hashing import canonical_json
 from ..base.registry import register
 from ..scoring import study_scores
+from ..uncertainty.validation import validation_variables
 from .chain import Chain
 from .stage import EVERYTHING, Given, Stage
 
@@ -20,3 +22,19 @@ class Scores(Stage):
 
     def run(self, chain: Chain) -> Given:
         return Given(study_scores(chain.study, chain.results))
+
+
+@register
+class Validation(Stage):
+    """Error and uncertainty of results of which a value is published."""
+
+    name = "validation"
+    reads = (
+        "level_modelled", "level_modelled_nominal", "force_order", "prior_sample_*", "shell_weight",
+        "transfer_vector", "transfer_vector_error", "pattern_transfer_vector*",
+    )  # fmt: skip
+    gives = ("evidence_*",)
+
+    def run(self, chain: Chain) -> Given:
+        parameters = canonical_json(chain.study.parameters())
+        return Given(validation_variables(chain.results.assign_attrs(parameters=parameters)))

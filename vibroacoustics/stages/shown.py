@@ -1,22 +1,29 @@
-"""The cases that pictures show: without an option, and with the one that ranks first."""
+"""Cases that pictures show, without an option and with the first in rank; energies, deflection."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.vocabulary import REFERENCE_OPTION
+from ..base.registry import register
+from ..base.vocabulary import REFERENCE_OPTION, stamp
 from ..levels.contribution_choice import chosen_speeds
+from ..levels.energy import energy_variables, loudest_line
+from ..levels.nominal import NominalSound
 from ..levels.sample_levels import with_discrepancy
 from ..machine.cases import Cases
 from ..machine.machine import Machine
-from ..machine.source import CaseKey
+from ..machine.source import CaseKey, Shared
 from ..mechanics.received_sound import ReceivedSound
+from ..study.study import Study
+from ..transfer.deflection import MovingCase, deflection_variables
 from ..transfer.received import Transmission
+from ..transfer.section import section_variables
 from .chain import Chain
 from .representative import Representative
+from .stage import Given, Stage
 
 UNMODELLED_NOISE: Final = ("representative_unmodelled_band_level", "unmodelled_band_level")
 """Variables of the representative sample and with nominal values."""
@@ -91,3 +98,49 @@ def _first_ranked(results: xr.Dataset) -> list[str]:
         return []
     rank = results["rank"].isel(scoring_method=0)
     return [str(rank["option"].values[rank.argmin("option").item()])]
+
+
+@register
+class Energies(Stage):
+    """What each source, and unmodelled noise, adds to lines and third octaves.
+
+    None with a measured baseline, which takes the place of what the sources make.
+    """
+
+    name = "energies"
+    reads = (*SHOWN, NominalSound, "pressure_line")
+    gives = ("line_energy", "band_energy")
+
+    def applies(self, study: Study) -> bool:
+        return study.baseline is None
+
+    def run(self, chain: Chain) -> Given:
+        shown = Shown.of(chain)
+        axes = replace(chain[NominalSound].axes, options=shown.options)
+        case = {"speed": shown.speed_rpm, "option": list(shown.options)}
+        pressure = chain.results["pressure_line"].sel(case)
+        sound = shown.received(chain[Transmission])
+        return Given(energy_variables(axes, sound, pressure, shown.unmodelled))
+
+
+@register
+class Deflection(Stage):
+    """Displacement of rings around the shell, of the feet and of the rigid body; forces."""
+
+    name = "deflection"
+    reads = (*SHOWN, "pressure_line")
+    gives = ("shown_speed", "deflection*", "section_force")
+
+    def run(self, chain: Chain) -> Given:
+        shown, transmission, cases = Shown.of(chain), chain[Transmission], {}
+        pressure = chain.results["pressure_line"].sel(receiver=chain.study.catalogue_receiver)
+        for (speed, option), case in shown.cases.cases.items():
+            key = speed, option
+            cases[option] = MovingCase(
+                transmission.path(Shared(), case.machine, shown.cases.loads[key]),
+                transmission.lines(key, shown.cases),
+                loudest_line(pressure.sel(speed=speed, option=option)),
+            )
+        results = deflection_variables(cases, shown.machine.shell)
+        results = results.merge(section_variables(cases, shown.machine))
+        return Given(results.assign(shown_speed=stamp("shown_speed", shown.speed_rpm)))

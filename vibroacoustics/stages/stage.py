@@ -44,7 +44,7 @@ class Given:
 
 
 class Stage:
-    """A step of the chain, one file of `stages` or of a plug-in.
+    """A step of the chain, in a file of `stages` or of a plug-in.
 
     Names or patterns of variables and types of products say what it reads and gives; the order of
     all stages follows from them. What it reads may be missing where no stage of the study gives it.
@@ -234,14 +234,7 @@ def _check_variables(given: xr.Dataset) -> None:
 
 
 def timed(chain: Chain, stage: Stage, speeds: int = 1) -> Trial:
-    """Run a stage at the first speed; at each further one it takes as long.
-
-    Parameters
-    ----------
-    chain : at the first speed
-    stage : to run
-    speeds : number of those at which a run computes
-    """
+    """Run a stage at the first speed; at each further one it takes as long."""
     start = time.process_time()
     after = advanced(chain, stage)
     seconds = time.process_time() - start

@@ -10,7 +10,7 @@ from vibroacoustics.base.decibel import power_of_level
 from vibroacoustics.base.vocabulary import REFERENCE_OPTION
 from vibroacoustics.levels.contributions import contribution_variables
 from vibroacoustics.results.estimates import nominal
-from vibroacoustics.stages import contributions
+from vibroacoustics.stages import paths
 from vibroacoustics.study.loading import load_study
 
 
@@ -35,7 +35,7 @@ def motions_add_up(monkeypatch):
             np.testing.assert_allclose(split.by_motion.sum(axis=0), total, atol=limit)
         return contribution_variables(axes, cases, orders)
 
-    monkeypatch.setattr(contributions, "contribution_variables", checked)
+    monkeypatch.setattr(paths, "contribution_variables", checked)
 
 
 def assert_adds_up(results):

@@ -9,7 +9,7 @@ from support import TINY, assert_refused, command_here
 import vibroacoustics as va
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
 from vibroacoustics.commands import outputs
-from vibroacoustics.commands.impulse_files import impulse_analysis
+from vibroacoustics.commands.listening import impulse_analysis
 from vibroacoustics.radiation.rooms import of_study as rooms
 from vibroacoustics.sound.room_ways import ways_of
 from vibroacoustics.stages import room

@@ -18,11 +18,10 @@ from vibroacoustics.radiation.sound_field import SoundField
 from vibroacoustics.radiation.transfer_vectors import task_of
 from vibroacoustics.results.storage import without_cache
 from vibroacoustics.stages.chain import Chain
-from vibroacoustics.stages.deflection import Deflection
 from vibroacoustics.stages.directivity import Directivity
-from vibroacoustics.stages.energies import Energies
 from vibroacoustics.stages.run_up import RunUp
 from vibroacoustics.stages.samples import Samples
+from vibroacoustics.stages.shown import Deflection, Energies
 from vibroacoustics.stages.stage import Given, advanced, applying
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.radiating_motions import velocities

@@ -11,7 +11,7 @@ from sources_study import path_of, run_made_up
 import vibroacoustics as va
 from vibroacoustics.base.quantiles import weighted_quantiles
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.stages.hammer_test import hammer_test
+from vibroacoustics.stages.shell import hammer_test
 from vibroacoustics.study.samples import batches_of_samples
 from vibroacoustics.transfer.wall_mobility import wall_of, wall_points
 from vibroacoustics.uncertainty.hammer_test import CHANCE

@@ -1,1 +1,1 @@
-"""The part of the page that moves: levels, spectrum and sound under sliders, without a server."""
+"""Scripts and style of the part of the page that moves."""

@@ -1,14 +1,20 @@
-"""Scripts and style of the part of the page that moves."""
+"""Scripts and style of the part of the page that moves, and texts that its script unpacks."""
 
+import zlib
 from functools import cache
 from importlib import resources
 from typing import Final
+
+import numpy as np
 
 CHARTS: Final = "uPlot.iife.min.js"
 """uPlot 1.6.32 by Leon Sorokin, under the MIT licence that stands beside it."""
 SCRIPTS: Final = (
     "levels.js", "sound.js", "abx.js", "charts.js", "panel.js", "sliders.js", "listening.js",
 )  # fmt: skip
+_LEFT_OUT: Final = b"<\\"
+"""Of the letters from ( to ~, so that the rest are 85 that mean nothing in HTML and in JSON."""
+_LETTERS: Final = np.array([one for one in range(ord("("), ord("~") + 1) if one not in _LEFT_OUT])
 
 
 @cache
@@ -28,6 +34,24 @@ def live_script() -> str:
 def live_style() -> str:
     """Of uPlot and of the panel."""
     return _read("uPlot.min.css") + "\n" + _read("live.css")
+
+
+def packed(content: bytes) -> str:
+    """Deflated bytes in letters, of which none means anything in HTML and in JSON.
+
+    Four bytes, the highest first, are five digits of base 85; fewer at the end are one digit more
+    than bytes.
+
+    Parameters
+    ----------
+    content : any bytes
+    """
+    deflated = zlib.compress(content, 9)
+    missing = -len(deflated) % 4
+    words = np.frombuffer(deflated + bytes(missing), dtype=">u4").astype(np.int64)
+    digits = words[:, None] // 85 ** np.arange(4, -1, -1) % 85
+    letters: str = _LETTERS[digits].astype(np.uint8).tobytes().decode()
+    return letters[: len(letters) - missing]
 
 
 def _read(name: str) -> str:

@@ -55,5 +55,5 @@ class Section:
 
 
 SECTIONS: Final[Registry[Section]] = Registry(
-    "section", Section, "name", "report.sections", "vibroacoustics.sections"
+    "section", Section, "name", "report.sections", "vibroacoustics.sections", "live"
 )

@@ -88,9 +88,7 @@ def ranges_to_avoid(speed_rpm: Array, level_db: Array) -> list[Range]:
 
 
 def speeds_to_avoid(
-    results: xr.Dataset,
-    receiver: str | None = None,
-    of: Sequence[str] = (REFERENCE_OPTION,),
+    results: xr.Dataset, receiver: str | None = None, of: Sequence[str] = (REFERENCE_OPTION,)
 ) -> list[Avoided]:
     """Return maxima of the modelled A-weighted level and of the foot force with options."""
     microphone = receiver or catalogue_receiver(results)

@@ -37,15 +37,7 @@ class LevelCurve(NamedTuple):
 def option_curves(
     results: xr.Dataset, name: str, receiver: str | None = None, of: Sequence[str] = ()
 ) -> list[LevelCurve]:
-    """Curves of the options, A-weighted; the first with its interval.
-
-    Parameters
-    ----------
-    results : of a run
-    name : `level_total` or `level_modelled`
-    receiver : default: that of the catalogue's noise
-    of : options; default: the first eight
-    """
+    """Curves of options, by default the first eight, A-weighted; the first with its interval."""
     where = {"receiver": chosen(results, "receiver", receiver or catalogue_receiver(results))}
     names = [chosen(results, "option", option) for option in of] or options(results)[:MOST_CURVES]
     levels = a_weighted(interval(results, name).sel(where))
@@ -58,14 +50,7 @@ def option_curves(
 def source_curves(
     results: xr.Dataset, receiver: str | None = None, option: str = REFERENCE_OPTION
 ) -> list[LevelCurve]:
-    """Curves of each source alone, A-weighted, with its interval.
-
-    Parameters
-    ----------
-    results : of a run
-    receiver : default: that of the catalogue's noise
-    option : one of the results
-    """
+    """Curves of each source alone, A-weighted, with its interval."""
     where = {
         "receiver": chosen(results, "receiver", receiver or catalogue_receiver(results)),
         "option": chosen(results, "option", option),
@@ -79,13 +64,7 @@ def source_curves(
 
 
 def recorded_curves(mapped: xr.Dataset, channel: str | None = None) -> list[LevelCurve]:
-    """Return levels of a channel of sound pressure by weighting, block by block.
-
-    Parameters
-    ----------
-    mapped : of `speed_frequency_map`
-    channel : default: the first of sound pressure
-    """
+    """Return levels of a channel of sound pressure by weighting, block by block."""
     of_pressure = mapped.sel(channel=mapped["channel_unit"] == "Pa")
     blocks = of_pressure["block_level"].sel(channel=chosen(of_pressure, "channel", channel))
     blocks = blocks.sortby("block_speed")

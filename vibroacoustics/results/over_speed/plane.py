@@ -50,12 +50,6 @@ def plane_of(
 
     A study gives the power of all lines within a step of frequency, without noise. More rows or
     columns than a picture shows are reduced to the loudest of neighbours.
-
-    Parameters
-    ----------
-    results : of `run` or `speed_frequency_map`
-    channel : default: the microphone of the catalogue's noise, or the first channel
-    option : of a study
     """
     plane = (
         _recorded(results, channel)

@@ -42,13 +42,7 @@ def loudest_lines(
     option: str = REFERENCE_OPTION,
     also: Collection[str] = (),
 ) -> list[SoundLine]:
-    """The loudest orders and tones anywhere over the speeds, which rise.
-
-    Parameters
-    ----------
-    results, receiver, option : as of `sound_lines`
-    also : names of lines that are among them, as orders 1 and 2 are
-    """
+    """The loudest orders and tones anywhere over the rising speeds, and `also` lines by name."""
     lines = sound_lines(results, receiver, option)
     orders = [line for line in lines if line.order > 0.0]
     tones = [line for line in lines if np.isnan(line.order)]
@@ -60,14 +54,7 @@ def loudest_lines(
 def sound_lines(
     results: xr.Dataset, receiver: str | None = None, option: str = REFERENCE_OPTION
 ) -> list[SoundLine]:
-    """All lines of the sum of the sources, by rising speed.
-
-    Parameters
-    ----------
-    results : of a run
-    receiver : default: that of the catalogue's noise
-    option : one of the results
-    """
+    """All lines of the sum of the sources, by rising speed; at the microphone of the catalogue."""
     case = {"option": option, "receiver": receiver or catalogue_receiver(results)}
     pressure = results["pressure_line"].sel(case).sum("sound_source").sortby("speed")
     pressure = pressure.transpose("line", "speed")

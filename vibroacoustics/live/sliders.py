@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ...results.stored_study import options
-from ...uncertainty.slider_variables import HOOD
-from ..sections.unknowns.words import file_unit, named
+from ..report.sections.unknowns.words import file_unit, named
+from ..results.stored_study import options
+from ..uncertainty.slider_variables import HOOD
 from .numbers import FEW_BITS, NOISE_BITS, Numbers
 
 _DIMS = ("receiver", "noise_band")
@@ -24,11 +24,6 @@ def sliders_of(numbers: Numbers, shown: xr.Dataset) -> dict[str, Any]:
     Arrays are the numbers of their first elements in `numbers`: `before` by option (microphone,
     band), `change` by slider (node, microphone, band). `own` is the node of the representative
     sample, `error` by option and microphone that of several sliders together.
-
-    Parameters
-    ----------
-    numbers : keeps the arrays
-    shown : results at the speeds and microphones that are shown
     """
     before = shown["slider_band_level"].transpose("option", *_DIMS)
     error = shown["slider_addition_error"].transpose("option", "receiver").values

@@ -7,12 +7,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...base.arrays import Array, ComplexArray
-from ...base.constants import REFERENCE_PRESSURE_PA
-from ...base.decibel import power_of_level
-from ...base.units import shaft_frequency_hz
-from ...base.weighting import WEIGHTING
-from ...sound import Ingredients, ingredients
+from ..base.arrays import Array, ComplexArray
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import power_of_level
+from ..base.units import shaft_frequency_hz
+from ..base.weighting import WEIGHTING
+from ..sound import Ingredients, ingredients
 
 QUIET: Final = 1e-6
 """A line with less than this part of the energy at every microphone with every option, weighted by

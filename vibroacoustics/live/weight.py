@@ -5,12 +5,12 @@ from typing import Final, NamedTuple
 import numpy as np
 import xarray as xr
 
-from ...base.arrays import Array, ComplexArray
-from ...machine.machine import Machine
-from ...mechanics.capabilities import Slider
-from ...mechanics.moving_parts import circling, wrench
-from ...mechanics.rotation import Rotation
-from ...orders.spectrum import order_spectrum_at_speed
+from ..base.arrays import Array, ComplexArray
+from ..machine.machine import Machine
+from ..mechanics.capabilities import Slider
+from ..mechanics.moving_parts import circling, wrench
+from ..mechanics.rotation import Rotation
+from ..orders.spectrum import order_spectrum_at_speed
 
 FORCES: Final = 2.0
 """The heaviest weight makes about so many times the largest force at 1x without an option."""

@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ...base.arrays import Array, ComplexArray
-from ...radiation.transfer_vectors import interpolate_transfer_vector
-from ...transfer import MachineOnMounts
+from ..base.arrays import Array, ComplexArray
+from ..radiation.transfer_vectors import interpolate_transfer_vector
+from ..transfer import MachineOnMounts
 from .machines import Machines
 
 SAME: Final = 1e-6
@@ -59,13 +59,7 @@ class Transmission:
 
 
 def transmission_of(results: xr.Dataset, machines: Machines) -> Transmission:
-    """Loads and sound of the moving parts.
-
-    Parameters
-    ----------
-    results : of a run
-    machines : of its options
-    """
+    """Loads and sound of the moving parts."""
     force, moment = (
         results[f"{name}_order"].sum("source").transpose("speed", "option", "axis", "order").values
         for name in ("force", "moment")
@@ -89,12 +83,7 @@ def transmission_of(results: xr.Dataset, machines: Machines) -> Transmission:
 
 
 def beside(all_together: ComplexArray, part: ComplexArray) -> ComplexArray:
-    """What there is beside a part of it, zero where it is rounding.
-
-    Parameters
-    ----------
-    all_together, part : of any one shape
-    """
+    """What there is beside a part of it, zero where it is rounding."""
     others = all_together - part
     return np.where(np.abs(others) > SAME * np.abs(all_together), others, 0.0)
 

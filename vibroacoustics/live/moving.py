@@ -6,9 +6,9 @@ from functools import cached_property
 import numpy as np
 import xarray as xr
 
-from ...base.arrays import ComplexArray
-from ...base.vocabulary import REFERENCE_OPTION
-from ...results.stored_study import options, parameters
+from ..base.arrays import ComplexArray
+from ..base.vocabulary import REFERENCE_OPTION
+from ..results.stored_study import options, parameters
 from .machines import Machines, machines_of
 from .mounts import MountMatrices, is_over_frequency, mount_matrices
 from .transmission import Transmission, transmission_of
@@ -89,12 +89,7 @@ class Moving:
 
 
 def moving_of(results: xr.Dataset) -> Moving | None:
-    """What can move; none where the page's model is not that of the run.
-
-    Parameters
-    ----------
-    results : of a run
-    """
+    """What can move; none where the page's model is not that of the run."""
     if (parameters(results).get("measured") or {}).get("sound"):
         return None
     machines = machines_of(results)

@@ -1,4 +1,4 @@
-"""What the page holds of a run so that its script can answer sliders."""
+"""Sliders, spectrum and sound of the page, where a browser runs its script, and their data."""
 
 import json
 from typing import Any, Final
@@ -6,9 +6,12 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from ...levels.measured_points import BASELINE_BANDS
-from ...results.stored_study import catalogue_receiver, options
-from ..shown_speeds import few_speeds
+from ..base.registry import register
+from ..levels.measured_points import BASELINE_BANDS
+from ..report.blocks import Block, Live, Text
+from ..report.sections import Section
+from ..report.shown_speeds import chosen_speeds, few_speeds
+from ..results.stored_study import catalogue_receiver, options
 from .cases import case_of
 from .lines import Lines, lines_at
 from .mounts import put_matrices
@@ -30,10 +33,6 @@ def live_data(results: xr.Dataset) -> str:
     holds loads of the moving parts, matrices of the mounts, pressure per velocity and the pressure
     of other sources. With a baseline or measured sound by force nothing varies, and it holds the
     pressure of each option.
-
-    Parameters
-    ----------
-    results : of a run, with the noise of third octaves
     """
     shown = _shown(results)
     middle_hz = {band.nominal_hz: band.middle_hz for band in BASELINE_BANDS}
@@ -63,12 +62,7 @@ def live_data(results: xr.Dataset) -> str:
 
 
 def full_scale_pa(lines: list[Lines]) -> float:
-    """Pressure of a digital sample of 1, the same for all: 1, 2 or 5 times a power of ten.
-
-    Parameters
-    ----------
-    lines : of all speeds
-    """
+    """Pressure of a digital sample of 1, the same for all: 1, 2 or 5 times a power of ten."""
     peak = max(
         float(np.max(np.abs(one.pressure).sum(axis=-1) + _CREST * np.sqrt(one.noise.sum(axis=-1))))
         for one in lines
@@ -85,3 +79,33 @@ def _shown(results: xr.Dataset) -> xr.Dataset:
     names = [str(name) for name in few["receiver"].values]
     names.sort(key=lambda name: name != catalogue_receiver(results))
     return few.sel(receiver=names[:MOST_MICROPHONES])
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    return [
+        Text(
+            "In report.html, where a browser runs its script, levels, spectrum and sound follow "
+            f"sliders, at computed speeds and at {MOST_MICROPHONES} microphones at most. "
+            f"{_values_words(results)}",
+            "note",
+        ),
+        *chosen_speeds(results, "comparison.csv"),
+        Live(live_data(results)),
+    ]
+
+
+def _values_words(results: xr.Dataset) -> str:
+    if not has_sliders(results):
+        return "They are those of the pipeline with the nominal values."
+    return (
+        "Levels begin at the median of the samples. Sliders add the change that they make to the "
+        f"representative sample at {float(results['slider_speed']):g} rpm."
+    )
+
+
+def _applies(results: xr.Dataset) -> bool:
+    """Only results that hold what is no tone, too."""
+    return "noise_band_level" in results and "pressure_line" in results
+
+
+register(Section("live", "Try it", _blocks, _applies, position=25.0))

@@ -4,9 +4,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...base.arrays import Array, ComplexArray
-from ...machine.machine import Machine
-from ...transfer import MachineOnMounts, on_mounts
+from ..base.arrays import Array, ComplexArray
+from ..machine.machine import Machine
+from ..transfer import MachineOnMounts, on_mounts
 
 
 class MountMatrices(NamedTuple):
@@ -52,12 +52,7 @@ def stiffness_over_frequency(machine: MachineOnMounts, frequency_hz: Array) -> C
 
 
 def mount_matrices(machine: Machine) -> MountMatrices:
-    """Matrices of a machine; where they change with frequency, those of constant stiffness.
-
-    Parameters
-    ----------
-    machine : with mounts or feet
-    """
+    """Matrices of a machine; where they change with frequency, those of constant stiffness."""
     stand = on_mounts(machine)
     mounts = machine.mounts
     values = (

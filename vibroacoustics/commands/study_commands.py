@@ -1,4 +1,4 @@
-"""Commands that run studies and check them. Heavy imports wait until they run."""
+"""Commands for studies: curves, run, check, radiation, new. Heavy imports wait until they run."""
 
 import time
 from collections.abc import Sequence
@@ -12,9 +12,9 @@ from . import messages
 from .command import command
 from .options import (
     NoCache,
+    Option,
     Plugins,
     Printing,
-    ResultsFile,
     StudyFile,
     StudyOut,
     load_plugins,
@@ -25,6 +25,30 @@ from .outcome import Outcome, columns
 if TYPE_CHECKING:
     from ..study.study import Study
     from .printing import Printer
+
+
+@command("curves", "Studies", "pipelines/copeland_sources.toml --speed 2900")
+def curves_command(
+    file: Annotated[Path, "FILE: Study or machine file, .toml."],
+    speed: Annotated[
+        float | None, "Shaft speed, rpm; default: the study's first, or of the overall noise."
+    ] = None,
+    option: Option = "none",
+    out: Annotated[Path | None, "Folder; default: reports/NAME OF THE FILE/curves."] = None,
+    plugin: Plugins = None,
+    *,
+    printing: Printing,
+) -> Outcome:
+    """Show what goes on inside a machine: curves.nc, a table and a picture of each curve."""
+    from .. import report
+    from ..sources.curves import curves
+    from ..study.loading import load_study_or_machine
+
+    load_plugins(plugin)
+    study_or_machine = load_study_or_machine(file)
+    target = printing.target(out or Path("reports") / file.stem / "curves")
+    inner = curves(study_or_machine, speed, option)
+    return target.outcome(report.analysis_of_curves(inner), inner, "curves.nc")
 
 
 @command("run", "Studies", "pipelines/copeland_sources.toml")
@@ -39,12 +63,10 @@ def run_command(
     plugin: Plugins = None,
     no_cache: NoCache = False,
     coarse: Annotated[
-        bool,
-        "Take fewer speeds and samples and coarser grids, and report the error.",
+        bool, "Take fewer speeds and samples and coarser grids, and report the error."
     ] = False,
     without: Annotated[
-        list[str] | None,
-        "Name of a source of the studies to omit; may be repeated.",
+        list[str] | None, "Name of a source of the studies to omit; may be repeated."
     ] = None,
     *,
     printing: Printing,
@@ -116,17 +138,17 @@ def check_command(
     from ..study.loading import load_study_or_machine
     from ..study.study import Study
     from ..study.summary import study_lines
-    from . import cost_lines
+    from .summary import cost_lines, machine_lines
 
     with collected() as left_out, stage(progress, "check"):
         load_plugins(plugin)
         checked = load_study_or_machine(file)
         if isinstance(checked, Study):
             cost = run_cost(checked, progress)
-            lines = [*study_lines(checked), *cost_lines.cost_lines(cost)]
+            lines = [*study_lines(checked), *cost_lines(cost)]
             tables = {"cost": columns([each._asdict() for each in cost.costs])}
         else:
-            lines, tables = list(cost_lines.machine_lines(checked)), {}
+            lines, tables = list(machine_lines(checked)), {}
     what = "nothing else is wrong" if left_out else "nothing is wrong"
     return Outcome("\n".join([*lines, f"{file}: {what}"]), tables=tables)
 
@@ -144,34 +166,37 @@ def radiation_command(
     """Compute the housing's radiation alone: transfer vectors, map, directivity, sound power."""
     from .. import pipeline, report
     from ..study.loading import load_study
-    from . import outputs
 
     load_plugins(plugin)
-    folder = out or Path("reports") / study_file.stem
     study = load_study(study_file)
-    outputs.check_folder(folder)
-    prints = printing.printer()
+    target = printing.target(out or Path("reports") / study_file.stem)
     with used_cache(no_cache):
         radiated = pipeline.radiate(study, progress)
-    analysis = report.analysis_of_radiation(radiated)
-    files = outputs.write_analysis(analysis, radiated, folder, "transfer_vectors.nc", prints)
-    return Outcome(files=files, analyses={"": analysis})
+    return target.outcome(report.analysis_of_radiation(radiated), radiated, "transfer_vectors.nc")
 
 
-@command("report", "Results", "reports/copeland_sources/results.nc --pdf", computes=False)
-def report_command(
-    results_file: ResultsFile,
-    out: Annotated[Path | None, "Folder of the report; default: that of the file."] = None,
-    plugin: Plugins = None,
-    *,
-    printing: Printing,
+@command("new", "Studies", "oldham-scroll --out my_machine", computes=False)
+def new_command(
+    kind: Annotated[str, "KIND: Kind of machine."],
+    out: Annotated[Path | None, "Folder of the files; default: KIND."] = None,
 ) -> Outcome:
-    """Write the report of results again, without computing anything; as PDF, too."""
-    from . import outputs
+    """Write a commented machine file and study to begin with, and their schemas."""
+    from ..base.errors import StorageError
+    from ..results.files import only_writer, replace_all, write
+    from . import starter
 
-    load_plugins(plugin)
-    prints = printing.printer()
-    folder = out or results_file.parent
-    analysis, files = outputs.write_report_again(results_file, folder, prints)
-    messages.warn(outputs.older_files(folder))
-    return Outcome(files=files, analyses={"": analysis})
+    folder = out or Path(kind)
+    files = starter.starting_files(kind)
+    files |= {f"{starter.SCHEMAS_NAME}/{name}": text for name, text in starter.schemas().items()}
+    with only_writer(folder) as staged:
+        for name in files:
+            if staged.target.status(name) is not None:
+                raise StorageError(f"{folder / name}: is there already; nothing is written")
+        for name, content in files.items():
+            write(staged, name, content)
+        replace_all(staged)
+    study = folder / starter.STUDY_NAME
+    return Outcome(
+        f"next: vibroacoustics check {study}; vibroacoustics run {study}",
+        {f"written {name}": folder / name for name in files},
+    )

@@ -1,10 +1,11 @@
 """Arrays of numbers as one text that a script reads back: 32-bit floats, deflated, in base 85."""
 
-import zlib
 from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from ..report.live.assets import packed
 
 NOTHING: Final = -1
 """Stands for an array that is not there."""
@@ -16,9 +17,6 @@ FEW_BITS: Final = 15
 """Within 1.5e-5, 1.3e-4 dB of an amplitude, of what is only multiplied: it deflates better."""
 NOISE_BITS: Final = 10
 """Within 5e-4, 0.002 dB of an energy, of third octaves that are drawn and heard."""
-_LEFT_OUT: Final = b"<\\"
-"""Of the letters from ( to ~, so that the rest are 85 that mean nothing in HTML and in JSON."""
-_LETTERS: Final = np.array([one for one in range(ord("("), ord("~") + 1) if one not in _LEFT_OUT])
 
 
 class Numbers:
@@ -57,24 +55,6 @@ class Numbers:
         """All numbers: the first bytes of each, then the second ones and so on, deflated."""
         planes = np.frombuffer(b"".join(self._parts), dtype=np.uint8).reshape(-1, 4).T
         return packed(planes.tobytes())
-
-
-def packed(content: bytes) -> str:
-    """Deflated bytes in letters, of which none means anything in HTML and in JSON.
-
-    Four bytes, the highest first, are five digits of base 85; fewer at the end are one digit more
-    than bytes.
-
-    Parameters
-    ----------
-    content : any bytes
-    """
-    deflated = zlib.compress(content, 9)
-    missing = -len(deflated) % 4
-    words = np.frombuffer(deflated + bytes(missing), dtype=">u4").astype(np.int64)
-    digits = words[:, None] // 85 ** np.arange(4, -1, -1) % 85
-    letters: str = _LETTERS[digits].astype(np.uint8).tobytes().decode()
-    return letters[: len(letters) - missing]
 
 
 def _rounded(values: NDArray[np.float32], bits: int) -> NDArray[np.float32]:

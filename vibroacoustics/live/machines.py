@@ -9,12 +9,12 @@ import numpy as np
 import xarray as xr
 from pydantic import TypeAdapter, ValidationError
 
-from ...base.arrays import Array
-from ...base.errors import ParameterError
-from ...machine.machine import AnyMachine, Machine
-from ...machine.option import AnyOption, Option
-from ...results.stored_study import options, parameters
-from ...transfer import MachineOnMounts, on_mounts
+from ..base.arrays import Array
+from ..base.errors import ParameterError
+from ..machine.machine import AnyMachine, Machine
+from ..machine.option import AnyOption, Option
+from ..results.stored_study import options, parameters
+from ..transfer import MachineOnMounts, on_mounts
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,7 @@ class Machines:
 
 
 def machines_of(results: xr.Dataset) -> Machines | None:
-    """From the parameters that a run kept; none where they are of another version or a stranger's.
-
-    Parameters
-    ----------
-    results : of a run
-    """
+    """From the parameters that a run kept; none of another version or a stranger's."""
     strangers = json.loads(results.attrs.get("plugins", "{}"))
     if any(name.startswith("kind of ") for name in strangers):
         return None  # the report is the same with and without the files of a plug-in

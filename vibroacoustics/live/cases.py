@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from ...base.arrays import ComplexArray
-from ...base.vocabulary import REFERENCE_OPTION
-from ...levels.measured_change import left_of_squares
+from ..base.arrays import ComplexArray
+from ..base.vocabulary import REFERENCE_OPTION
+from ..levels.measured_change import left_of_squares
 from .lines import Lines
 from .mounts import is_over_frequency, stiffness_over_frequency
 from .moving import Moving
@@ -24,13 +24,6 @@ def case_of(numbers: Numbers, lines: Lines, moving: Moving | None, speed: int) -
     `stiffness` over frequency (line, 21); with a baseline what the model leaves of it, `left`
     (microphone, line) and whether with its `phase`. A line that is no order has zeros. Where
     nothing moves there are `pressure`, as it sounds, and `modelled` with its lines.
-
-    Parameters
-    ----------
-    numbers : keeps the arrays
-    lines : of the speed
-    moving : none where nothing moves
-    speed : its number
     """
     case: dict[str, Any] = {
         "frequency": [round(float(hertz), 9) for hertz in lines.frequency_hz],
