@@ -8,7 +8,7 @@ import numpy as np
 import vibroacoustics as va
 from vibroacoustics.machine.frame import PARTS, Frame
 from vibroacoustics.machine.machine import Machine
-from vibroacoustics.transfer.frame import frame_on_shell
+from vibroacoustics.transfer.frame.of_machine import frame_on_shell
 from vibroacoustics.transfer.path import ShellPath
 from vibroacoustics.transfer.study_path import computed_shell_path
 

@@ -16,7 +16,8 @@ from vibroacoustics.machine.shell_structure import ShellStructure
 from vibroacoustics.mechanics.critical_speed import free_scroll_shaft
 from vibroacoustics.mechanics.scroll_shaft import ScrollShaft
 from vibroacoustics.study.samples import samples_of, with_sample
-from vibroacoustics.transfer.frame import contacts_of, inner_set
+from vibroacoustics.transfer.frame.contacts import contacts_of
+from vibroacoustics.transfer.frame.inner import inner_set
 from vibroacoustics.transfer.frame.of_machine import SHAFT_ELEMENT_M
 
 ORDERS = 82

@@ -21,13 +21,6 @@ def best_studies(
     """Texts of study files by name: one with the best few as options, or one for each of them.
 
     One for each where designs change the machine.
-
-    Parameters
-    ----------
-    problem : that was searched
-    search : its best few designs
-    study_file : that was searched
-    folder : of the new files
     """
     base = os.path.relpath(study_file.resolve(), folder.resolve())
     factors = np.array([variable.factor for variable in problem.space.variables])

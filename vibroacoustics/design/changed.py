@@ -11,13 +11,7 @@ from ..study.study import Study
 
 
 def is_plain(study: Study, keys: list[str]) -> bool:
-    """Whether values of these dotted keys stand in fields of their own alone.
-
-    Parameters
-    ----------
-    study : with its options
-    keys : dotted, as of `Study.replace`
-    """
+    """Whether values of these dotted keys stand in fields of their own alone."""
     redesigned = any(option.changes_machine for option in study.options.values())
     return all(_is_field(study, key, redesigned) for key in keys)
 
@@ -35,11 +29,6 @@ def _is_field(study: Study, key: str, redesigned: bool) -> bool:
 
 def changed(study: Study, values: Mapping[str, float | int]) -> Study:
     """The study with other numbers; see `is_plain`.
-
-    Parameters
-    ----------
-    study : of which the keys are plain
-    values : by dotted key, with units as in a file
 
     Raises
     ------

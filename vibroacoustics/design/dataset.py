@@ -96,12 +96,7 @@ def _failures(judged: Judged, shape: tuple[int, ...]) -> tuple[Any, dict[str, st
 
 
 def table_csv(results: xr.Dataset) -> bytes:
-    """Every design, a line each: variables, objectives and constraints, why it failed.
-
-    Parameters
-    ----------
-    results : of a sweep
-    """
+    """Every design, a line each: variables, objectives and constraints, why it failed."""
     names = [str(name) for name in results.data_vars if name != "failure"]
     dims = results["failure"].dims
     axes = [str(name) for name in results.coords]

@@ -1,13 +1,17 @@
 """Machines for which designs are computed: the nominal one, or the weighted samples of a study."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
 from ..base.arrays import Array
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import power_of_level
 from ..base.errors import ParameterError, SolverError
+from ..base.progress import no_progress
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.baseline import with_baseline
 from ..levels.by_source import SourceSound, gain_band_number
@@ -15,7 +19,7 @@ from ..levels.nominal import NominalSound, by_source
 from ..levels.remainder import remaining
 from ..machine.cases import Cases
 from ..machine.source import CaseKey
-from ..pipeline.study import chain_with
+from ..pipeline.study import chain_with, run
 from ..radiation.given import Radiation
 from ..stages.chain import Chain
 from ..study.study import Study
@@ -31,7 +35,6 @@ from .engine.response import a_weight
 from .engine.runs import probe_of
 from .engine.seen import Need
 from .engine.sound_way import Ways
-from .reference import unmodelled_of
 from .space import Space
 from .tolerances import Pieces
 
@@ -56,13 +59,6 @@ def compared_machines(
     study: Study, pieces: Pieces, needs: Sequence[Need], radiation: Radiation
 ) -> list[ComparedMachine]:
     """Return the samples of a study that have a solution; without uncertainty the nominal machine.
-
-    Parameters
-    ----------
-    study : with its options
-    pieces : designs with their tolerances
-    needs : what is asked of designs
-    radiation : gives the transfer vectors
 
     Raises
     ------
@@ -116,14 +112,7 @@ def _gains(space: Space, ways: Ways, machine: MachineSample) -> tuple[Gains | No
 
 
 def _machines(study: Study, cut: Study, radiation: Radiation) -> list[MachineSample]:
-    """Samples of a study with uncertainty; the nominal machine where it has too few.
-
-    Parameters
-    ----------
-    study : with all options
-    cut : with the options of designs alone
-    radiation : gives the transfer vectors
-    """
+    """Samples of a study with uncertainty; the nominal machine where it has too few."""
     samples = list(_samples(cut, radiation)) if study.ranges else []
     return samples or [MachineSample(np.ones(1), unmodelled_of(study, radiation))]
 
@@ -164,3 +153,28 @@ def _unmodelled(chain: Chain, number: int, discrepancy: Discrepancy, square: Arr
         for sound, of_pair in zip(sounds, unmodelled, strict=True)
     ]
     return np.moveaxis(np.array(each), 2, 0)
+
+
+def unmodelled_of(study: Study, radiation: Radiation) -> Callable[[str], Array]:
+    """Return what gives the mean square beside the modelled sound of an option as given.
+
+    Its result has the shape (1, speed, receiver), in Pa². The study is run at the first call.
+
+    Raises
+    ------
+    ParameterError
+        The nominal model is louder than the published level.
+    """
+
+    @cache
+    def of_options() -> dict[str, Array]:
+        operation = study.operation.model_copy(update={"stopping": False, "turning_back": False})
+        nominal = study.model_copy(update={"ranges": (), "operation": operation})
+        results = run(nominal, no_progress, radiation)
+        modelled = results["level_modelled"].sel(weighting="A")
+        left = power_of_level(results["level_total"]) - power_of_level(modelled)
+        squares = REFERENCE_PRESSURE_PA**2 * left.transpose("option", "speed", "receiver").values
+        options = results["option"].values.tolist()
+        return dict(zip(options, np.maximum(squares, 0.0)[:, None], strict=True))
+
+    return lambda option: of_options()[option]

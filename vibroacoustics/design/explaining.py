@@ -9,7 +9,6 @@ from ..base.arrays import Array, IndexArray
 from .evaluation import Evaluate
 from .problem import Problem
 from .promise import promise
-from .search.chosen import best_by_one, best_of_front
 from .search.problem import Searched
 from .search_dataset import searched_dataset, with_best, with_shares, with_total_change
 
@@ -18,13 +17,7 @@ SPREAD_DESIGNS: Final = 1024
 
 
 def explained(problem: Problem, searched: Searched, evaluate: Evaluate) -> xr.Dataset:
-    """All designs with the best few of them, told by fresh pieces, and what decides.
-
-    Parameters
-    ----------
-    problem : of the study
-    searched : designs of a search or a sweep, SI
-    evaluate : takes designs in SI
+    """All designs with the best few of them, told by fresh pieces, and what decides; in SI.
 
     Raises
     ------
@@ -67,3 +60,48 @@ def _spread(problem: Problem, searched: Searched) -> Array:
     if problem.is_linear:
         return problem.space.sample("sobol", SPREAD_DESIGNS)
     return np.asarray(searched.designs[searched.generation == 0])
+
+
+_APART: Final = 0.05
+"""Share of the range of at least one variable by which designs of one objective differ."""
+
+
+def best_by_one(designs: Array, limits: Array, objective: Array, count: int) -> IndexArray:
+    """Rows of the best designs by one objective, each apart from those before it.
+
+    Parameters
+    ----------
+    designs : shape (design, variable)
+    limits : of the variables, shape (variable, 2)
+    objective : the less the better; infinite for designs that do not count
+    count : at most
+    """
+    span = np.maximum(np.ptp(limits, axis=1), np.finfo(float).tiny)
+    chosen: list[int] = []
+    left = np.isfinite(objective)
+    while left.any() and len(chosen) < count:
+        row = int(np.argmin(np.where(left, objective, np.inf)))
+        chosen.append(row)
+        left &= (np.abs(designs - designs[row]) > _APART * span).any(axis=1)
+    return np.array(chosen, dtype=np.intp)
+
+
+def best_of_front(objectives: Array, count: int) -> IndexArray:
+    """Rows of a front: its middle, then one after another that is farthest from those chosen.
+
+    The middle is nearest to the least of each objective, each as a share of the front's range.
+
+    Parameters
+    ----------
+    objectives : of the front, shape (design, objective)
+    count : at most
+    """
+    low = objectives.min(axis=0)
+    span = np.maximum(np.ptp(objectives, axis=0), np.finfo(float).tiny)
+    share = (objectives - low) / span
+    chosen = [int(np.argmin((share**2).sum(axis=1)))]
+    distance = np.linalg.norm(share - share[chosen[0]], axis=1)
+    while len(chosen) < count and distance.max() > _APART:
+        chosen.append(int(np.argmax(distance)))
+        distance = np.minimum(distance, np.linalg.norm(share - share[chosen[-1]], axis=1))
+    return np.array(chosen, dtype=np.intp)

@@ -75,12 +75,7 @@ class DesignFigure:
 
 
 class OfCriterion(DesignFigure):
-    """A criterion of scorings, which takes a run of the pipeline for every design.
-
-    Parameters
-    ----------
-    name : of the criterion
-    """
+    """A criterion of scorings, which takes a run of the pipeline for every design."""
 
     def __init__(self, name: str) -> None:
         self.name = name  # type: ignore[misc]

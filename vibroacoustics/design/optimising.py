@@ -1,7 +1,12 @@
 """The best design of a study, or the front of several objectives."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
 import xarray as xr
 
+from ..base.arrays import Array
 from ..base.progress import Progress, no_progress
 from ..radiation.given import Radiation
 from ..stages.radiation import transfer_vectors
@@ -10,9 +15,9 @@ from .evaluation import Evaluate, evaluating
 from .explaining import explained
 from .problem import Problem
 from .search.best import search_best
-from .search.coded import Coding
 from .search.front import search_front
-from .search.problem import Searched
+from .search.problem import Searched, SearchProblem
+from .variable import Variable
 
 
 def optimise(
@@ -61,14 +66,7 @@ def optimise(
 def searched_designs(
     problem: Problem, evaluate: Evaluate, progress: Progress = no_progress
 ) -> xr.Dataset:
-    """`optimise` with an evaluation of one's own.
-
-    Parameters
-    ----------
-    problem : of the study
-    evaluate : takes designs in SI: here, from a store, or by workers
-    progress : called with the generations done
-    """
+    """`optimise` with an evaluation of one's own, which takes designs in SI."""
     settings = problem.design.search
     coding = Coding(problem.space.variables)
     space = coding.problem(evaluate)
@@ -81,3 +79,33 @@ def searched_designs(
         coded = search_front(space, *sizes, progress=progress)
     searched = Searched(coding.designs(coded.designs), coded.evaluation, coded.generation)
     return explained(problem, searched, evaluate)
+
+
+@dataclass(frozen=True)
+class Coding:
+    """How designs are told in numbers that a search may change freely.
+
+    Attributes
+    ----------
+    variables : of the designs, in the order of the columns
+    """
+
+    variables: Sequence[Variable]
+
+    def problem(self, evaluate: Evaluate) -> SearchProblem:
+        """What a search needs to know; `evaluate` takes designs in SI."""
+        ends = [
+            variable.limits if variable.values is None else (0.0, variable.values.size - 1.0)
+            for variable in self.variables
+        ]
+        lower, upper = np.array(ends, dtype=float).T
+        integer = np.array([variable.values is not None for variable in self.variables])
+        return SearchProblem(lower, upper, integer, lambda codes: evaluate(self.designs(codes)))
+
+    def designs(self, codes: Array) -> Array:
+        """Designs in SI, shape (design, variable)."""
+        columns = [
+            column if variable.values is None else variable.values[column.astype(int)]
+            for variable, column in zip(self.variables, codes.T, strict=True)
+        ]
+        return np.stack(columns, axis=1)

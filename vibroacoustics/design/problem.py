@@ -165,7 +165,8 @@ class Problem:
             self._judged(designs[first : first + size], samples, first)
             for first in range(0, len(designs), size)
         ]
-        values = np.concatenate([part[0] for part in parts]) if parts else self._no_values()
+        nothing = np.zeros((0, len(self.wanted)))
+        values = np.concatenate([part[0] for part in parts]) if parts else nothing
         return self.judged(values, {row: why for _, some in parts for row, why in some.items()})
 
     def judged(self, values: Array, failed: Mapping[int, str]) -> Judged:
@@ -241,9 +242,6 @@ class Problem:
         """Wanted values in their units, of signed objectives and constraints; see `Judged`."""
         sign, side, limit = self._signs
         return np.concatenate([objectives * sign, side * constraints + limit], axis=1)
-
-    def _no_values(self) -> Array:
-        return np.zeros((0, len(self.wanted)))
 
     @property
     def _each(self) -> list[tuple[DesignFigure, Wanted]]:

@@ -37,7 +37,7 @@ class Promise:
     is_sampled: bool
 
 
-def promise(problem: Problem, design: Array, count: int, number: int = _SET) -> Promise:
+def promise(problem: Problem, design: Array, count: int) -> Promise:
     """What a design promises.
 
     Parameters
@@ -45,9 +45,8 @@ def promise(problem: Problem, design: Array, count: int, number: int = _SET) -> 
     problem : that it belongs to
     design : shape (variable,), SI
     count : of samples
-    number : of the set of samples
     """
-    samples = problem.samples(count, number)
+    samples = problem.samples(count, _SET)
     as_meant = problem.evaluate(design[None], np.full((1, samples.shape[1]), 0.5)).values[0]
     by_sample = problem.by_sample(design[None], samples)
     promised = problem.over_samples(by_sample, problem.weight(samples))[0]

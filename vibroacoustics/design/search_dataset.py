@@ -20,7 +20,7 @@ from .figure import DesignFigure
 from .keys import acts_on
 from .problem import MEDIAN, TOTALS, Problem
 from .promise import Promise
-from .search.nondominated import nondominated
+from .search.front import nondominated
 from .search.problem import Searched
 from .space import OPTION
 
@@ -28,13 +28,7 @@ _MOST_REASONS: Final = 20
 
 
 def searched_dataset(problem: Problem, searched: Searched) -> xr.Dataset:
-    """All designs of a search with what is wanted of them.
-
-    Parameters
-    ----------
-    problem : of the study
-    searched : its designs are in SI
-    """
+    """All designs of a search, in SI, with what is wanted of them."""
     evaluation = searched.evaluation
     met = evaluation.violation <= 0.0
     front = np.zeros(len(met), dtype=bool)

@@ -88,12 +88,7 @@ def of_each(
 
 
 def by_speed(figure: DesignFigure, seen: Seen, setting: Setting) -> Array:
-    """Compute a figure by design, speed and, where it has them, microphone; levels in dB.
-
-    Parameters
-    ----------
-    figure, seen, setting : see `of_each`
-    """
+    """Compute a figure by design, speed and, where it has them, microphone; levels in dB."""
     values = figure.values(seen, setting)
     return _level(values, setting.wanted) if figure.is_level else values
 

@@ -93,12 +93,7 @@ class Prepared(NamedTuple):
 
 
 def prepare(problem: Problem, longest_s: float = LONGEST_S) -> Prepared:
-    """Designs that the study asks for and what they will take.
-
-    Parameters
-    ----------
-    problem : of the study
-    longest_s : refused above
+    """Designs that the study asks for and what they will take, refused above `longest_s`.
 
     Raises
     ------
@@ -130,13 +125,7 @@ def swept(
 
 
 def as_searched(prepared: Prepared, results: xr.Dataset) -> Searched:
-    """The designs of a sweep as those of a search that has one generation.
-
-    Parameters
-    ----------
-    prepared : that was computed
-    results : of it
-    """
+    """The designs of a sweep as those of a search that has one generation."""
     problem, designs, _ = prepared
     values = np.stack([np.ravel(results[name]) for name in problem.names], axis=1)
     number = np.ravel(results["failure"])

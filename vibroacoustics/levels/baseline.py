@@ -98,13 +98,6 @@ def over_baseline(
     """A-weighted level of the model over that measured, in the bands and orders measured, dB.
 
     Not a number where the model has no solution.
-
-    Parameters
-    ----------
-    axes : with the microphone
-    points : of `points_of`
-    sound : of the case without an option at the speed
-    key : microphone and speed
     """
     point, column = points[key], axes.receivers.index(key[0])
     none = sound[key[1], REFERENCE_OPTION]
@@ -124,15 +117,7 @@ def baseline_variables(
     points: Mapping[PointKey, MeasuredPoint],
     sound: Mapping[CaseKey, SourceSound],
 ) -> xr.Dataset:
-    """Bands and orders of the baseline with every option, and what the model explains of each.
-
-    Parameters
-    ----------
-    study : its baseline
-    axes : of the levels
-    points : of `points_of`
-    sound : of every case, the values as given
-    """
+    """Bands and orders of the baseline with every option, and what the model explains of each."""
     if not points:
         return xr.Dataset()
     sizes = (len(axes.speeds), len(axes.options), len(axes.receivers))
@@ -171,10 +156,6 @@ def baseline_orders(
     sound: Mapping[CaseKey, SourceSound],
 ) -> Array:
     """Return levels of the measured orders with every option, empty where none was measured.
-
-    Parameters
-    ----------
-    study, axes, points, sound : see `baseline_variables`
 
     Returns
     -------

@@ -131,14 +131,7 @@ def filled_thirds(maximum_frequency_hz: float) -> tuple[Band, ...]:
 def sound_by_source(
     received: ReceivedSound, bands: Sequence[Band], measured: Measured | None = None
 ) -> SourceSound:
-    """Mean squares of one case, with totals by all weightings, A first.
-
-    Parameters
-    ----------
-    received : of the case
-    bands : of the result
-    measured : bands and orders of a baseline; none where there is none
-    """
+    """Mean squares of one case, with totals by all weightings, A first."""
     hertz = received.lines.frequency_hz
     sound = source_sound(received.pressure, hertz, received.noise, bands, A_FIRST)
     if measured is None:

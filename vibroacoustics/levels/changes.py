@@ -107,14 +107,7 @@ def _by_sample(judged: list[Array], shape: tuple[int, ...]) -> Array:
 
 
 def change_variables(least: Measurable, levels: xr.Dataset, forces: xr.Dataset) -> xr.Dataset:
-    """Label the nominal changes of forces, and what changes by what could be measured: 1 or 0.
-
-    Parameters
-    ----------
-    least : smallest changes that could be measured
-    levels : totals and orders
-    forces : amplitudes of `FORCES` by order, with the frequencies of the orders
-    """
+    """Label the nominal changes of forces, and what changes by what could be measured: 1 or 0."""
     reference = levels["option"].values.tolist().index(REFERENCE_OPTION)
     first = [forces[name].sel(order=1).transpose("speed", "option").values for name in AMPLITUDES]
     changes = changes_of(

@@ -65,14 +65,7 @@ def _audible(frequency_hz: Array) -> Array:
 def contribution_variables(
     axes: LevelAxes, cases: Mapping[CaseKey, Contributions], orders: Sequence[int]
 ) -> xr.Dataset:
-    """Pressure of the paths at some orders, levels alone and shares in band and in all.
-
-    Parameters
-    ----------
-    axes : of the levels
-    cases : sound by path at some speeds with every option
-    orders : at which the pressure is kept
-    """
+    """Pressure of the paths at some orders, levels alone and shares in band and in all."""
     names = list(dict.fromkeys(name for split in cases.values() for name in split.names))
     speeds = list(dict.fromkeys(speed for speed, _ in cases))
     shape = len(speeds), len(axes.options), len(names), len(axes.receivers)

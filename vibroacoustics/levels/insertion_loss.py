@@ -29,13 +29,7 @@ def airborne_factor(options: Mapping[str, Option], order_frequency: xr.DataArray
 
 
 def airborne(options: Mapping[str, Option], results: xr.Dataset) -> xr.Dataset:
-    """Return results whose velocities are less by each option's insertion loss.
-
-    Parameters
-    ----------
-    options : by name
-    results : with `velocity_order` and `order_frequency`
-    """
+    """Return results whose velocities are less by each option's insertion loss."""
     factor = airborne_factor(options, results["order_frequency"])
     return results.assign(velocity_order=factor * results["velocity_order"])
 

@@ -52,12 +52,6 @@ def line_pressure(
     """Pressure by source at all lines; tones of one name are one line, empty where it is none.
 
     Orders come first, from zero, the tones of all cases after them.
-
-    Parameters
-    ----------
-    axes : speeds, options, sources and receivers
-    received : sound of these cases, and of others
-    others : further lines, at which there is no sound
     """
     cases = {(s, o): received[s, o] for s in axes.speeds for o in axes.options}
     every = (name for sound in cases.values() for name in sound.lines.names)

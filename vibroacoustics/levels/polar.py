@@ -25,13 +25,7 @@ _PLANES: Final = ("horizontal", "vertical")
 
 
 def band_energy(sound: ReceivedSound, bands: Sequence[Band]) -> Array:
-    """Compute A-weighted mean squares of all sources together, shape (receiver, band), Pa².
-
-    Parameters
-    ----------
-    sound : of a case
-    bands : third octaves
-    """
+    """Compute A-weighted mean squares of all sources together, shape (receiver, band), Pa²."""
     lines = energy_of_lines(sound.pressure, sound.lines.frequency_hz).sum(axis=0)
     energy = lines @ membership(sound.lines.frequency_hz, bands)
     for part in sound.noise:
@@ -41,14 +35,7 @@ def band_energy(sound: ReceivedSound, bands: Sequence[Band]) -> Array:
 
 
 def loudest_bands(sound: ReceivedSound, receiver: int, highest_hz: float) -> list[Band]:
-    """Choose the loudest third octaves at a microphone; none that is far below the loudest.
-
-    Parameters
-    ----------
-    sound : of a case
-    receiver : number of the microphone
-    highest_hz : of the sound
-    """
+    """Choose the loudest third octaves at a microphone; none that is far below the loudest."""
     thirds = filled_thirds(highest_hz)
     energy = band_energy(sound, thirds)[receiver]
     ranked = np.argsort(-energy, kind="stable")[:_MOST_BANDS]
@@ -60,11 +47,6 @@ def frequencies_of(bands: Sequence[Band], sound: Sequence[ReceivedSound]) -> Arr
     """Choose frequencies at which transfer vectors give the sound in third octaves.
 
     The lines and the edges of each band; evenly spaced ones where there are too many lines.
-
-    Parameters
-    ----------
-    bands : third octaves
-    sound : of all cases
     """
     lines_hz = np.concatenate([case.lines.frequency_hz for case in sound])
     chosen: list[float] = []

@@ -99,12 +99,6 @@ def over_published(
     """What samples model over the published level, (sample,), dB; not a number without solution.
 
     Over 0 dB(A) where none is published.
-
-    Parameters
-    ----------
-    study : with the published level
-    axes : with its receiver
-    sounds : of the case of the published level, by sample
     """
     receiver = list(axes.receivers).index(study.catalogue_receiver)
     square = np.array([sound[study.catalogue_case].total[0, receiver] for sound in sounds])

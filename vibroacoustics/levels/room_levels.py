@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_POWER_W
-from ..base.decibel import energy_sum, level_of_power, power_of_level
+from ..base.decibel import energy_sum, level_of_power
 from ..base.vocabulary import stamped
 from ..machine.source import CaseKey
 from .by_source import weighting_power
@@ -125,13 +125,7 @@ def air_variables(air: AirInRoom) -> xr.Dataset:
 
 
 def line_variables(sound: Mapping[CaseKey, RoomSound], results: xr.Dataset) -> xr.Dataset:
-    """Pressure of all sources together at the lines, by air with the values as given.
-
-    Parameters
-    ----------
-    sound : of every case, with its lines' names
-    results : with `room_level`, and all lines
-    """
+    """Pressure of all sources together at the lines, by air with the values as given."""
     coords = {**_coordinates(results["room_level"]), "line": results["line"].values}
     column = {str(name): number for number, name in enumerate(coords["line"])}
     pressure = np.zeros(tuple(map(len, coords.values())), dtype=complex)
@@ -178,7 +172,3 @@ def plate_variables(results: xr.Dataset, plate_per_power: Callable[[Array], Arra
 
 def _coordinates(array: xr.DataArray) -> dict[str, Any]:
     return {str(name): array[name].values for name in array.dims}
-
-
-def _square(levels: xr.DataArray) -> Array:
-    return np.asarray(power_of_level(levels.values))

@@ -37,13 +37,7 @@ def rest_in_bands(results: xr.Dataset, receiver: str) -> Array:
 
 
 def beside_model(results: xr.Dataset, receiver: str) -> Array:
-    """A-weighted mean squares of the machine less those of the model, (speed, option), Pa².
-
-    Parameters
-    ----------
-    results : of the levels
-    receiver : microphone
-    """
+    """A-weighted mean squares of the machine less those of the model, (speed, option), Pa²."""
     total, modelled = results["level_total"], results["level_modelled"].sel(weighting="A")
     squares = [
         _square(each.sel(receiver=receiver).transpose("speed", "option"))

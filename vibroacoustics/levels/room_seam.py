@@ -14,12 +14,7 @@ from .measured_points import BASELINE_BANDS, MIDDLE_HZ
 
 
 def shown_bands(between_hz: tuple[float, float]) -> IndexArray:
-    """Numbers of the `BASELINE_BANDS` in which both methods are shown.
-
-    Parameters
-    ----------
-    between_hz : lowest and highest middle
-    """
+    """Numbers of the `BASELINE_BANDS` in which both methods are shown."""
     low, high = between_hz
     return np.flatnonzero((low / ROUNDED < MIDDLE_HZ) & (high * ROUNDED > MIDDLE_HZ))
 

@@ -122,12 +122,6 @@ def lines_of(received: ReceivedSound, gain: Array, orders: int) -> CaseLines:
 def line_squares(axes: LevelAxes, sample: Deviating, names: Sequence[str]) -> tuple[Array, Array]:
     """Compute the mean squares of lines of a sample, and their frequencies.
 
-    Parameters
-    ----------
-    axes : of the levels
-    sample : sound with its discrepancies
-    names : of the lines
-
     Returns
     -------
     frequency : not a number where there is no line, shape (speed, line), Hz

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..recordings import Node
-from .grouped import unsigned
+from .grouped import signs, unsigned
 from .library import Library
 from .settings import Measured, Point
 
@@ -41,12 +41,6 @@ class Bench:
 def assemble(settings: Measured, names: Sequence[str], folder: Path) -> Bench:
     """The functions that a change at some points needs.
 
-    Parameters
-    ----------
-    settings : files, points and microphones
-    names : of the points
-    folder : of the file that names the files
-
     Raises
     ------
     ParameterError
@@ -63,7 +57,6 @@ def assemble(settings: Measured, names: Sequence[str], folder: Path) -> Bench:
     response = [library.operating(node, "m") for node in nodes]
     pressure = [library.operating(node, "Pa") for node in microphones]
     values, errors = library.estimates
-    signs = np.array([-1.0 if point.direction.startswith("-") else 1.0 for point in points])
     return Bench(
         frequency_hz=library.frequency_hz,
         values=values,
@@ -72,7 +65,7 @@ def assemble(settings: Measured, names: Sequence[str], folder: Path) -> Bench:
         transfer=np.array(transfer),
         response=np.array(response),
         pressure=np.array(pressure),
-        sign=signs,
+        sign=signs(points),
     )
 
 

@@ -26,14 +26,6 @@ def passed_over(
     """Orders, average and levels of the channels, in one pass over the blocks of a recording.
 
     Attributes: the resolution, what is omitted.
-
-    Parameters
-    ----------
-    recording : of any length
-    names : of the channels that are analysed
-    motion : of the shaft
-    settings : the orders that are wanted
-    progress : called with the samples that have been passed
     """
     rate_hz, samples = recording.sample_rate_hz, recording.samples
     channel = _labels(recording, names)

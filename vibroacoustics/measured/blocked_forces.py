@@ -69,11 +69,11 @@ def blocked_forces(path: str | Path) -> xr.Dataset:
     settings = load_blocked_forces(path)
     with naming_settings(path):
         bench = read_in_situ(settings, path.parent)
-        _check_determined(settings, bench)
+        _check_determined(bench)
     return _labelled(settings, bench, path)
 
 
-def _check_determined(settings: BlockedForces, bench: InSitu) -> None:
+def _check_determined(bench: InSitu) -> None:
     responses, sets = len(bench.responses), bench.sets.shape[1]
     if responses < sets:
         raise ParameterError(

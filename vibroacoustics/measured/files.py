@@ -27,16 +27,7 @@ def naming_settings(path: Path) -> Iterator[None]:
 def attributes(
     command: str, path: Path, title: str, settings: Parameters, measured: Measured
 ) -> dict[str, Any]:
-    """Where a result of measured functions comes from: settings, hashes of files, software.
-
-    Parameters
-    ----------
-    command : that made it
-    path : of the settings
-    title : of the settings
-    settings : all of them
-    measured : with the names of the files
-    """
+    """Where a result of measured functions comes from: settings, hashes of files, software."""
     parameters = canonical_json(settings.model_dump(mode="json"))
     named = (*measured.frequency_responses, *measured.operating)
     files = {name: sha256((path.parent / name).read_bytes()) for name in named}

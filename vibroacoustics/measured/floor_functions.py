@@ -16,11 +16,6 @@ from .grouped import Key, by_key, read_all, unsigned
 def read_floor(settings: MeasuredFloor, feet: Sequence[str]) -> FloorMobility:
     """Driving-point mobilities, repeats averaged, as the table that a machine's file names.
 
-    Parameters
-    ----------
-    settings : files and points
-    feet : names of the machine's
-
     Raises
     ------
     ParameterError

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..recordings import MeasuredFunction, Node
 from ..recordings.functions import read_functions
@@ -16,6 +17,11 @@ Key = tuple[str, Node, Node | None]
 def unsigned(node: Node) -> Node:
     """The node along its positive direction."""
     return node.opposite if node.direction.startswith("-") else node
+
+
+def signs(nodes: Sequence[Node]) -> Array:
+    """Sign of each node's direction."""
+    return np.array([-1.0 if node.direction.startswith("-") else 1.0 for node in nodes])
 
 
 def read_all(
@@ -30,9 +36,8 @@ def by_key(functions: Sequence[MeasuredFunction]) -> dict[Key, list[MeasuredFunc
     grouped: dict[Key, list[MeasuredFunction]] = {}
     for function in functions:
         nodes = [function.response, *([function.reference] if function.reference else [])]
-        sign = float(np.prod([-1.0 if node.direction.startswith("-") else 1.0 for node in nodes]))
-        if function.kind in ("coherence", "auto spectrum"):
-            sign = 1.0
+        has_sign = function.kind not in ("coherence", "auto spectrum")
+        sign = float(np.prod(signs(nodes))) if has_sign else 1.0
         response, reference = unsigned(nodes[0]), unsigned(nodes[1]) if nodes[1:] else None
         above = function.frequency_hz > 0.0
         if not np.any(above):

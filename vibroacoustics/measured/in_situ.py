@@ -10,7 +10,7 @@ from ..base.arrays import Array, ComplexArray, IndexArray
 from ..recordings import Node
 from .assembly import node_of
 from .blocked_settings import BlockedForces
-from .grouped import unsigned
+from .grouped import signs, unsigned
 from .inversion import rigid_forces, rigid_wrench
 from .library import Library
 
@@ -74,11 +74,6 @@ class InSitu:
 def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
     """The functions that blocked forces and their validation need.
 
-    Parameters
-    ----------
-    settings : files, points and interface
-    folder : of the file that names the files
-
     Raises
     ------
     ParameterError
@@ -117,9 +112,9 @@ def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
         operating=operating,
         transfer=transfer,
         validation=validation,
-        forces=_signs(forces),
-        responses=_signs(responses),
-        validations=_signs(validations),
+        forces=signs(forces),
+        responses=signs(responses),
+        validations=signs(validations),
         sets=sets,
     )
 
@@ -139,7 +134,3 @@ def wrench_per_force(settings: BlockedForces) -> Array:
         for along in directions
     ]
     return rigid_wrench(np.array([(at.x_m, at.y_m, at.z_m) for at in positions]), np.array(vectors))
-
-
-def _signs(nodes: Sequence[Node]) -> Array:
-    return np.array([-1.0 if node.direction.startswith("-") else 1.0 for node in nodes])

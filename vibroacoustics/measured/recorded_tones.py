@@ -27,10 +27,6 @@ FIELDS: Final = {
 def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     """Find the tones of every channel in Pa, with loudness and sharpness if mosqito is installed.
 
-    Parameters
-    ----------
-    recording : from `read_recording` or `label_recording`
-
     Returns
     -------
     variables `recorded_tone_*` (channel, recorded_tone), `recorded_loudness` and
@@ -75,13 +71,7 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
 
 
 def tones_of(listed: xr.Dataset, channel: str) -> list[Tone]:
-    """Tones of a channel, the strongest first.
-
-    Parameters
-    ----------
-    listed : from `recorded_tones`
-    channel : name
-    """
+    """Tones of a channel, the strongest first."""
     columns = [listed[name].sel(channel=channel).values.tolist() for name in FIELDS]
     return [
         Tone(f"{values[0]:.1f} Hz", *values)

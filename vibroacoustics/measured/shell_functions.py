@@ -20,11 +20,6 @@ LEAST_LINES: Final = 3
 def read_shell_mobilities(settings: MeasuredShell, highest_hz: float) -> ShellMobilities:
     """Frequency responses between named points, as mobilities.
 
-    Parameters
-    ----------
-    settings : files and points
-    highest_hz : of the model
-
     Raises
     ------
     ParameterError

@@ -64,12 +64,6 @@ def read_force_sound(
 ) -> ForceSound:
     """Pressure per force as the study's receivers have it, repeats averaged.
 
-    Parameters
-    ----------
-    settings : files, points and microphones
-    receivers : names, in the order of the study
-    body : the machine as given
-
     Raises
     ------
     ParameterError

@@ -16,12 +16,6 @@ _LEAST_GAP_M: Final = 0.01
 def check_fits(machine: Body, cabinet: Cabinet, floor_z_m: float) -> None:
     """Refuse a machine that is not clear of the panels.
 
-    Parameters
-    ----------
-    machine : its surface
-    cabinet : around it
-    floor_z_m : height of the floor
-
     Raises
     ------
     ParameterError

@@ -72,13 +72,7 @@ def given_radiation(
 
 
 def silent_radiation(study: Study, motions: Sequence[SurfaceMotion]) -> Radiation:
-    """Return radiation of no sound in the shape of a study's transfer vectors.
-
-    Parameters
-    ----------
-    study : with microphones and frequencies
-    motions : modes of the shell, where a source drives it
-    """
+    """Return radiation of no sound in the shape of a study's transfer vectors."""
     frequency, receivers = frequencies_hz(study.radiation), len(study.receivers)
     counts = (len(RIGID_BODY_DOFS), len(motions))
     of_housing, of_modes = (np.zeros((receivers, count, frequency.size)) for count in counts)

@@ -12,13 +12,7 @@ def pressure_per_shell_velocity(radiated: xr.Dataset) -> Interpolant:
 
 
 def wrench_pressure(results: xr.Dataset, name: str) -> xr.DataArray:
-    """Pressure of every wrench at every order, Pa.
-
-    Parameters
-    ----------
-    results : with `velocity_order` and `order_frequency`
-    name : of the transfer vectors
-    """
+    """Pressure of every wrench at every order, Pa."""
     return _at_orders(results["velocity_order"], results[name], results["order_frequency"])
 
 

@@ -32,14 +32,7 @@ MEASURED: Final = ReceiverMethod("measured sound by force", "measured.sound is g
 def receiver_methods(
     receivers: Iterable[str], settings: RadiationSettings, by_kwave: Collection[str]
 ) -> dict[str, ReceiverMethod]:
-    """Method and reason of each microphone, by name.
-
-    Parameters
-    ----------
-    receivers : names of the microphones
-    settings : of the radiation
-    by_kwave : names of the microphones at which k-Wave computes the room
-    """
+    """Method and reason of each microphone, by name."""
     machine, closed = machine_side(settings), closed_form(settings)
     limited = settings.maximum_frequency_hz > KWAVE_LIMIT_HZ
     kwave = f"k-Wave to {KWAVE_LIMIT_HZ:g} Hz, {closed} above" if limited else "k-Wave"

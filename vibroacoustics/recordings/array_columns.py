@@ -7,10 +7,9 @@ from typing import Any, Final
 import numpy as np
 
 from ..base.errors import ParameterError, StorageError
-from .by_channel import by_channel
 from .named_arrays import UNIT_NAMES, NamedArray, Part, as_text, is_time
 from .packing import PACKING_NAMES, is_packed, missing, unsigned
-from .recorded import Samples, check_size, listed, numbered
+from .recorded import Samples, by_channel, check_size, listed, numbered
 
 MAXIMUM_COLUMNS: Final = 10_000
 

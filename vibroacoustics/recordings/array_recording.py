@@ -27,12 +27,6 @@ def recorded(
 ) -> Recorded:
     """The recording that the arrays of a file hold.
 
-    Parameters
-    ----------
-    arrays : all arrays of the file
-    attributes : those of the file itself
-    request : channels that are wanted, sample rate that overrides the file's
-
     Raises
     ------
     ParameterError

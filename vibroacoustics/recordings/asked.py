@@ -78,12 +78,6 @@ def naming_file(path: Path) -> Iterator[None]:
 def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) -> None:
     """Refuse a file that is missing, empty, too large, or of another kind.
 
-    Parameters
-    ----------
-    path : of the file
-    suffixes : that are known
-    may_be_large : whether only a part of it is read
-
     Raises
     ------
     ParameterError

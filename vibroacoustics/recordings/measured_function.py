@@ -47,9 +47,9 @@ class Node:
 
     def __post_init__(self) -> None:
         if self.direction not in DIRECTIONS.values():
+            directions = ", ".join(filter(None, DIRECTIONS.values()))
             raise ParameterError(
-                f"direction {self.direction!r}: must be one of {', '.join(_shown_directions())}, "
-                "or none for a scalar"
+                f"direction {self.direction!r}: must be one of {directions}, or none for a scalar"
             )
         if self.number < 0:
             raise ParameterError(f"node {self.number}: must be 0 or above")
@@ -142,7 +142,3 @@ class MeasuredFunction:
             raise ParameterError(f"{self}: cannot be integrated at 0 Hz: leave that line out")
         values = self.values * (2.0j * np.pi * self.frequency_hz) ** power
         return replace(self, values=values, response_unit=unit)
-
-
-def _shown_directions() -> list[str]:
-    return [direction for direction in DIRECTIONS.values() if direction]

@@ -1,7 +1,7 @@
 """What a reader of one format is asked for and what it hands back, with the checks they share."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -207,3 +207,28 @@ def listed(names: Sequence[str], most: int = 12) -> str:
     """Names for a message, shortened where there are many."""
     shown = ", ".join(map(repr, names[:most]))
     return f"{shown} and {len(names) - most} more" if len(names) > most else shown or "none"
+
+
+_PIECE: Final = 2**22
+"""Values that are read at once: few enough that the file's form takes little memory beside ours."""
+
+
+def by_channel(
+    read: Callable[[int, int], Samples], first: int, last: int, channels: int
+) -> Samples:
+    """Samples, shape (channel, time), each channel in one piece of memory.
+
+    Parameters
+    ----------
+    read : samples from one time up to, but not with, another, shape (time, channel)
+    first, last : samples that are wanted
+    channels : that `read` gives
+    """
+    rows = max(1, _PIECE // max(1, channels))
+    begin = read(first, min(first + rows, last))
+    samples = np.empty((channels, last - first), begin.dtype)
+    samples[:, : len(begin)] = begin.T
+    for start in range(first + rows, last, rows):
+        end = min(start + rows, last)
+        samples[:, start - first : end - first] = read(start, end).T
+    return samples

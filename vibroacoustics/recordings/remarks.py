@@ -30,13 +30,7 @@ def remark(path: Path, lines: Iterable[str]) -> None:
 
 
 def overload_lines(header: Mapping[str, Any], units: Iterable[str]) -> list[str]:
-    """A line for each channel with samples at full scale.
-
-    Parameters
-    ----------
-    header : that the process which reads has handed over
-    units : SI unit of each of its channels
-    """
+    """A line for each channel with samples at full scale."""
     lines = []
     for name, unit, overload in zip(header["names"], units, header["overloads"], strict=True):
         if overload is None or str(unit) in _NEVER_OVERLOADED:

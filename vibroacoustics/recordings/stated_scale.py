@@ -26,13 +26,7 @@ def scale_comment(scales: Iterable[tuple[float, str]]) -> str:
 
 
 def stated_scales(comment: str, channels: int) -> list[tuple[float, str]]:
-    """Value at full scale and unit by channel; none where another wrote the comment.
-
-    Parameters
-    ----------
-    comment : of the file
-    channels : of the file
-    """
+    """Value at full scale and unit by channel; none where another wrote the comment."""
     if not (comment.startswith(_BEFORE) and comment.endswith(_BEHIND)):
         return []
     parts = comment.removeprefix(_BEFORE).removesuffix(_BEHIND).split(", ")

@@ -174,14 +174,7 @@ def _on_supply(case: Case, frequency_hz: float | None) -> Case:
 def wrench_lines(
     case: Case, loads: Mapping[str, Loads], highest_order: int
 ) -> dict[str, PortLoads]:
-    """Lines of the wrenches over crank angle by source, on the body with the mechanism.
-
-    Parameters
-    ----------
-    case : with its revolution
-    loads : of all sources, with their wrenches
-    highest_order : of the result
-    """
+    """Lines of the wrenches over crank angle by source, on the body with the mechanism."""
     speed, port = case.revolution.rotation.speed_rad_per_s, case.machine.mechanism_port
 
     def spectrum(wrenches: Collection[Wrench]) -> ComplexArray:

@@ -21,7 +21,6 @@ from ..orders import order_spectrum
 from .part_loads import gas_loads
 from .scroll_gas.curves import discharge_line_curves, scroll_gas_curves
 from .scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
-from .scroll_gas.opened_gas import OpenedGas
 from .scroll_gas.opening import steady_opening, steps_of_turn, why_no_opening
 from .scroll_gas.parameters import (
     ScrollGas,
@@ -30,6 +29,7 @@ from .scroll_gas.parameters import (
     ScrollWraps,
     SuctionPockets,
 )
+from .scroll_gas.pressures import OpenedGas
 from .scroll_gas.suction import SuctionFlow, suction_flow
 
 GAS_SAMPLES: Final = 8192

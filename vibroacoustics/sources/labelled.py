@@ -18,14 +18,7 @@ _OVER_ANGLE = ("speed", "option", "crank_angle")
 def force_variables(
     study: Study, cases: Mapping[CaseKey, Case], loads: Mapping[CaseKey, Mapping[str, Loads]]
 ) -> xr.Dataset:
-    """Force and moment by what makes them, and the reported figures.
-
-    Parameters
-    ----------
-    study : its speeds and options
-    cases : all of them
-    loads : of all sources in each
-    """
+    """Force and moment by what makes them, and the reported figures."""
     speeds, options = list(study.operation.speed_rpm), list(study.options)
     names = _unique(
         name for case in loads.values() for load in case.values() for name in load.wrenches
@@ -55,13 +48,7 @@ def force_variables(
 
 
 def supply_variable(study: Study, cases: Mapping[CaseKey, Case]) -> xr.Dataset:
-    """Frequency of the motor's supply and where it comes from; empty where there is none.
-
-    Parameters
-    ----------
-    study : its speeds
-    cases : of the reference option at least
-    """
+    """Frequency of the motor's supply and where it comes from; empty where there is none."""
     operation = study.operation
     supplies = [cases[speed, REFERENCE_OPTION].supply_frequency_hz for speed in operation.speed_rpm]
     if None in supplies:

@@ -15,9 +15,17 @@ from ..machine.stator_yoke import StatorYoke
 from ..mechanics.loads import Loads, PortLoads, Tone, total_torque_n_m
 from ..mechanics.ports import Port
 from ..mechanics.scroll_shaft import ScrollShaft
-from .air_gap.loads import PORTS, loads_of_stress
 from .air_gap.parameters import AirGap
-from .air_gap.waves import Wave, Waves, cosine, permeance, product, stress_pa
+from .air_gap.waves import (
+    PORTS,
+    Wave,
+    Waves,
+    cosine,
+    loads_of_stress,
+    permeance,
+    product,
+    stress_pa,
+)
 from .induction_motor.parameters import CapacitorMotor
 from .induction_motor.revolving_fields import (
     air_gap_voltages,

@@ -19,7 +19,8 @@ from ..machine.stator_yoke import STATOR_YOKE
 from ..mechanics.ports import WRENCH, Port
 from .cavity.of_machine import gas_of
 from .cavity.response import DrivenGas
-from .frame import FrameOnShell, SoundPerForce, frame_on_shell
+from .frame.of_machine import frame_on_shell
+from .frame.on_shell import FrameOnShell, SoundPerForce
 from .observers import Observers
 from .path import ShellPath, pressure_per_load
 from .transient import LOAD_SAMPLES, RESULT_SAMPLES
@@ -170,11 +171,6 @@ class BendingShell:
 
 def bending_shell(machine: Machine, path: ShellPath) -> BendingShell:
     """Make the shell with a machine's values.
-
-    Parameters
-    ----------
-    machine : wall, variation, frame, gas in the shell, yoke
-    path : modes and joints of the study
 
     Raises
     ------

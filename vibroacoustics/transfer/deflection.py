@@ -12,7 +12,8 @@ from ..machine.shell import Shell
 from ..mechanics.loads import Lines, PortLoads, summed
 from .load_path import LoadPath
 from .observers import motions
-from .shell_modes import SampledMode, ShellMode
+from .shell_modes.modes import ShellMode
+from .shell_modes.sampled import SampledMode
 
 _ANGLES: Final[Array] = 2.0 * np.pi * np.arange(48) / 48
 """Angles of the points on a ring."""
@@ -24,10 +25,6 @@ _ON_CAP: Final = 6
 
 def rings(shell: Shell) -> tuple[Array, Array]:
     """Radius and height of rings around the shell, from the middle of its bottom up.
-
-    Parameters
-    ----------
-    shell : outside
 
     Returns
     -------
@@ -70,13 +67,7 @@ class MovingCase(NamedTuple):
 
 
 def deflection_variables(cases: Mapping[str, MovingCase], shell: Shell) -> xr.Dataset:
-    """Label the displacements at a line of each case by all sources together.
-
-    Parameters
-    ----------
-    cases : by option
-    shell : outside
-    """
+    """Label the displacements at a line of each case by all sources together."""
     radius, height = rings(shell)
     points = ring_points(radius, height)
     each = [_deflection(moving, points) for moving in cases.values()]

@@ -50,13 +50,7 @@ class Stand:
         return any(self._table(name) is not None for name in self.names)
 
     def bushings(self, body: str, with_floor: bool = True) -> list[Bushing]:
-        """One a foot, between a body and the ground.
-
-        Parameters
-        ----------
-        body : its name
-        with_floor : else the floor is taken as rigid
-        """
+        """One a foot, between a body and the ground; without `with_floor` that is rigid."""
         return [
             self._bushing(name, point, body, with_floor)
             for name, point in zip(self.names, self.position, strict=True)

@@ -7,7 +7,8 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..machine.machine import Machine
-from ..mechanics.loads import Loads, PortLoads, Tone
+from ..machine.source import Case
+from ..mechanics.loads import Loads, PortLoads, Tone, lines_of, summed
 from .load_path import LoadPath
 from .machine import MachineOnMounts, on_mounts
 from .observers import feet
@@ -28,13 +29,7 @@ def foot_force(body: MachineOnMounts, loads: PortLoads, frequency_hz: Array) -> 
 
 
 def with_foot_figures(machine: Machine, loads: Mapping[str, Loads]) -> dict[str, Loads]:
-    """Loads by source with the figures of the largest foot force of their tones.
-
-    Parameters
-    ----------
-    machine : on whose mounts they act
-    loads : by source
-    """
+    """Loads by source with the figures of the largest foot force of their tones."""
     body = on_mounts(machine)
 
     def largest_n(tone: Tone) -> float:
@@ -49,3 +44,18 @@ def with_foot_figures(machine: Machine, loads: Mapping[str, Loads]) -> dict[str,
         name: replace(load, figures={**load.figures, **figures(load)})
         for name, load in loads.items()
     }
+
+
+def force_at_lines(
+    case: Case,
+    loads: Mapping[str, Loads],
+    wrenches: Mapping[str, PortLoads],
+    names: list[str],
+) -> ComplexArray:
+    """Force of each foot on the floor at the lines, all sources, shape (line, foot, axis), N."""
+    orders = sum(name.startswith("order ") for name in names)
+    lines = lines_of(loads, case.shaft_frequency_hz, orders - 1, wrenches)
+    known = foot_force(on_mounts(case.machine), summed(lines.loads.values()), lines.frequency_hz)
+    force = np.zeros((len(names), *known.shape[1:]), dtype=complex)
+    force[[names.index(name) for name in lines.names]] = known
+    return force

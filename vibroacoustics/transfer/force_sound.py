@@ -90,11 +90,5 @@ class ForceSound:
 
 
 def of_body(rigid: PressurePerVelocity, body: MachineOnMounts) -> PressurePerVelocity:
-    """Pressure per velocity of a body's rigid motions; the same for all but where it was measured.
-
-    Parameters
-    ----------
-    rigid : pressure per velocity of a study
-    body : of one of its machines
-    """
+    """Pressure per velocity of a body's rigid motions; the same for all unless measured."""
     return rigid.of(body) if isinstance(rigid, ForceSound) else rigid

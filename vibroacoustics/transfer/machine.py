@@ -1,10 +1,13 @@
 """The machine on its mounts: one rigid body, or a block on springs in a shell."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Final
 
 import numpy as np
+from scipy.linalg import eigh
+from scipy.optimize import brentq
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
@@ -19,7 +22,6 @@ from ..mechanics.bushings import NO_BODIES, AttachedBodies, Bushing, RigidBody
 from ..mechanics.ports import HOUSING, BodyPort
 from .feet import Stand, corners
 from .isolation import Isolation
-from .modes_over_frequency import modes_over_frequency
 from .tube import tube_stiffness
 
 MACHINE, SHELL = "machine", "shell"
@@ -184,14 +186,9 @@ def on_mounts(machine: Machine) -> MachineOnMounts:
 _kept = lru_cache(KEPT_MACHINES)(MachineOnMounts)
 
 
-def _centre(suspension: Suspension) -> Array:
-    """The block's centre of mass from the shell's, shape (3,), m."""
-    return np.array([0.0, 0.0, suspension.height_m])
-
-
 def _on_springs(suspension: Suspension) -> AttachedBodies:
     """The block on its springs and tube in the shell."""
-    springs, centre = suspension.springs, _centre(suspension)
+    springs, centre = suspension.springs, np.array([0.0, 0.0, suspension.height_m])
     points = centre + corners(springs.pitch_m, suspension.springs_height_m)
     bushings = _corner_bushings("spring", springs, points, (BLOCK.name, HOUSING.name))
     if suspension.discharge_tube is not None:
@@ -229,3 +226,36 @@ def _tube_bushing(tube: DischargeTube, block_centre_m: Array) -> Bushing:
         "discharge_tube", BLOCK.name, HOUSING.name, points[-1], stiffness,
         loss_factor_ratio=tube.loss_factor_ratio,
     )  # fmt: skip
+
+
+TOLERANCE_HZ: Final = 1e-9
+
+
+def modes_over_frequency(
+    stiffness: Callable[[float], Array], mass: Array, stiffest_hz: float
+) -> tuple[Array, Array]:
+    """Undamped natural frequencies, Hz, and mass-normalised shapes, one a row.
+
+    Mode n is where the n-th natural frequency of the stiffness at a frequency is that frequency.
+
+    Parameters
+    ----------
+    stiffness : real part at a frequency in Hz, symmetric
+    mass : symmetric, positive definite
+    stiffest_hz : frequency that no natural frequency exceeds
+    """
+
+    def natural_hz(hertz: float) -> tuple[Array, Array]:
+        squares, shapes = eigh(stiffness(hertz), mass)
+        return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi), shapes
+
+    frequencies, rows = [], []
+    for mode in range(len(mass)):
+        meets = brentq(
+            lambda hertz, mode=mode: natural_hz(hertz)[0][mode] - hertz,
+            0.0, stiffest_hz, xtol=TOLERANCE_HZ,
+        )  # fmt: skip
+        at_mode = natural_hz(meets)
+        frequencies.append(at_mode[0][mode])
+        rows.append(at_mode[1][:, mode])
+    return np.array(frequencies), np.array(rows)

@@ -14,7 +14,8 @@ from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..mechanics.loads import Loads
 from .cavity.of_machine import spaces_of
-from .frame import FrameOnShell, frame_on_shell
+from .frame.of_machine import frame_on_shell
+from .frame.on_shell import FrameOnShell
 from .path import ShellPath
 
 _FREE_HZ: Final = 1.0

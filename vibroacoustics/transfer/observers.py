@@ -43,10 +43,6 @@ def feet(body: MachineOnMounts) -> Observers:
     """Observe the force of each foot on the floor along x, y, z, (foot times axis), N.
 
     The feet observe the bodies on mounts and springs alone; no steady force.
-
-    Parameters
-    ----------
-    body : on the feet
     """
 
     def per_velocity(frequency_hz: Array) -> ComplexArray:
@@ -62,12 +58,7 @@ def feet(body: MachineOnMounts) -> Observers:
 
 
 def motions(modes: int) -> Observers:
-    """Observe the velocities of the shell's modes and then of its six rigid motions.
-
-    Parameters
-    ----------
-    modes : number of them
-    """
+    """Observe the velocities of the shell's modes and then of its six rigid motions."""
     each = np.eye(modes + 6, dtype=complex)
     return constant(each[:, modes:], each[:, :modes])
 

@@ -14,16 +14,11 @@ from ..machine.shell import Shell
 from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
 from ..mechanics.ports import WRENCH
 from .cavity.in_shell import GasInShell
-from .shell_modes import (
-    JOINT_LOADS,
-    JointLoads,
-    SampledMode,
-    ShellMode,
-    elastic_shell,
-    modal_forces,
-    velocity_per_force,
-)
+from .shell_modes.loads import JOINT_LOADS, JointLoads
+from .shell_modes.mobility import modal_forces, velocity_per_force
+from .shell_modes.modes import ShellMode, elastic_shell
 from .shell_modes.projection import ProjectedModes, least_frequency_factor
+from .shell_modes.sampled import SampledMode
 
 MODES_BEYOND: Final = 1.1
 """Modes up to this many times the highest frequency take part."""
@@ -147,14 +142,7 @@ def computed_path(
 def measured_path(
     modes: Sequence[SampledMode], structure: ShellStructure, radius_m: float
 ) -> ShellPath:
-    """Modes that were measured, as far as they reach.
-
-    Parameters
-    ----------
-    modes : sampled at points of the shell
-    structure : its joints
-    radius_m : of the wall
-    """
+    """Modes that were measured, as far as they reach."""
     return ShellPath(tuple(modes), structure, None, radius_m, np.arange(len(modes)))
 
 

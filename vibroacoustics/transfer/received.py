@@ -42,12 +42,7 @@ class Transmission:
         return replace(self, microphones=self.microphones.to(list(receivers)))
 
     def received(self, cases: Cases) -> dict[CaseKey, ReceivedSound]:
-        """Compute the sound of every case behind its option's insertion loss.
-
-        Parameters
-        ----------
-        cases : speeds and options, with the values of one sample
-        """
+        """Compute the sound of every case behind its option's insertion loss."""
         known, sound = Shared(), {}
         for key, case in cases.cases.items():
             path = self.path(known, case.machine, cases.loads[key])
@@ -56,12 +51,7 @@ class Transmission:
         return sound
 
     def contributions(self, cases: Cases) -> Iterator[tuple[CaseKey, Contributions]]:
-        """Compute the sound by path behind the option's insertion loss, one case at a time.
-
-        Parameters
-        ----------
-        cases : as for `received`
-        """
+        """Compute the sound by path behind the option's insertion loss, one case at a time."""
         known = Shared()
         for key, case in cases.cases.items():
             path = self.path(known, case.machine, cases.loads[key])
@@ -70,14 +60,7 @@ class Transmission:
             yield key, split.behind(self.study.option_of(key).insertion_loss())
 
     def path(self, known: Shared, machine: Machine, loads: Mapping[str, Loads]) -> LoadPath:
-        """Return the path of a machine, shared by those that differ in no table its ports read.
-
-        Parameters
-        ----------
-        known : paths of the same sample
-        machine : with the values of the sample
-        loads : by source
-        """
+        """Return the path of a machine, shared by those that differ in no table its ports read."""
         read = dict.fromkeys(
             table for load in loads.values() for port in load.ports for table in port.tables
         )
@@ -104,11 +87,6 @@ class Transmission:
         """Lay the loads of a case on lines: as many orders as the wrenches have, more on a shell.
 
         On an elastic shell the orders reach up to the highest frequency.
-
-        Parameters
-        ----------
-        key : speed and option
-        cases : with their loads
         """
         case = cases.cases[key]
         highest = self.study.highest_order(case.speed_rpm)

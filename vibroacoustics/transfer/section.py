@@ -21,13 +21,7 @@ _LINES: Final = ("order 1", "loudest")
 
 
 def section_variables(cases: Mapping[str, MovingCase], machine: Machine) -> xr.Dataset:
-    """Label the forces of all sources together at order 1 and at the line of each case.
-
-    Parameters
-    ----------
-    cases : by option
-    machine : without an option
-    """
+    """Label the forces of all sources together at order 1 and at the line of each case."""
     loads = {option: summed(case.lines.loads.values()) for option, case in cases.items()}
     every = dict.fromkeys(port for by_port in loads.values() for port in by_port)
     ports = [port for port in every if port.components == WRENCH]
@@ -49,13 +43,7 @@ def section_variables(cases: Mapping[str, MovingCase], machine: Machine) -> xr.D
 
 
 def height_m(port: Port, machine: Machine) -> float:
-    """Return the height of the loaded body above the centre of mass of that on the feet, m.
-
-    Parameters
-    ----------
-    port : of a body or of a part in the shell
-    machine : with tables of its parts
-    """
+    """Return the height of the loaded body above the centre of mass of that on the feet, m."""
     if isinstance(port, Part):
         if machine.has_table(Frame):
             return float(getattr(machine.table(Frame), port.name).height_m)

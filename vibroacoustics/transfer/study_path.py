@@ -7,8 +7,8 @@ from ..base.progress import Progress, no_progress
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..study.study import Study
 from .path import ShellPath, computed_path, measured_path
-from .shell_modes import SampledMode
 from .shell_modes.projection import projection_error
+from .shell_modes.sampled import SampledMode
 
 _FACTOR: Final = "frequency_factor_ratio"
 """Of the shell's variation: how natural frequencies differ in a sample."""

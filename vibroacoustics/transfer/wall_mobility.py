@@ -10,7 +10,7 @@ from ..machine.frame import PARTS
 from ..machine.machine import Machine
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from .bending import BendingShell
-from .frame import frame_on_shell
+from .frame.of_machine import frame_on_shell
 from .observers import constant
 from .path import ShellPath
 

@@ -11,8 +11,9 @@ from ..machine.machine import Machine
 from ..machine.shell_structure import ShellVariation
 from ..machine.stator_yoke import STATOR_YOKE, YOKE_ORDERS, StatorYoke
 from .path import ShellPath
-from .shell_modes import ShellMode, velocity_per_force
 from .shell_modes.loads import mean_over_band
+from .shell_modes.mobility import velocity_per_force
+from .shell_modes.modes import ShellMode
 from .shell_modes.projection import ProjectedModes
 from .shell_modes.statics import local_flexibility_factor
 
@@ -135,13 +136,7 @@ class YokeOnWall:
 
 
 def yoke_on_wall(machine: Machine, path: ShellPath) -> YokeOnWall | None:
-    """The machine's yoke in its shell; none where it has none.
-
-    Parameters
-    ----------
-    machine : yoke, how the real shell differs
-    path : modes with the machine's structure
-    """
+    """The machine's yoke in its shell; none where it has none."""
     if not machine.has_table(StatorYoke):
         return None
     factor = machine.table(ShellVariation).frequency_factor_ratio

@@ -8,8 +8,7 @@ from vibroacoustics.base.arrays import Array
 from vibroacoustics.base.errors import SolverError
 from vibroacoustics.design.evaluation import Evaluate, Evaluation
 from vibroacoustics.design.search.best import search_best
-from vibroacoustics.design.search.front import search_front
-from vibroacoustics.design.search.nondominated import nondominated
+from vibroacoustics.design.search.front import nondominated, search_front
 from vibroacoustics.design.search.problem import SearchProblem
 
 

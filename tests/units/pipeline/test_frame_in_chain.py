@@ -15,7 +15,7 @@ from vibroacoustics.machine.frame import (
 from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.sources.cases import loads_of
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.transfer.frame import frame_on_shell
+from vibroacoustics.transfer.frame.of_machine import frame_on_shell
 
 WITHOUT = 'without = ["frame"]\n'
 TEXT = SOURCES_STUDY.read_text(encoding="utf-8")

@@ -24,9 +24,9 @@ from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
 from vibroacoustics.sources.scroll_gas.opening import steady_opening, steps_of_turn
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.cavity.of_machine import gas_of
-from vibroacoustics.transfer.frame import frame_on_shell
+from vibroacoustics.transfer.frame.of_machine import frame_on_shell
 from vibroacoustics.transfer.natural_frequencies import gas_frequencies
-from vibroacoustics.transfer.shell_modes import velocity_per_force
+from vibroacoustics.transfer.shell_modes.mobility import velocity_per_force
 
 DISCHARGE_DOME, SUCTION_ANNULUS = SPACES
 WITHOUT = 'without = ["frame"]\n'

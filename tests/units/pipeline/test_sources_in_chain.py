@@ -58,7 +58,7 @@ from vibroacoustics.transfer import MachineOnMounts
 from vibroacoustics.transfer.load_path import LoadPath
 from vibroacoustics.transfer.observers import Observers
 from vibroacoustics.transfer.path import pressure_per_load
-from vibroacoustics.transfer.shell_modes import elastic_shell
+from vibroacoustics.transfer.shell_modes.modes import elastic_shell
 from vibroacoustics.uncertainty.bank import MOST_ROUNDS
 
 TEXT = SOURCES_STUDY.read_text(encoding="utf-8")

@@ -15,7 +15,7 @@ from vibroacoustics.report.sections.structure_borne.tables import carrier, way_s
 from vibroacoustics.sources.cases import cases_of
 from vibroacoustics.study.selection import at_speeds
 from vibroacoustics.transfer import on_mounts
-from vibroacoustics.transfer.foot_lines import force_at_lines
+from vibroacoustics.transfer.foot_figures import force_at_lines
 from vibroacoustics.transfer.plate.driven import Plate, near_power
 
 SHEET = {

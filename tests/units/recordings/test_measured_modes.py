@@ -6,7 +6,7 @@ import pyuff
 
 from vibroacoustics.base.errors import ParameterError, StorageError
 from vibroacoustics.recordings import read_modes
-from vibroacoustics.transfer.shell_modes import SampledMode
+from vibroacoustics.transfer.shell_modes.sampled import SampledMode
 
 RNG = np.random.default_rng(55)
 NUMBERS = np.array([3, 7, 8, 21, 40])

@@ -10,9 +10,16 @@ from vibroacoustics.machine.frame import BEARING_HOUSING, STATOR
 from vibroacoustics.machine.stator_yoke import STATOR_YOKE, YOKE_ORDERS, StatorYoke
 from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.mechanics.scroll_shaft import ScrollShaft
-from vibroacoustics.sources.air_gap.loads import loads_of_stress
 from vibroacoustics.sources.air_gap.parameters import AirGap
-from vibroacoustics.sources.air_gap.waves import MU_0, Wave, cosine, permeance, product, stress_pa
+from vibroacoustics.sources.air_gap.waves import (
+    MU_0,
+    Wave,
+    cosine,
+    loads_of_stress,
+    permeance,
+    product,
+    stress_pa,
+)
 from vibroacoustics.sources.cases import loaded_cases, loads_of
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.yoke import YokeOnWall, ring_stiffness

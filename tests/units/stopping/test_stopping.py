@@ -24,7 +24,8 @@ from vibroacoustics.stopping.labelled import stopping_variables
 from vibroacoustics.stopping.orders import MAP_REVOLUTIONS
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
-from vibroacoustics.transfer import Isolation, MachineOnMounts
+from vibroacoustics.transfer import MachineOnMounts
+from vibroacoustics.transfer.isolation import Isolation
 from vibroacoustics.transfer.transient import LOAD_SAMPLES, RESULT_SAMPLES, transient
 
 SPEED = 2900.0 * np.pi / 30.0

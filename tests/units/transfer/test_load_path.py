@@ -14,10 +14,10 @@ from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.sources.cases import loads_of
 from vibroacoustics.study.loading import load_machine, load_study
 from vibroacoustics.transfer.bending import bending_shell
+from vibroacoustics.transfer.contributions import velocities
 from vibroacoustics.transfer.load_path import LoadPath
 from vibroacoustics.transfer.machine import on_mounts
 from vibroacoustics.transfer.observers import Observers, feet, motions
-from vibroacoustics.transfer.radiating_motions import velocities
 
 FREQUENCY = np.array([0.0, 48.3, 517.0, 1333.0])
 MACHINES = ROOT / "data" / "machines"

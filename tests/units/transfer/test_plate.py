@@ -18,7 +18,7 @@ from vibroacoustics.transfer.plate.driven import (
     wave_power,
 )
 from vibroacoustics.transfer.plate.radiation_efficiency import radiation_efficiency
-from vibroacoustics.transfer.plate.spread import modal_overlap, relative_variance
+from vibroacoustics.transfer.plate.under_feet import modal_overlap, relative_variance
 
 STEEL = StructureBorne(
     thickness_m=1e-3, density_kg_per_m3=7850.0, youngs_modulus_pa=2.1e11, loss_factor_ratio=0.01

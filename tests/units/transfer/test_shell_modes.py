@@ -27,22 +27,17 @@ from vibroacoustics.machine.shell import Shell
 from vibroacoustics.machine.shell_structure import Joint, ShellStructure
 from vibroacoustics.radiation.bodies import cylinder
 from vibroacoustics.radiation.patterns import Pattern
-from vibroacoustics.transfer.shell_modes import (
-    ElasticShell,
-    JointLoads,
-    SampledMode,
-    elastic_shell,
-    joint_forces,
-    modal_forces,
-    patch_forces,
-)
 from vibroacoustics.transfer.shell_modes.elements import (
     NODE_FREEDOMS,
     matrices,
     strains,
 )
 from vibroacoustics.transfer.shell_modes.harmonic import Harmonic
+from vibroacoustics.transfer.shell_modes.loads import JointLoads, joint_forces
 from vibroacoustics.transfer.shell_modes.meridian import Meridian, bending_wavelength_m
+from vibroacoustics.transfer.shell_modes.mobility import modal_forces, patch_forces
+from vibroacoustics.transfer.shell_modes.modes import ElasticShell, elastic_shell
+from vibroacoustics.transfer.shell_modes.sampled import SampledMode
 
 PRINTED = ROOT / "data" / "validation" / "shell_modes.csv"
 EPS = np.finfo(float).eps

@@ -10,13 +10,10 @@ from scipy.spatial.transform import Rotation
 from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.machine.housing import Housing
 from vibroacoustics.machine.mounts import Mounts
-from vibroacoustics.transfer import (
-    Bushing,
-    Isolation,
-    MachineOnMounts,
-    RigidBody,
-    tube_stiffness,
-)
+from vibroacoustics.mechanics.bushings import Bushing, RigidBody
+from vibroacoustics.transfer import MachineOnMounts
+from vibroacoustics.transfer.isolation import Isolation
+from vibroacoustics.transfer.tube import tube_stiffness
 
 STEEL_PA, POISSON = 2.0e11, 0.3
 ROUNDING = 1e-10

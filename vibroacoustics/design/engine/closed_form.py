@@ -29,12 +29,6 @@ class ClosedForm:
     def functions(self, values: Mapping[str, float], machine: Machine, speed_rpm: float) -> Array:
         """Functions of one design, shape (size,).
 
-        Parameters
-        ----------
-        values : of `fields`
-        machine : as the option leaves it
-        speed_rpm : of the shaft
-
         Raises
         ------
         ParameterError

@@ -1,17 +1,15 @@
 """What is seen of any designs of a space."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 
 from ...base.arrays import Array
 from ...base.units import si_key
-from ...machine.option import Option
 from ...study.study import Study
 from ..keys import acts_on
 from ..space import OPTION, Space
-from .bases import Basis
 from .closed_form import CLOSED_FORMS, of_many
 from .deviating import Gains
 from .machine_sample import MachineSample
@@ -22,6 +20,7 @@ from .runs import CachedRuns, probe_of
 from .samples import Samples
 from .seen import Need
 from .sound_way import Ways
+from .terms import Basis
 
 
 class Engine:
@@ -59,12 +58,7 @@ class Engine:
         self._studies: dict[bytes, Study] = {} if template is None else template._studies
 
     def outcome(self, values: Array) -> Outcome:
-        """What is seen of designs, and why some have failed.
-
-        Parameters
-        ----------
-        values : shape (design, variable), SI
-        """
+        """What is seen of designs, shape (design, variable) in SI, and why some have failed."""
         if len(self.space.options) == 1:
             return self.of_option(self.space.options[0]).outcome(values)
         result = Outcome()
@@ -141,7 +135,8 @@ def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:
     of_form = {field: columns[field] for field in form.fields if field in columns}
     if not of_form:
         return ()
-    machine, present = given.applied_to(space.study.machine), _present(given, form.fields)
+    machine = given.applied_to(space.study.machine)
+    present = {field: getattr(given, field) for field in form.fields}
 
     def functions(values: Array, speed_rpm: float) -> Array:
         def one(row: Array) -> Array:
@@ -151,7 +146,3 @@ def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:
         return of_many(one, values, form.size)
 
     return (Basis("a closed form", tuple(of_form.values()), functions, form.size, True),)
-
-
-def _present(option: Option, fields: Sequence[str]) -> Mapping[str, float]:
-    return {field: getattr(option, field) for field in fields}

@@ -36,12 +36,7 @@ class Expansion:
     factors: Stack
 
     def at(self, values: Array) -> dict[str, ComplexArray]:
-        """Arrays of designs, shape (design, ...); one for all, (1, ...), where none changes it.
-
-        Parameters
-        ----------
-        values : shape (design, variable)
-        """
+        """Arrays of designs (design, variable), shape (design, ...); (1, ...) if alike."""
         columns = self.terms.at(values, self.speed_rpm)
         return {name: summed(columns, factors) for name, factors in self.factors.items()}
 
@@ -83,7 +78,8 @@ def fitted(terms: Terms, speed_rpm: float, values: Array, arrays: Stack) -> Expa
     factors: dict[str, ComplexArray] = {}
     for name, array in arrays.items():
         change = array - array[:1]
-        change[:, _is_nothing(change, array)] = 0.0
+        unchanged = np.abs(change).max(axis=0) <= SAME * np.abs(array).max()
+        change[:, unchanged] = 0.0
         factor: ComplexArray = np.tensordot(solve, change, axes=(1, 0)).astype(complex)
         factor[0] += array[0]
         factors[name] = factor
@@ -103,8 +99,3 @@ def deviation(expected: ComplexArray, given: ComplexArray) -> float:
     across = tuple(axis for axis in range(size.ndim) if axis != 1)
     floor = max(float(size.max()) * NOTHING / RELATIVE, 1e-300)
     return float(np.max(error / np.maximum(size.max(axis=across, keepdims=True), floor)))
-
-
-def _is_nothing(change: ComplexArray, array: ComplexArray) -> Array:
-    """Where no design changes an array, shape of the array of one design."""
-    return np.asarray(np.abs(change).max(axis=0) <= SAME * np.abs(array).max())

@@ -69,12 +69,7 @@ class LinearDesigns:
         return cls(needs, lines, tuple(expansions), fixed)
 
     def seen(self, values: Array) -> Iterator[tuple[slice, dict[Need, Array]]]:
-        """What is seen of designs, chunk by chunk.
-
-        Parameters
-        ----------
-        values : shape (design, variable)
-        """
+        """What is seen of designs, shape (design, variable), chunk by chunk."""
         for first in range(0, len(values), self.chunk):
             part = slice(first, min(first + self.chunk, len(values)))
             yield part, self._of_chunk(values[part])

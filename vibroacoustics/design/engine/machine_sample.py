@@ -58,10 +58,5 @@ class MachineSample:
     shared: Shared = field(default_factory=Recent, repr=False)
 
     def without(self, chosen: frozenset[tuple[str, str]]) -> Sample:
-        """Return the values but those that designs choose.
-
-        Parameters
-        ----------
-        chosen : tables and fields
-        """
+        """Return the values but those that designs choose."""
         return {key: value for key, value in self.values.items() if key not in chosen}

@@ -9,13 +9,12 @@ import numpy as np
 
 from ...base.arrays import Array, IndexArray
 from ...base.errors import ParameterError, SolverError
-from .bases import Basis
 from .deviating import Gains
 from .linear_designs import LinearDesigns
 from .recognition import NO_EFFECT, TESTS, Explorer, Route, fits, spread
 from .seen import Need, Seen
 from .sound_way import Ways
-from .terms import Terms, products_of
+from .terms import Basis, Terms, products_of
 
 ARRAYS: Final = frozenset({
     "wrench", "load", "other", "noise", "factor",
@@ -117,12 +116,7 @@ class OptionEngine:
         )
 
     def outcome(self, values: Array) -> Outcome:
-        """What is seen of designs.
-
-        Parameters
-        ----------
-        values : shape (design, variable)
-        """
+        """What is seen of designs, shape (design, variable)."""
         terms, routes = self.recognised
         of_runs = [number for number, route in enumerate(routes) if not route.linear]
         result = Outcome()

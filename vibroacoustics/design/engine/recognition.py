@@ -10,10 +10,9 @@ from scipy.stats import qmc
 
 from ...base.arrays import Array, ComplexArray
 from ...base.errors import ParameterError, SolverError
-from .bases import Basis, bases_of
 from .expansion import RELATIVE, Expansion, deviation, fitted
 from .samples import Samples, stacked
-from .terms import Terms, products_of
+from .terms import Basis, Terms, bases_of, products_of
 
 NODES: Final = 11
 """Designs along one variable: at most four are fitted, the others test."""
@@ -165,13 +164,7 @@ class Explorer:
 
 
 def fits(terms: Terms, has_template: bool = False) -> int:
-    """Number of designs that a fit is made of.
-
-    Parameters
-    ----------
-    terms : that are fitted
-    has_template : whether they are known from another sample
-    """
+    """Number of designs that a fit is made of."""
     count = len(terms.products)
     return count + (0 if has_template else count // 2) + 4 if terms.bases else 1
 

@@ -89,11 +89,6 @@ def pressure(motion: ComplexArray, per_velocity: ComplexArray, frequency_hz: Arr
     return np.swapaxes(by_line @ np.swapaxes(per_motion, 1, 2), 0, 1)
 
 
-def at_order(order: IndexArray, wanted: int) -> IndexArray:
-    """Number of the line of an order, shape (1,); empty where there is none."""
-    return np.flatnonzero(order == wanted)
-
-
 def size_of_vector(vector: ComplexArray) -> Array:
     """Largest size over a revolution, shape (design, ...) of (design, ..., 3), peak."""
     return semi_major_axis(vector, axis=-1)

@@ -99,14 +99,6 @@ class CachedRuns:
 def probe_of(space: Space, study: Study, option: str, ways: Ways, machine: MachineSample) -> Probe:
     """Return the probe of a design of a nominal machine or of a sample.
 
-    Parameters
-    ----------
-    space : of the designs, whose values are not sampled
-    study : with the values of the design
-    option : its name
-    ways : to the microphones
-    machine : nominal, or a sample
-
     Raises
     ------
     ParameterError, SolverError
@@ -171,16 +163,7 @@ def seen_of_probe(
     way: SoundWay,
     gains: Sequence[Gains | None],
 ) -> dict[Need, Array]:
-    """What is seen of one design by its probe, shape (1, ...).
-
-    Parameters
-    ----------
-    needs : what is asked
-    made : probe of the design
-    speeds_rpm : of the study
-    way : of the design to the microphones
-    gains : of the sample by speed; none of the nominal machine
-    """
+    """What is seen of one design by its probe, shape (1, ...)."""
     each = zip(speeds_rpm, made.frequency_hz, made.order, gains, strict=True)
     lines = [lines_of_speed(speed, hertz, order, way, one) for speed, hertz, order, one in each]
     groups = [{name: np.asarray(a)[None] for name, a in one.items()} for one in made.groups()]

@@ -58,14 +58,6 @@ class SoundWay:
     ) -> tuple[ComplexArray, Array]:
         """Compute the sound of each source that does not come of the rigid motions.
 
-        Parameters
-        ----------
-        machine : of the case
-        lines : of all sources
-        loads : by source
-        loss : of the option, on random loads
-        shared : with other designs of the same sample
-
         Returns
         -------
         pressure of what bends the shell, shape (source, receiver, line), Pa, and A-weighted mean

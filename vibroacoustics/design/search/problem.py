@@ -67,12 +67,7 @@ class Searched:
 
 
 class History:
-    """Keeps what a search asks for, generation by generation.
-
-    Parameters
-    ----------
-    evaluate : that is asked
-    """
+    """Keeps what a search asks for, generation by generation."""
 
     def __init__(self, evaluate: Evaluate) -> None:
         self._evaluate = evaluate

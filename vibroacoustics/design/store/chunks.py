@@ -124,11 +124,6 @@ class Stored:
 
     A search with the same seed asks for the same designs; so one that was ended goes on where it
     was, and ends with the same bits.
-
-    Parameters
-    ----------
-    evaluate : of what is not there
-    store : of this search
     """
 
     def __init__(self, evaluate: Evaluate, store: ChunkStore) -> None:

@@ -14,13 +14,7 @@ _LEAST_GAP_M: Final = 0.3
 
 
 def outdoors_of(shell: Shell, surroundings: Surroundings) -> Outdoors | None:
-    """Ground and barrier; none on a floor alone or in free field.
-
-    Parameters
-    ----------
-    shell : whose centre of mass is the origin
-    surroundings : of the study
-    """
+    """Ground and barrier; none on a floor alone or in free field."""
     if not surroundings.is_outdoors:
         return None
     ground, given = surroundings.ground, surroundings.barrier

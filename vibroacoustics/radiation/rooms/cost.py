@@ -27,11 +27,6 @@ motions of a compressor on its floor, some 20 s with the modes of its shell."""
 def room_cost(study: Study, settings: StudyRoom) -> Cost:
     """A run for each listener and one for the map, and the machine's field.
 
-    Parameters
-    ----------
-    study : with its machine
-    settings : of the room
-
     Raises
     ------
     ParameterError

@@ -146,10 +146,6 @@ def pressure_at_places(vectors: xr.Dataset) -> PressureAt:
     """Pressure at the listeners by waves, then at the positions on the hemisphere.
 
     Above the waves' highest frequency the listeners get none.
-
-    Parameters
-    ----------
-    vectors : of `room_vectors`
     """
     waves = room_pressure_per_velocity(vectors)
     highest_hz = float(vectors.attrs["room_maximum_frequency_hz"])
@@ -188,10 +184,6 @@ def wave_share(highest_hz: float) -> Callable[[Array], Array]:
 
     From the waves to the power over the seam's frequencies; lower by a factor where the waves end
     below them.
-
-    Parameters
-    ----------
-    highest_hz : of the waves
     """
     return lambda frequency_hz: np.asarray(1.0 - blend(frequency_hz / seam_shift(highest_hz)))
 
@@ -241,11 +233,6 @@ def plate_per_power(settings: StudyRoom, vectors: xr.Dataset) -> Callable[[Array
     has over a hard surface in the open (assumed). By waves it gives the pressure jωρ Q G, so that a
     mean square per power is 2π ρ c |G|²; above them direct sound and diffuse field.
 
-    Parameters
-    ----------
-    settings : of the room
-    vectors : of `room_vectors`
-
     Returns
     -------
     of frequencies, shape (listener, frequency), Pa²/W
@@ -266,12 +253,7 @@ def plate_per_power(settings: StudyRoom, vectors: xr.Dataset) -> Callable[[Array
 
 
 def seam_bands_hz(highest_hz: float) -> tuple[float, float]:
-    """Lowest and highest middle of the third octaves that are shown around the seam, Hz.
-
-    Parameters
-    ----------
-    highest_hz : of the waves
-    """
+    """Lowest and highest middle of the third octaves that are shown around the seam, Hz."""
     return SHOWN_FROM_HZ * seam_shift(highest_hz), highest_hz
 
 
@@ -290,13 +272,7 @@ def place_gains_db(waves: Array, diffuse: Array) -> Array:
 
 
 def gain_over_frequency(gains_db: Array, middle_hz: Array) -> Callable[[Array], Array]:
-    """Factor on the power, of frequencies; over the logarithm between the bands.
-
-    Parameters
-    ----------
-    gains_db : of `place_gains_db`
-    middle_hz : of the shown bands
-    """
+    """Factor on the power, of frequencies; over the logarithm between the bands."""
     known = np.log([*middle_hz, middle_hz[-1] * 2.0 ** (1.0 / 3.0)])
     return lambda frequency_hz: np.asarray(
         power_of_level(np.interp(np.log(frequency_hz), known, gains_db))

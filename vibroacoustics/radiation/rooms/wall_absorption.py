@@ -23,11 +23,6 @@ class AbsorptionWarning(UserWarning):
 def wall_absorption(room: Room, highest_hz: float) -> xr.Dataset:
     """Return requested and computed absorption of every surface, by octave.
 
-    Parameters
-    ----------
-    room : with its walls, furniture and patches
-    highest_hz : highest frequency of the waves
-
     Returns
     -------
     `room_wall_absorption` and `room_wall_absorption_requested` (room_surface, room_octave); the
@@ -50,13 +45,7 @@ def computed(material: Material, highest_hz: float) -> Array:
 
 
 def warn_of_absorption(room: Room, highest_hz: float) -> None:
-    """Warn of surfaces whose computed absorption differs from the requested one.
-
-    Parameters
-    ----------
-    room : with its walls, furniture and patches
-    highest_hz : highest frequency of the waves
-    """
+    """Warn of surfaces whose computed absorption differs from the requested one."""
     surfaces: dict[Material, list[str]] = {}
     for name, material in _surfaces(room):
         surfaces.setdefault(material, []).append(f"room.{name}")

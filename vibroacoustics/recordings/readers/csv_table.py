@@ -10,13 +10,12 @@ import numpy as np
 
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
-from ..csv_head import Head, read_head, time_column
+from ..csv_head import Head, read_head, stamp_ns, stamp_text, time_column
 from ..quantities import time_factor
 from ..reader import Reader
 from ..recorded import Recorded, Request, Samples, check_rate, check_size
 from ..text_lines import MAXIMUM_LINE_BYTES, last_lines, lines, opened, reached, text
 from ..time_axis import even_rate_hz
-from ..time_stamps import stamp_ns, stamp_text
 
 MAXIMUM_HEAD_LINES: Final = 200
 

@@ -7,9 +7,8 @@ import numpy as np
 
 from ...base.errors import StorageError
 from ...base.registry import register
-from ..by_channel import by_channel
 from ..reader import Reader
-from ..recorded import Recorded, Request, Samples, check_rate, check_size
+from ..recorded import Recorded, Request, Samples, by_channel, check_rate, check_size
 from ..riff import FLOAT, PCM, Wave, read_wave
 from ..stated_scale import stated_scales
 from . import sound_file

@@ -151,13 +151,7 @@ def contact_mass_kg(
 
 
 def key_face(keys: OldhamKeys, ring_mass_kg: float) -> Face:
-    """Return the constants of one key's faces.
-
-    Parameters
-    ----------
-    keys : geometry, oil and material
-    ring_mass_kg : mass of the ring
-    """
+    """Return the constants of one key's faces."""
     stiffness = contact_stiffness_n_per_m1p5(keys.contact_modulus_pa, keys.crown_radius_m)
     inertias = (keys.ring_inertia_kg_m2, keys.scroll_inertia_kg_m2)
     mass = contact_mass_kg(ring_mass_kg, keys.radius_m, *inertias)

@@ -14,9 +14,8 @@ from ...orders import order_spectrum
 from ...transfer.four_poles import pipe, pressure_ratio, transmission_loss_db
 from .chambers import pocket_volume
 from .cycle import ScrollGasCycle, scroll_gas_cycle
-from .opened_gas import OpenedGas, TrappedGas
 from .parameters import ScrollGas, ScrollWraps
-from .pressures import pocket_pressure
+from .pressures import OpenedGas, TrappedGas, pocket_pressure
 from .suction import SuctionFlow
 
 AFTER_OPENING: Final = np.pi / 3.0

@@ -7,9 +7,8 @@ import numpy as np
 from ...base.arrays import Array
 from ...mechanics.moving_parts import path
 from .chambers import area_inside, contact_angle, contact_count
-from .opened_gas import OpenedGas
 from .parameters import ScrollGas, ScrollWraps
-from .pressures import pocket_pressure
+from .pressures import OpenedGas, pocket_pressure
 
 
 @dataclass(frozen=True)

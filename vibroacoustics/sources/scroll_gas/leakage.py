@@ -11,10 +11,9 @@ import numpy as np
 from ...base.arrays import Array
 from .chambers import contact_angle, contacts_at_opening, pocket_volume
 from .leakage_equations import LeakingPairs, leaking_turn
-from .opened_gas import TrappedGas
 from .opening_equations import OpeningConstants
 from .parameters import ScrollGas, ScrollLeakage, ScrollWraps
-from .pressures import built_in_pressure_pa, polytropic_pressure_pa
+from .pressures import TrappedGas, built_in_pressure_pa, polytropic_pressure_pa
 from .suction import SuctionFlow
 
 TURN: Final = 2.0 * np.pi

@@ -17,7 +17,6 @@ from .chambers import (
     swept_volume_m3,
 )
 from .leakage import LeakingPockets, TightPockets
-from .opened_gas import OpenedGas
 from .opening_equations import (
     CHAMBER,
     GAP_FLOW,
@@ -29,7 +28,7 @@ from .opening_equations import (
     one_turn,
 )
 from .parameters import ScrollGas, ScrollLeakage, ScrollOpening, ScrollWraps
-from .pressures import built_in_pressure_pa
+from .pressures import OpenedGas, built_in_pressure_pa
 from .suction import SuctionFlow
 
 STEPS: Final = 2048

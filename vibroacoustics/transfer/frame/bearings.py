@@ -46,13 +46,7 @@ class Bearing:
 
 
 def bearings_of(frame: Frame, shaft: FreeShaft) -> tuple[Bearing, ...]:
-    """Pin, main and lower bearing; the pin's load on two journals by the lever.
-
-    Parameters
-    ----------
-    frame : films, load, stiffness of the pin
-    shaft : nodes, stiffness of the journals
-    """
+    """Pin, main and lower bearing; the pin's load on two journals by the lever."""
     speed = 2.0 * np.pi * shaft_frequency_hz(frame.film_speed_rpm)
     pin_height, main_height = shaft.heights_m[[shaft.pin_node, shaft.main_node]]
     lever = float(pin_height / main_height)

@@ -94,10 +94,6 @@ class Harmonic:
 
         The lowest motions by shifted and inverted Lanczos iteration, of which the rigid ones are
         left out.
-
-        Parameters
-        ----------
-        maximum_frequency_hz : modes up to here
         """
         limit = (2.0 * np.pi * maximum_frequency_hz) ** 2
         squares, shapes = self._lowest(limit)

@@ -103,12 +103,6 @@ def closed_meridian(shell: Shell, structure: ShellStructure, frequency_hz: float
 
     Half a thickness inside the outer surface; flat caps, or half-ellipsoids.
 
-    Parameters
-    ----------
-    shell : outer dimensions
-    structure : thickness, material and free span
-    frequency_hz : highest frequency to be resolved
-
     Raises
     ------
     ParameterError
