@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .machine import Machine
 
 DENSITY_KG_PER_M3: Final = (500.0, 20e3)
-"""Of a machine in its shell, from sheet around air to solid lead and more."""
+"""Density of a machine in its shell, from sheet around air to solid lead and more."""
 MOUNTED_HZ: Final = (2.0, 60.0)
 """Natural frequency on mounts: below they sag by 60 mm, above nothing is isolated."""
 FREE_MOTION_M: Final = 0.01
@@ -56,9 +56,9 @@ def usual_of(machine: "Machine", field: str, unit: str) -> Usual | None:
              "inertia": mass * size**2}  # fmt: skip
     for rule in _rules():
         if rule["unit"] == unit and re.fullmatch(rule.get("names", ".*"), field):
-            both = rule.get("of", "")
-            lowest = rule["lowest"] * scale[both]
-            highest = rule["highest"] * scale[rule.get("of_highest", both)]
+            scale_name = rule.get("of", "")
+            lowest = rule["lowest"] * scale[scale_name]
+            highest = rule["highest"] * scale[rule.get("of_highest", scale_name)]
             return Usual(field, lowest, highest, rule["why"])
     return None
 

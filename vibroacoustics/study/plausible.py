@@ -12,7 +12,7 @@ from .reader import Reader, is_number
 OF_A_STUDY: Final = ("options", "receivers")
 """Tables of a study whose sizes go with those of the machine."""
 MOST_LINES: Final = 12
-"""Doubts that are told; the others are counted."""
+"""Doubts that are printed; the others are counted."""
 
 
 def warn_of_doubts(machine: Machine, of_machine: Reader, of_study: Reader | None = None) -> None:
@@ -31,12 +31,12 @@ def warn_of_doubts(machine: Machine, of_machine: Reader, of_study: Reader | None
     for line in lines[:MOST_LINES]:
         warnings.warn(line, stacklevel=3)
     if len(lines) > MOST_LINES:
-        left = len(lines) - MOST_LINES
-        warnings.warn(f"{of_machine.path}: {left} more values are far from usual", stacklevel=3)
+        further = len(lines) - MOST_LINES
+        warnings.warn(f"{of_machine.path}: {further} more values are far from usual", stacklevel=3)
 
 
 def _doubts(machine: Machine, reader: Reader, tables: tuple[str, ...]) -> Iterator[str]:
-    own = {one.field: one for one in machine.usual()}
+    own = {usual.field: usual for usual in machine.usual()}
     for keys, (key, number) in reader.file_keys.items():
         unit = split_key(key)[1]
         if keys[0] not in tables or unit is None or not is_number(number):
@@ -45,14 +45,14 @@ def _doubts(machine: Machine, reader: Reader, tables: tuple[str, ...]) -> Iterat
         usual = own.get(field) or usual_of(machine, field, unit.si_suffix)
         if usual and field not in machine.unread and not usual.holds(unit.factor * number):
             lowest, highest = (f"{end / unit.factor:.3g}" for end in (usual.lowest, usual.highest))
-            given = f"{reader.file_and_key((*keys[:-1], key))} = {number:g} {unit.symbol}".rstrip()
+            value = f"{reader.file_and_key((*keys[:-1], key))} = {number:g} {unit.symbol}".rstrip()
             allowed = f"usual is {lowest} to {highest} {unit.symbol}".rstrip()
-            yield f"{given}: {allowed} ({usual.why}); {_likely(usual, number, unit)}"
+            yield f"{value}: {allowed} ({usual.why}); {_likely(usual, number, unit)}"
 
 
-def _likely(usual: Usual, number: float, given: Unit) -> str:
-    """The unit in which the number would be usual, one of a thousand times the size first."""
-    others = [one for one in UNITS.values() if one.si_suffix == given.si_suffix]
-    others.sort(key=lambda one: one.factor / given.factor not in (1e3, 1e-3))
-    fitting = (one.symbol for one in others if usual.holds(one.factor * number))
+def _likely(usual: Usual, number: float, unit: Unit) -> str:
+    """The unit in which the number would be usual, of a thousand times the size first."""
+    others = [other for other in UNITS.values() if other.si_suffix == unit.si_suffix]
+    others.sort(key=lambda other: other.factor / unit.factor not in (1e3, 1e-3))
+    fitting = (other.symbol for other in others if usual.holds(other.factor * number))
     return next((f"is it in {symbol}?" for symbol in fitting), "is a decimal point wrong?")
