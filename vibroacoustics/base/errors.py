@@ -40,6 +40,16 @@ class ParameterError(VibroacousticsError):
         super().__init__(*map(_shortened, messages))
 
 
+class PlatformError(VibroacousticsError):
+    """The operating system, or what it allows this process, is not enough.
+
+    Examples
+    --------
+    >>> from vibroacoustics.base.posix import check_memory
+    >>> check_memory(700_000_000)  # no limit is set, or a higher one
+    """
+
+
 class SchemaError(VibroacousticsError):
     """A variable left a stage with the wrong dimensions or unit.
 

@@ -17,6 +17,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from ..base.errors import ParameterError
+from ..base.posix import LEAST_TO_COMPUTE_BYTES, check_memory
 from ..base.progress import stage
 from . import messages, option_words
 from .outcome import Outcome
@@ -78,6 +79,8 @@ class Command:
         typer.Exit
             A limit is broken.
         """
+        if self.computes:
+            check_memory(LEAST_TO_COMPUTE_BYTES)
         with ExitStack() as stack:
             warnings = stack.enter_context(messages.collected(speech.quiet))
             if isinstance(speech, LongSpeech):

@@ -11,9 +11,9 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Final
 
+from ..base.posix import ENDING
 from ..results.interruption import clear_up
 
-_SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)
 _AGAIN_S: Final = 2.0
 """A library may swallow the exception, or wait for its threads: then it is raised once more."""
 
@@ -34,7 +34,7 @@ def ended_by_signals() -> Iterator[None]:
         sys.unraisablehook = lambda _: None  # raised where Python cannot let it through
         raise Interrupted
 
-    for number in _SIGNALS:
+    for number in ENDING:
         signal.signal(number, interrupt)
     try:
         yield
@@ -50,5 +50,5 @@ def ended_by_signals() -> Iterator[None]:
 
 def _ignore() -> None:
     """What comes now comes too late."""
-    for number in _SIGNALS:
+    for number in ENDING:
         signal.signal(number, signal.SIG_IGN)

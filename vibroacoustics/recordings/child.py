@@ -9,7 +9,6 @@ On standard output: one line of JSON, then the samples as float64, channel after
 import hashlib
 import json
 import os
-import resource
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -21,6 +20,7 @@ import numpy as np
 from ..base.errors import ParameterError, StorageError, VibroacousticsError
 from ..base.fault import FaultError
 from ..base.plugin_file import load_plugin
+from ..base.posix import resource
 from . import uff_modes
 from .overload import overloads
 from .reader import READERS, Reader, needed, readers_by_suffix

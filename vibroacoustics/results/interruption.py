@@ -8,8 +8,7 @@ from contextlib import contextmanager, suppress
 from typing import Final
 
 from ..base.folder import Folder
-
-_HELD_BACK: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)
+from ..base.posix import ENDING
 
 
 @contextmanager
@@ -19,7 +18,7 @@ def uninterrupted() -> Iterator[None]:
         yield
         return
     came: list[int] = []
-    present = {number: signal.getsignal(number) for number in _HELD_BACK}
+    present = {number: signal.getsignal(number) for number in ENDING}
     # None: a handler of a host program in C, which could not be put back
     handlers = {number: handler for number, handler in present.items() if handler is not None}
     for number in handlers:

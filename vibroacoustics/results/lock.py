@@ -5,7 +5,6 @@ the next who wants it.
 """
 
 import errno
-import fcntl
 import json
 import os
 import socket
@@ -19,6 +18,7 @@ from typing import Final
 
 from ..base.errors import StorageError
 from ..base.folder import Folder
+from ..base.posix import fcntl
 from .interruption import cleared_in, uninterrupted
 
 PATIENCE_S: Final = 0.3
