@@ -1,6 +1,7 @@
 """Datasets as netCDF4 that other programs can read: complex numbers as pairs, text as ASCII."""
 
 import errno
+import os
 from collections.abc import Hashable
 from io import BytesIO
 from pathlib import Path
@@ -14,6 +15,7 @@ from ..base.heaps import check_heaps
 from .hashed import MAXIMUM_RESULTS_BYTES
 
 LARGE_BYTES: Final = 20_000_000
+_PROBE_BYTES: Final = 2**20
 ESCAPED: Final = "escaped_attributes"
 """Attribute that names the others that are not in ASCII."""
 REAL_SUFFIX, IMAGINARY_SUFFIX = "_re", "_im"
@@ -42,8 +44,20 @@ def write_netcdf(results: xr.Dataset, path: Path) -> None:
                 format="NETCDF4",
                 encoding=_encoding(part),
             )
-    except RuntimeError as error:  # netCDF's word for a full disk
-        raise OSError(errno.EIO, str(error)) from None
+    except RuntimeError as error:  # "NetCDF: HDF error" is all that it says of a full disk
+        raise _why_not_written(path, error) from None
+
+
+def _why_not_written(path: Path, error: RuntimeError) -> OSError:
+    """What the system says when more is written to a file that netCDF could not write."""
+    try:
+        with path.open("ab") as file:
+            file.write(bytes(_PROBE_BYTES))
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as reason:
+        return reason
+    return OSError(errno.EIO, str(error))
 
 
 def _encoding(part: xr.Dataset) -> dict[Hashable, dict[str, Any]]:
