@@ -30,63 +30,54 @@ From `curves`: `curves`. From `predict`: `predicted_levels`.
 """
 
 from .report.charts.needs import plotted
+from .report.figures import campbell as _campbell
 from .report.figures import (
-    baseline,
-    blocked_forces,
-    forces,
+    channel_orders,
     in_room,
     maps,
-    mounts,
     orders,
     paths,
-    polar,
-    prediction,
+    predicted,
     radiation,
-    recorded_orders,
-    run_up,
     sources,
-    speed_maps,
     stacked,
 )
-from .report.figures import campbell as _campbell
-from .report.figures import compared_orders as _compared_orders
 from .report.figures import curves as _curves
 from .report.figures import directivity as _directivity
 from .report.figures import levels_over_speed as _levels_over_speed
 from .report.figures import orders_over_speed as _orders_over_speed
 from .report.figures import scores as _scores
 from .report.figures import stopping as _stopping
-from .report.figures import transfer_vectors as _transfer_vectors
 
-baseline_third_octaves = plotted(baseline.baseline_third_octaves)
-blocked_force = plotted(blocked_forces.blocked_force, "blocked_forces.nc")
-blocked_validation = plotted(blocked_forces.blocked_validation, "blocked_forces.nc")
+baseline_third_octaves = plotted(sources.baseline_third_octaves)
+blocked_force = plotted(predicted.blocked_force, "blocked_forces.nc")
+blocked_validation = plotted(predicted.blocked_validation, "blocked_forces.nc")
 campbell = plotted(_campbell.campbell)
-compared_orders = plotted(_compared_orders.compared_orders, "compared_orders.nc")
+compared_orders = plotted(channel_orders.compared_orders, "compared_orders.nc")
 curves = plotted(_curves.curves, "curves.nc")
 levels_over_speed = plotted(_levels_over_speed.levels_over_speed)
-order_differences = plotted(_compared_orders.order_differences, "compared_orders.nc")
+order_differences = plotted(channel_orders.order_differences, "compared_orders.nc")
 orders_over_speed = plotted(_orders_over_speed.orders_over_speed, "orders.nc")
-predicted_levels = plotted(prediction.predicted_levels, "prediction.nc")
+predicted_levels = plotted(predicted.predicted_levels, "prediction.nc")
 source_levels_over_speed = plotted(_levels_over_speed.source_levels_over_speed)
-speed_frequency_map = plotted(speed_maps.speed_frequency_map, "speed_map.nc")
+speed_frequency_map = plotted(_orders_over_speed.speed_frequency_map, "speed_map.nc")
 directivity = plotted(_directivity.directivity, "transfer_vectors.nc")
 foot_force_orders = plotted(orders.foot_force_orders)
 force_orders = plotted(orders.force_orders)
-force_over_revolution = plotted(forces.force_over_revolution)
+force_over_revolution = plotted(orders.force_over_revolution)
 green_difference = plotted(radiation.green_difference)
 level_orders = plotted(orders.level_orders)
 levels = plotted(radiation.levels)
 line_map = plotted(maps.line_map)
-mount_transmissibility = plotted(mounts.mount_transmissibility)
+mount_transmissibility = plotted(radiation.mount_transmissibility)
 option_third_octaves = plotted(sources.option_third_octaves)
 path_shares = plotted(paths.path_shares)
-polar_levels = plotted(polar.polar_levels)
+polar_levels = plotted(_directivity.polar_levels)
 rank_acceptability = plotted(_scores.rank_acceptability)
 room_map = plotted(in_room.room_map, "kitchen.nc")
 room_seam = plotted(in_room.room_seam, "kitchen.nc")
-run_up_levels = plotted(run_up.run_up_levels)
-run_up_orders = plotted(run_up.run_up_orders)
+run_up_levels = plotted(stacked.run_up_levels)
+run_up_orders = plotted(stacked.run_up_orders)
 scores = plotted(_scores.scores)
 source_third_octaves = plotted(sources.source_third_octaves)
 stacked_lines = plotted(stacked.stacked_lines)
@@ -94,11 +85,11 @@ stacked_third_octaves = plotted(stacked.stacked_third_octaves)
 stopping = plotted(_stopping.stopping)
 stopping_order_map = plotted(_stopping.stopping_order_map)
 transfer = plotted(radiation.transfer)
-transfer_vectors = plotted(_transfer_vectors.transfer_vectors, "transfer_vectors.nc")
+transfer_vectors = plotted(maps.transfer_vectors, "transfer_vectors.nc")
 unit_level_map = plotted(maps.unit_level_map, "transfer_vectors.nc")
-order_map = plotted(recorded_orders.order_map, "orders.nc")
-order_spectrum = plotted(recorded_orders.order_spectrum, "orders.nc")
-tracked_orders = plotted(recorded_orders.tracked_orders, "tracked_orders.nc")
+order_map = plotted(channel_orders.order_map, "orders.nc")
+order_spectrum = plotted(channel_orders.order_spectrum, "orders.nc")
+tracked_orders = plotted(channel_orders.tracked_orders, "tracked_orders.nc")
 
 __all__ = [
     "baseline_third_octaves",

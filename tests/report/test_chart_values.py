@@ -14,11 +14,14 @@ from vibroacoustics.report.designs.figures import (
     main_effects_charts,
     parallel_chart,
 )
-from vibroacoustics.report.figures.blocked_forces import blocked_charts
-from vibroacoustics.report.figures.compared_orders import compared_orders, order_differences
-from vibroacoustics.report.figures.measured_power import power_chart
-from vibroacoustics.report.figures.prediction import predicted_levels
-from vibroacoustics.report.figures.recorded_orders import order_map, tracked_orders
+from vibroacoustics.report.figures.channel_orders import (
+    compared_orders,
+    order_differences,
+    order_map,
+    tracked_orders,
+)
+from vibroacoustics.report.figures.predicted import blocked_charts, predicted_levels
+from vibroacoustics.report.figures.sources import power_chart
 
 FREQUENCY = np.array([50.0, 100.0, 150.0])
 

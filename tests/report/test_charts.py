@@ -7,7 +7,6 @@ from xml.dom import minidom
 import numpy as np
 import pytest
 
-from vibroacoustics.report.charts.colours import PALETTE
 from vibroacoustics.report.charts.figure import figure
 from vibroacoustics.report.charts.frame import frame_of
 from vibroacoustics.report.charts.layout import layout, round_ticks, scale_of
@@ -27,7 +26,7 @@ from vibroacoustics.report.charts.marks import (
 )
 from vibroacoustics.report.charts.picture import picture
 from vibroacoustics.report.charts.svg import svg
-from vibroacoustics.report.charts.svg_image import _resampled
+from vibroacoustics.report.charts.svg_marks import PALETTE, _resampled
 
 X = np.array([1.0, 10.0, 100.0])
 Y = np.array([20.0, 40.0, 30.0])

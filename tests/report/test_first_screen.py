@@ -18,8 +18,7 @@ from vibroacoustics.report import render
 from vibroacoustics.report.bands import Band
 from vibroacoustics.report.blocks import Beside, Details, Intervals, Lights, Text
 from vibroacoustics.report.drawing import machine_picture
-from vibroacoustics.report.drawing.loads import loads, turn
-from vibroacoustics.report.drawing.outline import feet_m, outline
+from vibroacoustics.report.drawing.machine import feet_m, loads, outline, turn
 from vibroacoustics.report.drawing.view import bar, fitted
 from vibroacoustics.report.quantities import FOOT_FORCE, FORCE, LINE, TOTAL
 from vibroacoustics.report.sections import SECTIONS

@@ -28,8 +28,12 @@ from vibroacoustics.radiation.arrangements import (
 from vibroacoustics.radiation.exact import green, wavenumber
 from vibroacoustics.report.charts.marks import Image
 from vibroacoustics.report.figures.directivity import directivity
-from vibroacoustics.report.figures.maps import line_map, unit_level_db, unit_level_map
-from vibroacoustics.report.figures.transfer_vectors import transfer_vectors
+from vibroacoustics.report.figures.maps import (
+    line_map,
+    transfer_vectors,
+    unit_level_db,
+    unit_level_map,
+)
 from vibroacoustics.report.radiation_tables import analysis_of_radiation, radiation_figures
 from vibroacoustics.results import storage
 from vibroacoustics.study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from vibroacoustics.report.figures.deflection import FRAMES, cycle, deflection_picture, shapes
-from vibroacoustics.report.figures.polar import polar_levels
+from vibroacoustics.report.figures.directivity import polar_levels
 from vibroacoustics.report.figures.stacked import divided
 
 ANGLE = 2.0 * np.pi * np.arange(8) / 8

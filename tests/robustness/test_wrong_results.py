@@ -19,7 +19,7 @@ from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.base.hashing import sha256
 from vibroacoustics.base.vocabulary import LOW, REFERENCE_OPTION, SUFFIXES
 from vibroacoustics.commands import outputs
-from vibroacoustics.report.drawing import loads
+from vibroacoustics.report.drawing import machine as drawn
 from vibroacoustics.results import hashed
 from vibroacoustics.results.complete import check_run
 from vibroacoustics.results.run_attributes import Parameters, Words
@@ -149,7 +149,7 @@ def test_what_is_checked_is_all_that_a_report_reads(name: str) -> None:
     optional = {"supply_frequency", "projection_error", "force", "transfer_vector_closed_form",
                 "transfer_vector_error", "stopping_order_map", "rank_acceptability",
                 "total_band_level", "alternative_effective",
-                *loads.NEEDED}  # fmt: skip
+                *drawn.NEEDED}  # fmt: skip
     with_interval = [name for name in map(str, results) if f"{name}{SUFFIXES[LOW]}" in results]
     sampled = {name + suffix for name in with_interval for suffix in ("", *SUFFIXES.values())}
     needed = {*needed_variables(results), *optional, *sampled} & results.keys()

@@ -9,7 +9,7 @@ from ..base import rounding
 from ..results.number import Number
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Pictures
-from .figures.blocked_forces import blocked_charts
+from .figures.predicted import blocked_charts
 from .tables import DataTable, Table, data_table, phase_deg, records
 
 

@@ -9,7 +9,7 @@ from ..results.data_sheet import BandPower, DataSheet, SoundPower, Tone, Vibrati
 from ..results.estimates import Estimate
 from .analysis import Analysis
 from .blocks import Bullets, Part, Pictures, Text
-from .figures.data_sheet import sheet_chart
+from .figures.sources import sheet_chart
 from .file_names import file_name
 from .sections.tones.tables import excess_words
 from .tables import Table, columns_of

@@ -12,7 +12,7 @@ from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 from .analysis import Analysis, origin
 from .bands import fixed
 from .blocks import Bullets, Part, Pictures
-from .figures.measured_power import power_chart
+from .figures.sources import power_chart
 from .tables import Cell, DataTable, Table, columns_of
 
 GRADES: Final = {

@@ -9,7 +9,7 @@ from ..base.vocabulary import REFERENCE_OPTION
 from ..results.number import Number
 from .analysis import Analysis, origin
 from .blocks import Block, Bullets, Part, Pictures
-from .figures.prediction import predicted_charts
+from .figures.predicted import predicted_charts
 from .tables import Cell, DataTable, Table, data_table
 
 

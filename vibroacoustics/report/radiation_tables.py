@@ -12,8 +12,7 @@ from .analysis import Analysis, origin
 from .blocks import Block, Part, Pictures, Text
 from .charts.picture import Picture, picture
 from .figures.directivity import directivity
-from .figures.maps import names, silent_dofs, unit_level_db, unit_level_map
-from .figures.transfer_vectors import transfer_vectors
+from .figures.maps import names, silent_dofs, transfer_vectors, unit_level_db, unit_level_map
 from .kwave_words import kwave_line
 from .tables import Table
 

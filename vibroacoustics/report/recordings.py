@@ -8,7 +8,7 @@ from ..results.over_speed.level_curves import is_run_up, recorded_curves
 from .analysis import Analysis, origin
 from .avoid import RECORDED_RULE, recorded_avoid_table
 from .blocks import Block, Bullets, Part, Pictures, Text
-from .figures.recorded_orders import (
+from .figures.channel_orders import (
     recorded_order_charts,
     speed_map_charts,
     tracked_order_charts,

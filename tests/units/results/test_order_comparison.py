@@ -16,7 +16,7 @@ from vibroacoustics.report.compared.order_rows import (
     compared_facts,
     matching_orders,
 )
-from vibroacoustics.report.figures.compared_orders import compared_order_charts
+from vibroacoustics.report.figures.channel_orders import compared_order_charts
 from vibroacoustics.report.tables import to_csv, to_text
 from vibroacoustics.results.order_comparison import NEGLIGIBLE, channel_orders
 from vibroacoustics.study.order_analysis import OrderAnalysis, SpeedChannel

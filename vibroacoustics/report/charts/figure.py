@@ -6,16 +6,27 @@ from typing import Any, Final
 
 import matplotlib
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from .colours import BLANK, numbers
 from .frame import Frame, frame_of
-from .layout import NOTHING_TO_DRAW, Scale, layout
-from .marks import Area, Bars, Chart, Image, Line, Mark, Note, Panel, Points, Segments, Span
-from .svg_marks import Look, looks_of
+from .layout import NOTHING_TO_DRAW, layout, styled
+from .marks import (
+    Area,
+    Bars,
+    Chart,
+    Image,
+    Line,
+    Mark,
+    Note,
+    Panel,
+    Points,
+    Segments,
+    Span,
+    numbers,
+)
+from .svg_marks import BLANK
 
 PIXELS_PER_INCH: Final = 96.0
 DOTS_PER_INCH: Final = 160
@@ -58,7 +69,9 @@ def figure(chart: Chart) -> Figure:
             cell = np.array([*corner, shape.width, shape.height])
             cell /= [placed.width, placed.height, placed.width, placed.height]
             axes = drawing.add_axes(tuple(cell), projection="polar" if panel.polar else None)
-            _write(axes, panel)
+            axes.set(xlabel=escaped(panel.x.label), ylabel=escaped(panel.y.label))
+            if panel.title:
+                axes.set_title(escaped(panel.title))
             if frame is None:
                 empty = NOTHING_TO_DRAW if panel.marks else ""
                 axes.text(0.5, 0.5, empty, transform=axes.transAxes, ha="center", va="center")
@@ -69,11 +82,8 @@ def figure(chart: Chart) -> Figure:
             drawing.text(0.02, 0.99, escaped(chart.title), va="top", size=9.5)
         shown = [key.name for key in placed.keys if key.name in handles]
         if shown:
-            columns = len({key.x for key in placed.keys})
-            named = [handles[name] for name in shown]
-            drawing.legend(
-                named, [escaped(name) for name in shown], loc="lower center", ncols=columns
-            )
+            named = ([handles[name] for name in shown], list(map(escaped, shown)))
+            drawing.legend(*named, loc="lower center", ncols=len({key.x for key in placed.keys}))
     return drawing
 
 
@@ -82,94 +92,74 @@ def escaped(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def _write(axes: Any, panel: Panel) -> None:
-    axes.set(xlabel=escaped(panel.x.label), ylabel=escaped(panel.y.label))
-    if panel.title:
-        axes.set_title(escaped(panel.title))
-
-
 def _draw_panel(axes: Any, panel: Panel, frame: Frame) -> dict[str, Any]:
     """Draw marks and ticks; return what the legend shows of each label."""
-    if not panel.polar:
-        _scale(axes, "x", frame.x)
-    _scale(axes, "y", frame.y)
+    for letter, scale in (("x", frame.x), ("y", frame.y)):
+        if letter == "y" or not panel.polar:
+            axes.set(**{f"{letter}scale": "log" if scale.logarithmic else "linear"})
+            axes.set(**{f"{letter}lim": (scale.low, scale.high)})
     handles: dict[str, Any] = {}
-    for mark, look in zip(panel.marks, looks_of(panel.marks), strict=True):
-        handle = _mark(mark, _Axes(axes, frame), look)
-        label = getattr(mark, "label", "")
+    for mark in styled(panel.marks):
+        handle, label = _mark(mark, axes, frame), getattr(mark, "label", "")
         if label and handle is not None:
             handles.setdefault(label, handle)
     for letter, scale in (("x", frame.x), ("y", frame.y)):
-        values = [np.radians(v) if panel.polar and letter == "x" else v for v, _ in scale.ticks]
+        values: Any = [value for value, _ in scale.ticks]
+        values = frame.angle(values) if letter == "x" else values
         along = getattr(axes, f"{letter}axis")
         along.set_ticks(values, [escaped(word) for _, word in scale.ticks])
         along.set_minor_locator(NullLocator())
     return handles
 
 
-def _scale(axes: Axes, letter: str, scale: Scale) -> None:
-    axes.set(**{f"{letter}scale": "log" if scale.logarithmic else "linear"})
-    axes.set(**{f"{letter}lim": (scale.low, scale.high)})
-
-
-class _Axes:
-    """Axes of matplotlib with their frame; angles of a polar panel become radians."""
-
-    def __init__(self, axes: Any, frame: Frame) -> None:
-        self.axes, self.frame = axes, frame
-
-    def x(self, values: Any) -> Any:
-        return np.radians(numbers(values)) if self.frame.polar else numbers(values)
-
-
 @singledispatch
-def _mark(mark: Mark, on: _Axes, look: Look) -> Any:
+def _mark(mark: Mark, axes: Any, frame: Frame) -> Any:
     """Draw a mark and return what the legend shows of it; None for nothing."""
     raise TypeError(f"{mark!r}: is no mark")
 
 
 @_mark.register
-def _line(mark: Line, on: _Axes, look: Look) -> Any:
-    colour, x = mark.colour or look.colour, on.x(mark.x)
+def _line(mark: Line, axes: Any, frame: Frame) -> Any:
+    colour, x = mark.colour, frame.angle(mark.x)
     if mark.interval is not None:
         low, high = map(numbers, mark.interval)
-        on.axes.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0.0)
-    (handle,) = on.axes.plot(
+        axes.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0.0)
+    (handle,) = axes.plot(
         x, np.broadcast_to(numbers(mark.y), x.shape), color=colour, lw=mark.width,
-        linestyle=mark.dash or look.dash, marker=mark.marker, markersize=3.5,
+        linestyle=mark.dash, marker=mark.marker, markersize=3.5,
     )  # fmt: skip
     return handle
 
 
 @_mark.register
-def _points(mark: Points, on: _Axes, look: Look) -> Any:
-    colour, x, y = mark.colour or look.colour, on.x(mark.x), numbers(mark.y)
+def _points(mark: Points, axes: Any, frame: Frame) -> Any:
+    colour, x, y = mark.colour, frame.angle(mark.x), numbers(mark.y)
     if mark.stems:
-        on.axes.vlines(x, on.frame.y.low, y, color=colour, alpha=0.45, lw=1.0)
+        axes.vlines(x, frame.y.low, y, color=colour, alpha=0.45, lw=1.0)
     if mark.interval is not None:
-        on.axes.vlines(x, *map(numbers, mark.interval), color=colour, lw=1.0)
-    (handle,) = on.axes.plot(
-        x, y, mark.marker or look.marker, color=colour, markersize=mark.size,
+        axes.vlines(x, *map(numbers, mark.interval), color=colour, lw=1.0)
+    (handle,) = axes.plot(
+        x, y, mark.marker, color=colour, markersize=mark.size,
         fillstyle="full" if mark.filled else "none",
     )  # fmt: skip
     return handle
 
 
 @_mark.register
-def _bars(mark: Bars, on: _Axes, look: Look) -> Any:
-    bars = on.axes.bar if mark.upright else on.axes.barh
+def _bars(mark: Bars, axes: Any, frame: Frame) -> Any:
+    bars = axes.bar if mark.upright else axes.barh
     position, size, base = map(numbers, (mark.position, mark.size, mark.base))
-    handle = bars(position, size, mark.thickness, base, color=mark.colour or look.colour)
+    handle = bars(position, size, mark.thickness, base, color=mark.colour)
     if mark.interval is not None:
-        rules = on.axes.vlines if mark.upright else on.axes.hlines
+        rules = axes.vlines if mark.upright else axes.hlines
         rules(position, *map(numbers, mark.interval), color="#000000", lw=1.0)
     return handle
 
 
 @_mark.register
-def _image(mark: Image, on: _Axes, look: Look) -> None:
+def _image(mark: Image, axes: Any, frame: Frame) -> None:
     x, y, values = map(numbers, (mark.x, mark.y, mark.values))
-    axes, (low, high) = on.axes, mark.ends
+    low, high = mark.ends
     axes.grid(visible=False)
     axes.set_facecolor(f"#{BLANK}")
     mesh = axes.pcolormesh(x, y, values, vmin=low, vmax=high, shading="nearest", rasterized=True)
@@ -182,22 +172,22 @@ def _image(mark: Image, on: _Axes, look: Look) -> None:
 
 
 @_mark.register
-def _segments(mark: Segments, on: _Axes, look: Look) -> Any:
-    (x, y), (x_end, y_end) = on.frame.ends(mark)
+def _segments(mark: Segments, axes: Any, frame: Frame) -> Any:
+    (x, y), (x_end, y_end) = frame.ends(mark)
     if mark.arrow:
         for start, end in zip(zip(x, y, strict=True), zip(x_end, y_end, strict=True), strict=True):
             head = {"arrowstyle": "-|>", "color": mark.colour, "lw": mark.width}
-            on.axes.annotate("", end, start, arrowprops={**head, "shrinkA": 0.0, "shrinkB": 0.0})
+            axes.annotate("", end, start, arrowprops={**head, "shrinkA": 0.0, "shrinkB": 0.0})
         return None
     gap = np.full(x.shape, np.nan)
     points = [np.stack(ends, axis=-1).ravel() for ends in ((x, x_end, gap), (y, y_end, gap))]
-    (handle,) = on.axes.plot(*points, color=mark.colour, linestyle=mark.dash, lw=mark.width)
+    (handle,) = axes.plot(*points, color=mark.colour, linestyle=mark.dash, lw=mark.width)
     return handle
 
 
 @_mark.register
-def _area(mark: Area, on: _Axes, look: Look) -> Any:
-    (handle,) = on.axes.fill(
+def _area(mark: Area, axes: Any, frame: Frame) -> Any:
+    (handle,) = axes.fill(
         numbers(mark.x), numbers(mark.y), facecolor=mark.fill or "none", alpha=mark.opacity,
         edgecolor=mark.colour or "none", linestyle=mark.dash, lw=0.9,
     )  # fmt: skip
@@ -205,14 +195,14 @@ def _area(mark: Area, on: _Axes, look: Look) -> Any:
 
 
 @_mark.register
-def _span(mark: Span, on: _Axes, look: Look) -> Any:
-    shade = on.axes.axvspan if mark.along == "x" else on.axes.axhspan
+def _span(mark: Span, axes: Any, frame: Frame) -> Any:
+    shade = axes.axvspan if mark.along == "x" else axes.axhspan
     return shade(mark.low, mark.high, color=mark.colour, alpha=0.14, lw=0)
 
 
 @_mark.register
-def _note(mark: Note, on: _Axes, look: Look) -> None:
-    on.axes.annotate(
+def _note(mark: Note, axes: Any, frame: Frame) -> None:
+    axes.annotate(
         escaped(mark.words), (mark.x, mark.y), mark.shift, textcoords="offset points",
         ha=mark.align, color=mark.colour, fontsize=mark.size, annotation_clip=True,
     )  # fmt: skip

@@ -1,25 +1,16 @@
 """Axes of a panel: where the values of its marks are."""
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...base.arrays import Array
-from .colours import numbers
 from .layout import Box, Scale, scale_of
-from .marks import Bars, Image, Line, Mark, Note, Panel, Points, Segments, Span
+from .marks import Bars, Image, Line, Mark, Note, Panel, Points, Segments, Span, numbers
 
 
 class Frame(NamedTuple):
-    """The axes of a panel: where its values are.
-
-    Attributes
-    ----------
-    box : of the axes
-    x, y : scales; of a polar panel angle in degrees and radius
-    polar : angles run from the right, counter-clockwise
-    """
+    """The axes of a panel: where its values are; of a polar one angle in degrees and radius."""
 
     box: Box
     x: Scale
@@ -28,31 +19,31 @@ class Frame(NamedTuple):
 
     def points(self, x: Any, y: Any) -> Array:
         """Return positions of values, shape (n, 2)."""
-        if not self.polar:
-            across, up = self.x.share(x), self.y.share(y)
-            across = self.box.x + self.box.width * across
-            down = self.box.y + self.box.height * (1.0 - up)
-            return np.stack(np.broadcast_arrays(across, down), axis=-1)
-        angle = np.radians(numbers(x))
-        radius = np.clip(self.y.share(y), 0.0, None) * self.radius
-        middle = self.middle
-        return np.stack(
-            [middle[0] + radius * np.cos(angle), middle[1] - radius * np.sin(angle)], axis=-1
-        )
+        if self.polar:
+            angle, radius = self.angle(x), np.clip(self.y.share(y), 0.0, None) * self.radius
+            across = self.middle[0] + radius * np.cos(angle)
+            down = self.middle[1] - radius * np.sin(angle)
+        else:
+            across = self.box.x + self.box.width * self.x.share(x)
+            down = self.box.y + self.box.height * (1.0 - self.y.share(y))
+        return np.stack(np.broadcast_arrays(across, down), axis=-1)
 
     def ends(self, mark: Segments) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
         """Return starts and ends of segments; an end of the axis where a value is not finite."""
-        ends = ((mark.x, self.x), (mark.y, self.y), (mark.x_end, self.x), (mark.y_end, self.y))
-        sides = ("low", "low", "high", "high")
         x, y, x_end, y_end = np.broadcast_arrays(
             *(
-                np.atleast_1d(np.where(np.isfinite(values), values, getattr(scale, side)))
-                for (values, scale), side in zip(
-                    ((numbers(values), scale) for values, scale in ends), sides, strict=True
+                np.atleast_1d(np.where(np.isfinite(values), values, end))
+                for values, end in (
+                    (numbers(mark.x), self.x.low), (numbers(mark.y), self.y.low),
+                    (numbers(mark.x_end), self.x.high), (numbers(mark.y_end), self.y.high),
                 )
             )
-        )
+        )  # fmt: skip
         return (x, y), (x_end, y_end)
+
+    def angle(self, values: Any) -> Array:
+        """Return values along x, those of a polar panel in radians, as matplotlib has them."""
+        return np.radians(numbers(values)) if self.polar else numbers(values)
 
     @property
     def radius(self) -> float:
@@ -68,14 +59,11 @@ class Frame(NamedTuple):
 def frame_of(panel: Panel, box: Box) -> Frame | None:
     """Return the axes of a panel; None where it has nothing to show.
 
-    Parameters
-    ----------
-    panel : with its marks
-    box : that the axes fill, unless both have one scale
+    They fill a box, unless both have one scale.
     """
     is_image = any(isinstance(mark, Image) for mark in panel.marks)
     x, y = (
-        scale_of(axis, _extents(panel.marks, letter), is_image)
+        scale_of(axis, np.concatenate([[], *(_extent(m, letter) for m in panel.marks)]), is_image)
         for letter, axis in (("x", panel.x), ("y", panel.y))
     )
     if panel.polar:
@@ -88,32 +76,26 @@ def frame_of(panel: Panel, box: Box) -> Frame | None:
 _ANGLES = tuple((45.0 * number, f"{45 * number}°") for number in range(8))
 
 
-def _extents(marks: Sequence[Mark], letter: str) -> Array:
-    return np.concatenate([np.empty(0), *(_extent(mark, letter) for mark in marks)])
-
-
 def _extent(mark: Mark, letter: str) -> Array:
     """Return the values of a mark along an axis, shape (n,)."""
     if isinstance(mark, Span | Note):
         return np.empty(0)
     if isinstance(mark, Bars):
-        position, size, base = np.broadcast_arrays(
-            *map(numbers, (mark.position, mark.size, mark.base))
-        )
+        parts = map(numbers, (mark.position, mark.size, mark.base))
+        position, size, base = np.broadcast_arrays(*parts)
         if (letter == "x") == mark.upright:
             half = 0.5 * mark.thickness
             return numbers(np.concatenate([position - half, position + half]))
-        ends = [] if mark.interval is None else [numbers(end) for end in mark.interval]
+        ends = map(numbers, mark.interval or ())
         return numbers(np.concatenate([base, base + size, *ends]))
     if isinstance(mark, Image):
         return edges_of(numbers(getattr(mark, letter)))
+    values = [getattr(mark, letter)]
     if isinstance(mark, Segments):
-        ends_of = (getattr(mark, letter), getattr(mark, f"{letter}_end"))
-        return numbers(np.concatenate([numbers(end).ravel() for end in ends_of]))
-    values = [numbers(getattr(mark, letter)).ravel()]
-    if letter == "y" and isinstance(mark, Line | Points) and mark.interval is not None:
-        values += [numbers(end).ravel() for end in mark.interval]
-    return np.concatenate(values)
+        values.append(getattr(mark, f"{letter}_end"))
+    elif letter == "y" and isinstance(mark, Line | Points):
+        values += mark.interval or ()
+    return np.concatenate([numbers(each).ravel() for each in values])
 
 
 def edges_of(middles: Array) -> Array:

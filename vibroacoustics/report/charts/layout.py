@@ -5,12 +5,13 @@ Sizes of words are estimated from their letters, so that a chart is laid out wit
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Final, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ...base.arrays import Array
-from .marks import Axis, Chart, Image, Panel
+from .marks import Axis, Bars, Chart, Image, Line, Mark, Panel, Points, numbers
 
 HALF_WIDTH: Final = 442.0
 WIDE_WIDTH: Final = 884.0
@@ -18,16 +19,11 @@ LETTER: Final = 6.4
 """Mean width of a letter of twelve pixels."""
 ROW: Final = 17.0
 COLOURS: Final = (
-    "#000000",
-    "#d55e00",
-    "#e69f00",
-    "#0072b2",
-    "#cc79a7",
-    "#009e73",
-    "#56b4e9",
-    "#7a5195",
-)
+    "#000000", "#d55e00", "#e69f00", "#0072b2", "#cc79a7", "#009e73", "#56b4e9", "#7a5195",
+)  # fmt: skip
 """Okabe & Ito's palette without its yellow, and a violet."""
+DASHES: Final = ("-", "--", "-.", ":")
+_MARKERS: Final = ("o", "s", "^", "D", "v", "P")
 NOTHING_TO_DRAW: Final = "Every value is too small to draw."
 _KEY: Final = 40.0
 """Width of what the legend draws before a name."""
@@ -64,14 +60,7 @@ class Key(NamedTuple):
 
 
 class Layout(NamedTuple):
-    """Positions of a chart.
-
-    Attributes
-    ----------
-    width, height : of the chart
-    boxes : axes of each panel
-    keys : of the legend
-    """
+    """Positions of the axes of each panel and of the legend, and the size of the chart."""
 
     width: float
     height: float
@@ -80,14 +69,7 @@ class Layout(NamedTuple):
 
 
 class Scale(NamedTuple):
-    """An axis with its ends and ticks.
-
-    Attributes
-    ----------
-    low, high : values at the left or lower and at the other end
-    ticks : values with their words
-    logarithmic : positions are those of the logarithm
-    """
+    """An axis with its values at the left or lower and at the other end, and its ticks."""
 
     low: float
     high: float
@@ -96,11 +78,11 @@ class Scale(NamedTuple):
 
     def share(self, values: Any) -> Array:
         """Return positions from 0 at the low end to 1 at the high end."""
-        numbers = np.asarray(values, dtype=float)
+        shown = numbers(values)
         if not self.logarithmic:
-            return np.asarray((numbers - self.low) / (self.high - self.low))
-        safe = np.where(numbers > 0.0, numbers, np.nan)
-        return np.asarray(np.log(safe / self.low) / np.log(self.high / self.low))
+            return numbers((shown - self.low) / (self.high - self.low))
+        safe = np.where(shown > 0.0, shown, np.nan)
+        return numbers(np.log(safe / self.low) / np.log(self.high / self.low))
 
 
 def layout(chart: Chart) -> Layout:
@@ -115,20 +97,17 @@ def layout(chart: Chart) -> Layout:
             size = (max(each - left - right, 30.0), max(height - below - above, 30.0))
             boxes.append(Box(column * each + left, top + above, *size))
         top += height
-    keys = _keys(legend_names(chart), width, top + 4.0)
+    keys = _keys(chart, width, top + 4.0)
     bottom = max((key.y + ROW * lines(key.name) for key in keys), default=top)
     return Layout(width, bottom + 6.0, tuple(boxes), keys)
 
 
-def legend_names(chart: Chart) -> list[str]:
-    """Return the labels of the marks, each once."""
+def _keys(chart: Chart, width: float, top: float) -> tuple[Key, ...]:
+    """Labels of the marks, each once."""
     marks = [mark for panel in chart.panels for mark in panel.marks if not isinstance(mark, Image)]
-    names = dict.fromkeys(str(getattr(mark, "label", "")) for mark in marks)
-    return [name for name in names if name] if chart.legend else []
-
-
-def _keys(names: Sequence[str], width: float, top: float) -> tuple[Key, ...]:
-    if not names:
+    labels = dict.fromkeys(str(getattr(mark, "label", "")) for mark in marks)
+    names = [name for name in labels if name]
+    if not (names and chart.legend):
         return ()
     each = _KEY + LETTER * max(map(letters, names))
     columns = max(1, min(len(names), int((width - 12.0) / each)))
@@ -139,6 +118,24 @@ def _keys(names: Sequence[str], width: float, top: float) -> tuple[Key, ...]:
         for number, name in enumerate(names)
         for row in [number // columns]
     )
+
+
+def styled(marks: Sequence[Mark]) -> list[Mark]:
+    """Return marks, with the next colour, dash and marker where they name none."""
+    shown: list[Mark] = []
+    number = 0
+    for mark in marks:
+        if isinstance(mark, Line | Points | Bars):
+            looks: dict[str, Any] = {"colour": COLOURS[number % len(COLOURS)]}
+            if isinstance(mark, Line):
+                looks["dash"] = DASHES[(number + number // len(COLOURS)) % len(DASHES)]
+            if isinstance(mark, Points):
+                looks["marker"] = _MARKERS[number % len(_MARKERS)]
+            number += not mark.colour
+            shown.append(replace(mark, **{k: getattr(mark, k) or v for k, v in looks.items()}))
+        else:
+            shown.append(mark)
+    return shown
 
 
 def margins(panel: Panel) -> tuple[float, float, float, float]:
@@ -167,13 +164,9 @@ def lines(text: str) -> int:
 
 
 def scale_of(axis: Axis, values: Array, tight: bool = False) -> Scale | None:
-    """Return the scale of an axis; None where it has nothing to show.
+    """Return the scale of an axis with the values along it; None where it has nothing to show.
 
-    Parameters
-    ----------
-    axis : limits and ticks as far as they are fixed
-    values : of the marks along it, shape (n,)
-    tight : without room between the marks and the ends
+    Without room between the values and the ends if it is tight.
     """
     low, high = axis.limits or (None, None)
     shown = values[np.isfinite(values)]
@@ -191,10 +184,8 @@ def scale_of(axis: Axis, values: Array, tight: bool = False) -> Scale | None:
     ticks = axis.ticks
     if ticks is None:
         ticks = _powers(low, high) if logarithmic else round_ticks(low, high, axis.integer)
-    shown_ticks = [
-        tick for tick in ticks if min(low, high) - 1e-9 <= tick[0] <= max(low, high) + 1e-9
-    ]
-    return Scale(low, high, tuple(shown_ticks), logarithmic)
+    first, last = min(low, high) - 1e-9, max(low, high) + 1e-9
+    return Scale(low, high, tuple(t for t in ticks if first <= t[0] <= last), logarithmic)
 
 
 def _ends(low: float, high: float, logarithmic: bool) -> tuple[float, float]:

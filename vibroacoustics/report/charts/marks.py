@@ -5,7 +5,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any, Final, Literal, TypeAlias, TypeVar
+from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from ...base.arrays import Array
 Values: TypeAlias = Any
 """Numbers of shape (n,), as an array or whatever becomes one."""
 _FREQUENCY_TICKS: Final = [d * p for p in (1, 10, 100, 1000, 10000) for d in (1, 2, 5)]
-Item = TypeVar("Item")
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,9 +48,7 @@ class Points:
     Attributes
     ----------
     x, y : of the points, shape (n,)
-    label : in the legend; empty for none
-    interval : lower and upper values, shape (n,) each
-    colour : hexadecimal; empty for the next one of the palette
+    label, interval, colour : as of a line
     marker : empty for the next one
     size : points
     filled : or open
@@ -78,9 +75,7 @@ class Bars:
     position : middles along the axis that names the bars, shape (n,)
     size : lengths, shape (n,)
     base : starts, shape (n,) or one
-    label : in the legend; empty for none
-    interval : lower and upper values, shape (n,) each
-    colour : hexadecimal; empty for the next one of the palette
+    label, interval, colour : as of a line
     thickness : along the axis that names the bars
     upright : or from left to right
     """
@@ -132,9 +127,7 @@ class Segments:
     x, y : start of each, shape (n,); not finite for an end of the axis
     x_end, y_end : end of each, shape (n,)
     label : in the legend; empty for none
-    colour : hexadecimal
-    dash : as matplotlib writes it
-    width : points
+    colour, dash, width : as of a line
     arrow : with a head at the end
     """
 
@@ -289,27 +282,19 @@ class Chart:
         return {part.name: _plain(getattr(self, part.name)) for part in fields(self)}
 
 
-def named_axis(names: Sequence[str], write: Callable[[str], str] = str, label: str = "") -> Axis:
-    """Return an axis with a row for each name, the first on top.
+def numbers(values: Values) -> Array:
+    """Return values as an array of floating-point numbers."""
+    return np.asarray(values, dtype=float)
 
-    Parameters
-    ----------
-    names : of the rows
-    write : breaks a name into lines
-    label : of the axis
-    """
+
+def named_axis(names: Sequence[str], write: Callable[[str], str] = str) -> Axis:
+    """Return an axis with a row for each name, broken into lines, the first on top."""
     ticks = tuple((float(row), write(name)) for row, name in enumerate(names))
-    return Axis(label, limits=(len(names) - 0.5, -0.5), ticks=ticks)
+    return Axis(limits=(len(names) - 0.5, -0.5), ticks=ticks)
 
 
 def frequency_axis(label: str, frequency_hz: Values) -> Axis:
-    """Return a logarithmic axis of frequencies, with ticks at 1, 2, 5, 10 … 1k.
-
-    Parameters
-    ----------
-    label : of the axis
-    frequency_hz : that the axis has to show, shape (n,)
-    """
+    """Return a logarithmic axis of frequencies, with ticks at 1, 2, 5, 10 … 1k."""
     low, high = float(np.min(frequency_hz)), float(np.max(frequency_hz))
     named = {tick: f"{tick // 1000}k" if tick >= 1000 else str(tick) for tick in _FREQUENCY_TICKS}
     shown = tuple((float(tick), word) for tick, word in named.items() if low <= tick <= high)
@@ -322,22 +307,13 @@ def lines(x: Values, named: Iterable[tuple[str, Values]], marker: str = "") -> t
 
 
 def _plain(value: object) -> object:
-    if isinstance(value, np.ndarray):
-        return _numbers(value)
     if is_dataclass(value):
         of_mark = {"mark": type(value).__name__.lower()} if isinstance(value, Mark) else {}
         return of_mark | {part.name: _plain(getattr(value, part.name)) for part in fields(value)}
     if isinstance(value, tuple | list):
         return [_plain(part) for part in value]
+    if isinstance(value, float) and not np.isfinite(value):
+        return None
     if isinstance(value, str | bool | int | float | None):
-        return _finite(value)
-    return _numbers(np.asarray(value))
-
-
-def _numbers(values: Array) -> object:
-    listed = values.tolist()
-    return [_plain(part) for part in listed] if isinstance(listed, list) else _finite(listed)
-
-
-def _finite(value: object) -> object:
-    return None if isinstance(value, float) and not np.isfinite(value) else value
+        return value
+    return _plain(np.asarray(value).tolist())

@@ -19,14 +19,7 @@ Maker = TypeVar("Maker", bound=Callable[..., Any])
 
 
 def needs(*variables: str, from_: str = "`run`", any_of: bool = False) -> Callable[[Maker], Maker]:
-    """Refuse, in one line, a dataset without the variables that a chart is drawn from.
-
-    Parameters
-    ----------
-    from_ : what gives results that have them
-    any_of : a single variable is enough
-    variables : names of the vocabulary
-    """
+    """Refuse, in one line, a dataset without all or any of the variables that a chart needs."""
 
     def guarded(make: Maker) -> Maker:
         @wraps(make)
@@ -46,13 +39,7 @@ def needs(*variables: str, from_: str = "`run`", any_of: bool = False) -> Callab
 
 
 def plotted(make: Callable[..., Chart], file: str = "results.nc") -> "Callable[..., Figure]":
-    """Return a function that draws with matplotlib what another returns as a chart.
-
-    Parameters
-    ----------
-    make : returns a chart of a dataset; its docstring ends with its parameters
-    file : of such a dataset, for the example
-    """
+    """Return a function that draws with matplotlib what another returns as a chart of a dataset."""
 
     @wraps(make)
     def plot(*args: Any, **kwargs: Any) -> "Figure":

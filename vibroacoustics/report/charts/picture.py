@@ -11,17 +11,7 @@ from .svg import svg
 
 
 class Picture(NamedTuple):
-    """A finished figure.
-
-    Attributes
-    ----------
-    name : of its file, without ending
-    alt : text in its place
-    caption : below it
-    content : of its file
-    ending : of its file
-    wide : as wide as a page, or half
-    """
+    """A finished figure: its file, the text in its place, what is below it, and its width."""
 
     name: str
     alt: str

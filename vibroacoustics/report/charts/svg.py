@@ -1,17 +1,14 @@
 """A chart as SVG: sharp at every size, its words are text, and it needs nothing from elsewhere."""
 
-from html import escape
 from typing import Final
 
 import numpy as np
 
-from .colours import BLANK
 from .frame import Frame, frame_of
-from .layout import NOTHING_TO_DRAW, ROW, Box, Key, layout, lines, margins
+from .layout import NOTHING_TO_DRAW, ROW, Box, Key, layout, lines, margins, styled
 from .marks import Chart, Image, Panel
-from .svg_image import colour_bar
-from .svg_marks import draw_mark, looks_of
-from .svg_parts import INK, rectangle, words
+from .svg_marks import BLANK, colour_bar, draw_mark
+from .svg_parts import INK, opening, rectangle, upright_words, words
 
 GRID: Final = "#dddddd"
 
@@ -19,12 +16,7 @@ GRID: Final = "#dddddd"
 def svg(chart: Chart) -> bytes:
     """Return the SVG of a chart; equal charts give equal bytes."""
     placed = layout(chart)
-    size = f'width="{placed.width:g}" height="{placed.height:.0f}"'
-    parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {placed.width:g} '
-        f'{placed.height:.0f}" {size} font-family="system-ui,Helvetica,Arial,sans-serif" '
-        f'font-size="12" fill="{INK}"><title>{escape(chart.alt)}</title>'
-    ]
+    parts = [opening(placed.width, placed.height, chart.alt)]
     if chart.title:
         parts.append(words(8.0, 16.0, chart.title, font_size="12.5"))
     keys: dict[str, str] = {}
@@ -43,14 +35,13 @@ def _panel(panel: Panel, box: Box, name: str, keys: dict[str, str]) -> list[str]
         return [*parts, words(*middle, NOTHING_TO_DRAW if panel.marks else "", "middle")]
     clip = f'<clipPath id="{name}"><path d="{rectangle(frame.box)}"/></clipPath>'
     marks = []
-    for mark, look in zip(panel.marks, looks_of(panel.marks), strict=True):
-        shape, key = draw_mark(mark, frame, look)
+    for mark in styled(panel.marks):
+        shape, key = draw_mark(mark, frame)
         marks.append(shape)
         if key and getattr(mark, "label", ""):
             keys.setdefault(mark.label, key)  # type: ignore[union-attr]
-    images = [mark for mark in panel.marks if isinstance(mark, Image)]
-    bars = [colour_bar(mark, frame.box) for mark in images]
-    grid = _polar_grid(frame) if panel.polar else _grid(frame, bool(images))
+    bars = [colour_bar(mark, frame.box) for mark in panel.marks if isinstance(mark, Image)]
+    grid = _polar_grid(frame) if panel.polar else _grid(frame, bool(bars))
     group = f'<g clip-path="url(#{name})">' if not panel.polar else "<g>"
     return [*parts, clip, *grid, group, *marks, "</g>", *bars, *_edges(panel, frame)]
 
@@ -65,9 +56,8 @@ def _titles(panel: Panel, box: Box) -> list[str]:
         foot = box.y + box.height + below - ROW * lines(panel.x.label) + 10.0
         parts.append(words(box.x + 0.5 * box.width, foot, panel.x.label, "middle"))
     if panel.y.label and not panel.polar:
-        turn = f"rotate(-90 {box.x - left + 14.0:.1f} {box.y + 0.5 * box.height:.1f})"
         position = (box.x - left + 14.0, box.y + 0.5 * box.height)
-        parts.append(words(*position, panel.y.label, "middle", transform=turn))
+        parts.append(upright_words(*position, panel.y.label))
     return parts
 
 

@@ -24,6 +24,16 @@ SHAPES: Final = {
 _STROKED: Final = frozenset("xX_")
 
 
+def opening(width: float, height: float, title: str) -> str:
+    """What a drawing begins with; its sizes are pixels."""
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:.0f}" '
+        f'width="{width:g}" height="{height:.0f}" '
+        f'font-family="system-ui,Helvetica,Arial,sans-serif" '
+        f'font-size="12" fill="{INK}"><title>{escape(title)}</title>'
+    )
+
+
 def words(x: float, y: float, text: str, anchor: str = "start", **looks: str) -> str:
     """Text of one line or several."""
     if not text:
@@ -33,6 +43,11 @@ def words(x: float, y: float, text: str, anchor: str = "start", **looks: str) ->
     first, *others = text.split("\n")
     spans = "".join(f'<tspan x="{x:.1f}" dy="14">{escape(line)}</tspan>' for line in others)
     return f'<text x="{x:.1f}" y="{y:.1f}"{more}>{escape(first)}{spans}</text>'
+
+
+def upright_words(x: float, y: float, text: str) -> str:
+    """Text that runs upwards through a point in its middle."""
+    return words(x, y, text, "middle", transform=f"rotate(-90 {x:.1f} {y:.1f})")
 
 
 def rectangle(box: Box) -> str:

@@ -18,7 +18,7 @@ from ...results.validation import (
 from ..analysis import Analysis
 from ..bands import percent
 from ..blocks import Block, Bullets, Details, Part, Pictures, Text
-from ..figures.compared_orders import compared_order_charts, order_differences
+from ..figures.channel_orders import compared_order_charts, order_differences
 from ..limit_tables import limits_data, limits_words, order_limits_table
 from ..sections.evidence.tables import validation_table
 from ..tables import Table

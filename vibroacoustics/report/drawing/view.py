@@ -7,7 +7,7 @@ import numpy as np
 
 from ...base.arrays import Array, ComplexArray
 from . import svg
-from .loads import turn
+from .machine import turn
 
 _NICE: Final = np.outer(np.logspace(-6, 6, 13), [1, 2, 5]).ravel()
 _FLAT: Final = 0.03
@@ -15,13 +15,9 @@ _FLAT: Final = 0.03
 
 
 class View(NamedTuple):
-    """Projection along an axis, with one scale for both directions.
+    """Projection on the axes that go right and up, with one scale, drawing units a metre.
 
-    Attributes
-    ----------
-    axes : numbers of the axes that go right and up
-    scale : drawing units a metre
-    origin : of the centre of mass in the drawing, (x, y)
+    The origin is where the centre of mass is in the drawing, (x, y).
     """
 
     axes: tuple[int, int]
@@ -37,14 +33,9 @@ class View(NamedTuple):
         return self.at(points_m[..., list(self.axes)])
 
     def vector(self, peak: ComplexArray, from_m: Array, scale: float, colour: str) -> list[str]:
-        """What a vector draws over a revolution, with arrows to its ends.
+        """What a complex peak, shape (axis,), draws over a revolution, with arrows to its ends.
 
-        Parameters
-        ----------
-        peak : complex peak, shape (axis,)
-        from_m : where it acts, shape (3,)
-        scale : drawing units per unit of the vector
-        colour : of lines and heads
+        It acts at a point, shape (3,); the scale is drawing units per unit of the vector.
         """
         tail = self.of(from_m)
         ends = tail + scale * turn(peak, self.axes) * [1.0, -1.0]
@@ -68,16 +59,7 @@ def fitted(
 
 
 def bar(at: Sequence[float], scale: float, unit: str, longest: float, colour: str = svg.INK) -> str:
-    """A scale: a bar of a round length with its value; below 1 m in mm.
-
-    Parameters
-    ----------
-    at : its left end in the drawing
-    scale : drawing units per unit
-    unit : of what it measures
-    longest : it may have in the drawing
-    colour : of bar and text
-    """
+    """A scale, drawing units per unit: a bar of a round length with its value; below 1 m in mm."""
     value = float(_NICE[_NICE * scale <= longest].max(initial=_NICE[0]))
     x, y = at
     ends = np.array([(x, y - 4), (x, y), (x + value * scale, y), (x + value * scale, y - 4)])

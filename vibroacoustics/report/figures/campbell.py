@@ -58,12 +58,15 @@ def campbell(
     modes, others = modes_of(results), [] if beside is None else modes_of(beside)
     avoided = speeds_to_avoid(results, microphone, [option])
     causes = {each.line for each in avoided if each.quantity == LEVEL}
+    low_orders = [
+        SoundLine(f"{k:g}×", k, k * speed / 60.0, np.full(speed.size, np.nan)) for k in _LOW_ORDERS
+    ]
     lines = loudest_lines(results, microphone, option, causes)
     room = 0.0 if speed.size > 1 else 0.1 * speed[0]
     x = Axis("Speed, rpm", limits=(float(speed.min() - room), float(speed.max() + room)))
     shaded = spans([each.range for each in avoided])
     panels: list[Panel] = []
-    for is_low, drawn in ((False, lines), (True, _low_orders(speed))):
+    for is_low, drawn in ((False, lines), (True, low_orders)):
         of_panel, dashed = ([m for m in some if (m.kind == KINDS[0]) == is_low]
                             for some in (modes, others))  # fmt: skip
         if not (of_panel or is_low):
@@ -97,11 +100,6 @@ def _words(microphone: str, option: str, of_two: bool) -> tuple[str, str, str]:
     )
 
 
-def _low_orders(speed_rpm: Array) -> list[SoundLine]:
-    silent = np.full(speed_rpm.size, np.nan)
-    return [SoundLine(f"{k:g}×", k, k * speed_rpm / 60.0, silent) for k in _LOW_ORDERS]
-
-
 def _highest(modes: Sequence[Mode], lines: Sequence[SoundLine], is_low: bool) -> float:
     """Return the top of a panel, Hz: above the modes; on the mounts above order 1 too."""
     highest = max((mode.frequency_hz for mode in modes), default=0.0)
@@ -131,10 +129,9 @@ def _lines(lines: Sequence[SoundLine], speed_rpm: Array, highest_hz: float) -> I
 
 def _name(line: SoundLine, visible: IndexArray, speed_rpm: Array, highest_hz: float) -> Note:
     """Return the name of a tone at its first speed, or of an order at its last one."""
-    words, last = shortened(line.name, 22), int(visible[-1])
+    words = shortened(line.name, 22)
     if np.isnan(line.order):
-        last = int(visible[0])
-        x, y = float(speed_rpm[last]), float(line.frequency_hz[last])
+        x, y = (float(values[visible[0]]) for values in (speed_rpm, line.frequency_hz))
         return Note(x, y, words, _TONE, shift=(3.0, 3.0))
     y = min(highest_hz, line.order * float(speed_rpm[-1]) / 60.0)
     below = -9.0 if y > 0.96 * highest_hz else 3.0

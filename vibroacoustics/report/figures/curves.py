@@ -11,7 +11,7 @@ from ...base.arrays import Array
 from ...base.curve_dataset import axis_words, is_words, shown, shown_label
 from ...base.errors import ParameterError
 from ...base.units import shaft_frequency_hz
-from ..charts.axes import stacked
+from ..charts.axes import stacked, ticks_at
 from ..charts.layout import COLOURS, wrapped
 from ..charts.marks import Axis, Bars, Chart, Line, Mark, Note, Panel, lines, named_axis
 from .levels_over_speed import FEW_POINTS
@@ -61,9 +61,8 @@ def _panel(family: xr.DataArray, title: str) -> Panel:
     if is_words(abscissa):
         return _bars(axis_words(abscissa), values[0], shown_label(family), title)
     along = shown(abscissa)
-    marks: list[Mark] = [
-        *lines(along, _named(family, values), "o" if along.size <= FEW_POINTS else "")
-    ]
+    marker = "o" if along.size <= FEW_POINTS else ""
+    marks: list[Mark] = [*lines(along, _named(family, values), marker)]
     y = Axis(_on_lines(shown_label(family)))
     if "orders" in family.attrs:
         top = 1.05 * float(np.nanmax(values))
@@ -91,12 +90,9 @@ def _bars(words: list[str], values: Array, label: str, title: str) -> Panel:
         for row, value in enumerate(values.tolist())
     )
     x = Axis(label, limits=(None, 1.2 * float(np.max(values))))
-    marks: tuple[Mark, ...] = (
-        Bars(position, values, colour=COLOURS[3], thickness=0.5),
-        *notes,
-    )
+    marks: list[Mark] = [Bars(position, values, colour=COLOURS[3], thickness=0.5), *notes]
     height = max(PANEL_INCH, 0.6 + 0.35 * len(words))
-    return Panel(x, named_axis(words, lambda word: wrapped(word, 24)), marks, title, height)
+    return Panel(x, named_axis([wrapped(word, 24) for word in words]), tuple(marks), title, height)
 
 
 def _order(speed_rpm: Array, order: float, top: float) -> Iterator[Mark]:
@@ -117,10 +113,8 @@ def _orbit_panel(family: xr.DataArray, title: str) -> Panel:
     ]
     turn = np.linspace(0.0, 2.0 * np.pi, 361)
     circle = Line(np.cos(turn), np.sin(turn), colour=_GREY, dash=":", width=1.0)
-    x, y = (
-        Axis(label, ticks=tuple((tick, f"{tick:g}".replace("-", "−")) for tick in ORBIT_TICKS))
-        for label in (f"{shown_label(family)}, along x", "along y")
-    )
+    labels = (f"{shown_label(family)}, along x", "along y")
+    x, y = (Axis(label, ticks=ticks_at(ORBIT_TICKS)) for label in labels)
     return Panel(x, y, (*marks, circle), title, ORBIT_INCH, equal=True)
 
 
@@ -128,8 +122,7 @@ def _degrees(label: str, first: float, last: float) -> Axis:
     """Return an axis with ticks at multiples of 60°, or of 120° over more than a revolution."""
     step = DEGREES_PER_TICK * (2.0 if last - first > 400.0 else 1.0)
     ticks = step * np.arange(np.ceil(first / step), np.floor(last / step + 0.05) + 1)
-    words = tuple((float(tick), f"{tick:g}".replace("-", "−")) for tick in ticks)
-    return Axis(label, limits=(first, max(last, float(ticks[-1]))), ticks=words)
+    return Axis(label, limits=(first, max(last, float(ticks[-1]))), ticks=ticks_at(ticks))
 
 
 def _named(family: xr.DataArray, values: Array) -> Iterator[tuple[str, Array]]:

@@ -1,7 +1,6 @@
 """Deflection of the shell at the loudest line: a ring and a side view, moving."""
 
 from collections.abc import Iterator
-from html import escape
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -11,7 +10,7 @@ from ...base import rounding
 from ...base.arrays import Array, ComplexArray
 from ..charts.layout import COLOURS
 from ..charts.picture import Picture
-from ..charts.svg_parts import INK, path, words
+from ..charts.svg_parts import opening, path, words
 
 FRAMES: Final = 16
 """Shapes of a cycle, between which the page moves."""
@@ -28,14 +27,7 @@ _STYLE: Final = (
 
 
 class Shape(NamedTuple):
-    """A closed or open line of the shell with its displacement in the plane of a view.
-
-    Attributes
-    ----------
-    points_m : right and up, shape (point, 2)
-    displacement_m : complex peak, right and up, shape (point, 2)
-    title : what is seen
-    """
+    """A line of the shell with its displacement, complex peak; right and up, shape (point, 2)."""
 
     points_m: Array
     displacement_m: ComplexArray
@@ -48,11 +40,7 @@ def deflection_picture(results: xr.Dataset) -> Picture:
     parts = [part for row, case in enumerate(shown) for part in _row(case, 8.0 + row * _ROW)]
     height = 8.0 + _ROW * len(shown)
     alt = "Deflection of the shell at the loudest line: a ring from above, and from the side."
-    head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH:g} {height:g}" '
-        f'width="{_WIDTH:g}" height="{height:g}" font-family="system-ui,Helvetica,Arial,'
-        f'sans-serif" font-size="12" fill="{INK}"><title>{escape(alt)}</title>{_STYLE}'
-    )
+    head = opening(_WIDTH, height, alt) + _STYLE
     largest = "; ".join(f"{case['shown_option'].item()} {_largest(case)}" for case in shown)
     return Picture(
         "deflection",
@@ -66,18 +54,12 @@ def deflection_picture(results: xr.Dataset) -> Picture:
 
 
 def shapes(case: xr.Dataset) -> tuple[Shape, Shape]:
-    """Return the ring that moves most, and the meridian through its largest radial displacement.
-
-    Parameters
-    ----------
-    case : results of one shown option
-    """
+    """Return the ring that moves most, and the meridian through its largest radial displacement."""
     angle, radius = case["station_angle"].values, case["station_radius"].values
     field = case["deflection"].transpose("station", "station_angle", "axis").values
     outward = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    radial = (
-        np.abs((field[..., :2] * outward).sum(axis=-1)) * (radius >= 0.5 * radius.max())[:, None]
-    )
+    radial = np.abs((field[..., :2] * outward).sum(axis=-1))
+    radial *= (radius >= 0.5 * radius.max())[:, None]
     station, column = np.unravel_index(int(radial.argmax()), radial.shape)
     height = case["station_height"].values
     ring = Shape(
@@ -86,27 +68,25 @@ def shapes(case: xr.Dataset) -> tuple[Shape, Shape]:
         f"ring {1e3 * (height[station] - height[0]):.0f} mm above the bottom",
     )
     opposite = (column + angle.size // 2) % angle.size
-    sides = []
-    for number, sign in ((column, 1.0), (opposite, -1.0)):
-        across = field[:, number, :2] @ outward[column]
-        points = np.stack([sign * radius, height], axis=-1)
-        sides.append((points, np.stack([across, field[:, number, 2]], axis=-1)))
-    (near, near_m), (far, far_m) = sides
+    near, far = (
+        np.stack(
+            [sign * radius, height, field[:, n, :2] @ outward[column], field[:, n, 2]], axis=-1
+        )
+        for n, sign in ((column, 1.0), (opposite, -1.0))
+    )
+    around = np.concatenate([near, far[::-1]])
     side = Shape(
-        np.concatenate([near, far[::-1]]),
-        np.concatenate([near_m, far_m[::-1]]),
+        around[:, :2].real,
+        around[:, 2:],
         f"side, {np.rad2deg(angle[column]):.0f}° from x to the right",
     )
     return ring, side
 
 
 def cycle(displacement_m: ComplexArray, of_all: ComplexArray) -> Array:
-    """Return displacements over a cycle, shape (frame, point, 2), the largest first.
+    """Return displacements over a cycle, shape (frame, point, 2).
 
-    Parameters
-    ----------
-    displacement_m : complex peaks of a shape
-    of_all : complex peaks that decide when the displacement is largest
+    The first is that at which `of_all`, complex peaks, are largest.
     """
     start = -0.5 * np.angle(np.sum(of_all**2))
     phase = start + 2.0 * np.pi * np.arange(FRAMES) / FRAMES
@@ -127,14 +107,10 @@ def _row(case: xr.Dataset, top: float) -> Iterator[str]:
         outlines = view.points_m - centre + enlarged * cycle(view.displacement_m, every)
         size = float(np.ptp(view.points_m, axis=0).max())
         flip = _SIZE / (1.3 * size + 0.1 * tall) * np.array([1.0, -1.0])
-        yield _line(middle + flip * (view.points_m - centre), stroke="#9aa3ab", dash="4 3")
+        looks = 'fill="none" stroke="#9aa3ab" stroke-dasharray="4 3"'
+        yield f'<path d="{path(middle + flip * (view.points_m - centre))}Z" {looks}/>'
         yield _moving([middle + flip * points for points in outlines])
         yield words(middle[0], top + 26.0 + _SIZE + 12.0, view.title, "middle")
-
-
-def _line(points: Array, stroke: str, dash: str) -> str:
-    looks = f'fill="none" stroke="{stroke}" stroke-dasharray="{dash}"'
-    return f'<path d="{path(points)}Z" {looks}/>'
 
 
 def _moving(frames: list[Array]) -> str:

@@ -1,4 +1,4 @@
-"""Levels around the machine at unit velocity, as polar cuts."""
+"""Levels around the machine as polar charts: at unit velocity, and in its loudest bands."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -7,6 +7,8 @@ import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array
+from ...results.stored_study import catalogue_receiver
+from ..charts.axes import ticks_at
 from ..charts.layout import COLOURS
 from ..charts.marks import Axis, Chart, Line, Panel
 from ..charts.needs import needs
@@ -17,8 +19,7 @@ _VERTICAL: Final = ("x, y", "z", "−x, −y", "−z")
 
 
 @needs(
-    "directivity_transfer_vector",
-    from_="`radiate` of a study with a table radiation.directivity",
+    "directivity_transfer_vector", from_="`radiate` of a study with a table radiation.directivity"
 )
 def directivity(radiated: xr.Dataset) -> Chart:
     """Vertical and horizontal cuts of each motion that radiates, dB at 1 mm/s or 1 mrad/s.
@@ -56,27 +57,21 @@ def directivity(radiated: xr.Dataset) -> Chart:
 
 
 def compass(names: tuple[str, ...]) -> Axis:
-    """Return the angles of a polar panel, with a name at each quarter.
-
-    Parameters
-    ----------
-    names : at the right, above, at the left and below
-    """
-    return Axis(
-        ticks=tuple((45.0 * step, "" if step % 2 else names[step // 2]) for step in range(8))
-    )
+    """Return the angles of a polar panel, with the names at the right, above, left and below."""
+    ticks = ((45.0 * step, "" if step % 2 else names[step // 2]) for step in range(8))
+    return Axis(ticks=tuple(ticks))
 
 
-def decibel_rings(top_db: float, depth_db: float = DEPTH_DB, step_db: float = 10.0) -> Axis:
-    """Return the radius of a polar panel of levels."""
-    rings = top_db - step_db * np.arange(round(depth_db / step_db))
-    ticks = tuple((float(ring), f"{ring:.0f}".replace("-", "−")) for ring in rings)
-    return Axis(limits=(top_db - depth_db, top_db), ticks=ticks)
+def decibel_rings(highest_db: float, depth_db: float = DEPTH_DB) -> Axis:
+    """Return the radius of a polar panel of levels, with rings 10 dB apart."""
+    top_db = 5.0 * float(np.ceil(highest_db / 5.0))
+    rings = top_db - 10.0 * np.arange(round(depth_db / 10.0))
+    return Axis(limits=(top_db - depth_db, top_db), ticks=ticks_at(rings))
 
 
 def _cuts(title: str, level: Array, polar_angle: Array, azimuth: Array) -> Iterator[Panel]:
     """Planes x-z and y-z with z up, and the cone nearest to the horizon from above."""
-    radius = decibel_rings(5.0 * float(np.ceil(level.max() / 5.0)))
+    radius = decibel_rings(level.max())
     turned = 90.0 + np.rad2deg(np.concatenate([-polar_angle[::-1], polar_angle]))
     planes = (("xz", 0.0, COLOURS[3], "-"), ("yz", 0.5, COLOURS[1], "--"))
     upright = []
@@ -93,3 +88,45 @@ def _cuts(title: str, level: Array, polar_angle: Array, azimuth: Array) -> Itera
 
 def _column(azimuth: Array, wanted: float) -> int:
     return int(np.argmin(np.abs(np.exp(1j * azimuth) - np.exp(1j * wanted))))
+
+
+_DEPTH_DB: Final = 30.0
+_NAMES: Final = {"horizontal": _HORIZONTAL, "vertical": ("mic.", "z", "", "−z")}
+
+
+@needs("polar_level")
+def polar_levels(results: xr.Dataset) -> Chart:
+    """A-weighted level around the machine in each of its loudest third octaves, a line an option.
+
+    A row a band: horizontal plane, and vertical plane through the microphone.
+
+    Parameters
+    ----------
+    results : of `run`; needs `polar_level` (shown_option, polar_band, polar_plane,
+        polar_direction), dB
+    """
+    dims = ("polar_band", "polar_plane", "shown_option", "polar_direction")
+    level = results["polar_level"].transpose(*dims)
+    degrees = np.rad2deg(np.append(level["polar_direction"].values, 2.0 * np.pi))
+    panels = []
+    for band, of_band in zip(level["polar_band"].values, level, strict=True):
+        radius = decibel_rings(float(of_band.max()), _DEPTH_DB)
+        for plane, values in zip(map(str, level["polar_plane"].values), of_band, strict=True):
+            curves = tuple(
+                Line(degrees, np.append(around, around[0]), str(option))
+                for option, around in zip(level["shown_option"].values, values.values, strict=True)
+            )
+            title = f"{band:g} Hz, {plane}"
+            panels.append(Panel(compass(_NAMES[plane]), radius, curves, title, 2.4, polar=True))
+    bands = ", ".join(f"{band:g}" for band in level["polar_band"].values)
+    return Chart(
+        "polar_levels",
+        f"A-weighted level around the machine in the third octaves at {bands} Hz, in a horizontal "
+        "and a vertical plane.",
+        f"Modelled A-weighted level in the loudest third octaves, dB(A), "
+        f"{float(results['polar_radius']):.2f} m from the centre of mass at "
+        f"{float(results['shown_speed']):g} rpm, of the representative sample. The vertical plane "
+        f"holds {catalogue_receiver(results)}. The middle is {_DEPTH_DB:g} dB below the edge.",
+        tuple(panels),
+        columns=2,
+    )

@@ -8,20 +8,9 @@ import xarray as xr
 
 from ...results.stored_study import parameters
 from ...results.titles import chosen
+from ..charts.axes import ticks_at
 from ..charts.layout import shortened
-from ..charts.marks import (
-    Area,
-    Axis,
-    Chart,
-    Image,
-    Line,
-    Mark,
-    Note,
-    Panel,
-    Points,
-    Span,
-    frequency_axis,
-)
+from ..charts.marks import Area, Axis, Chart, Image, Line, Mark, Note, Panel, Points, Span
 from ..charts.needs import needs
 
 
@@ -82,8 +71,8 @@ def room_seam(results: xr.Dataset, listener: str | None = None) -> Chart:
     name = chosen(results, "listener", listener)
     of_listener = results.sel(listener=name)
     band = of_listener["seam_band"].values
-    x, ticks = "Third octave, Hz", tuple((float(hertz), f"{hertz:g}") for hertz in band)
-    axis = Axis(x, "log", frequency_axis(x, band).limits, ticks)
+    ends = (float(band.min()) / 1.05, float(band.max()) * 1.05)
+    axis = Axis("Third octave, Hz", "log", ends, ticks_at(band))
     gains = (
         Line(band, of_listener["room_gain_waves"], "waves", marker="o"),
         Line(band, of_listener["room_gain_diffuse"], "direct sound and diffuse field", marker="o"),

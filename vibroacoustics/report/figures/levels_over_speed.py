@@ -63,11 +63,14 @@ def levels_over_speed(
     panels, xlabel = _curves(results, receiver, options)
     solid = {title: len(curves) for title, curves in panels.items()}
     if beside is not None:
-        panels = {title: _lettered("A", curves) for title, curves in panels.items()}
         beside = titled(beside)
-        others, _ = _curves(beside, receiver if _has(beside, receiver) else None, beside_options)
-        panels = {title: [*curves, *_like(others, title)] for title, curves in panels.items()}
-    avoided = spans(_avoided(results, receiver, options))
+        named = beside["receiver" if "receiver" in beside.dims else "channel"].values
+        others, _ = _curves(beside, receiver if receiver in named else None, beside_options)
+        panels = {
+            title: [*_lettered("A", curves), *_lettered("B", _like(others, title))]
+            for title, curves in panels.items()
+        }
+    avoided = _avoided(results, receiver, options)
     x, y = Axis(xlabel), Axis("Level, dB(A)" if "level_total" in results else "Level, dB re 20 µPa")
     shown = stacked(
         Panel(x, y, _marks(avoided, curves, solid[title]), shortened(title, 90), 2.7)
@@ -75,30 +78,30 @@ def levels_over_speed(
     )
     if beside is not None:
         first, second = (named[0] if named else "all" for named in (options, beside_options))
-        return Chart(
+        words = (
             "compared_levels_over_speed",
             "A-weighted level over the speed in both results, total and modelled.",
             f"A-weighted level over the speed. Solid: A, option {first}; dashed: B, option "
             f"{second}. Shaded: speeds to avoid of A.",
-            shown, wide=True,
-        )  # fmt: skip
-    if "level_total" not in results:
+        )
+    elif "level_total" not in results:
         channel = next(iter(panels))
-        return Chart(
+        words = (
             f"levels_{dict(numbered(results, 'channel'))[channel]}",
             f"Level of {channel} over the speed.",
             f"Level of {channel} over the speed, block by block. Shaded: speeds to avoid by the "
             "A-weighted level.",
-            shown, wide=True,
-        )  # fmt: skip
-    microphone = receiver or catalogue_receiver(results)
-    return Chart(
-        "levels_over_speed",
-        f"A-weighted level at {microphone} over the speed, total and modelled, for every option.",
-        f"A-weighted level at {microphone}: total, with what is not modelled, and modelled sources "
-        f"alone.{_bands(results)} {SHADED}",
-        shown, wide=True,
-    )  # fmt: skip
+        )
+    else:
+        microphone = receiver or catalogue_receiver(results)
+        words = (
+            "levels_over_speed",
+            f"A-weighted level at {microphone} over the speed, total and modelled, for every "
+            "option.",
+            f"A-weighted level at {microphone}: total, with what is not modelled, and modelled "
+            f"sources alone.{_bands(results)} {SHADED}",
+        )
+    return Chart(*words, shown, wide=True)
 
 
 @needs("source_level")
@@ -118,7 +121,7 @@ def source_levels_over_speed(
     (modelled,) = option_curves(results, "level_modelled", receiver, [option])
     every = [modelled._replace(label="all modelled", band_db=None), *curves]
     audible = [curve for curve in every if curve.level_db.max() > LEVEL_FLOOR_DB]
-    marks = _marks(spans(_avoided(results, receiver, [option])), audible, len(audible))
+    marks = _marks(_avoided(results, receiver, [option]), audible, len(audible))
     title = f"Each source alone, option {shortened(option, 30)}"
     microphone = receiver or catalogue_receiver(results)
     return Chart(
@@ -137,12 +140,11 @@ def spans(ranges: Sequence[Range]) -> tuple[Span, ...]:
 
 
 def _bands(results: xr.Dataset) -> str:
-    if not has_samples(results):
-        return ""
-    return (
+    words = (
         f" Lines: medians. Bands: {INTERVAL} of the samples, which count by how well they agree "
         "with what was published or measured."
     )
+    return words if has_samples(results) else ""
 
 
 def _curves(
@@ -161,9 +163,8 @@ def _curves(
         return {title: curves}, "Speed, rpm"
     seconds = results.sortby("block_speed")["block_time"].values
     order = np.argsort(seconds)
-    return {
-        title: [LevelCurve(c.label, seconds[order], c.level_db[order]) for c in curves]
-    }, "Time, s"
+    curves = [LevelCurve(c.label, seconds[order], c.level_db[order]) for c in curves]
+    return {title: curves}, "Time, s"
 
 
 def _like(others: Panels, title: str) -> list[LevelCurve]:
@@ -171,18 +172,13 @@ def _like(others: Panels, title: str) -> list[LevelCurve]:
     first = title.partition(" at ")[0]
     named = [curves for name, curves in others.items() if name.partition(" at ")[0] == first]
     curves = named[0] if named else next(iter(others.values()))
-    if not named:
-        curves = [curve for curve in curves if curve.label == "A-weighted"] or curves[:1]
-    return _lettered("B", curves)
+    if named:
+        return curves
+    return [curve for curve in curves if curve.label == "A-weighted"] or curves[:1]
 
 
 def _lettered(letter: str, curves: Sequence[LevelCurve]) -> list[LevelCurve]:
     return [curve._replace(label=f"{letter}: {curve.label}") for curve in curves]
-
-
-def _has(results: xr.Dataset, receiver: str | None) -> bool:
-    dim = "receiver" if "receiver" in results.dims else "channel"
-    return receiver in results[dim].values
 
 
 def _avoided(results: xr.Dataset, receiver: str | None, options: Sequence[str]) -> list[Range]:
@@ -197,16 +193,16 @@ def _avoided(results: xr.Dataset, receiver: str | None, options: Sequence[str]) 
     return recorded_speeds_to_avoid(weighted.speed_rpm, weighted.level_db)
 
 
-def _marks(avoided: Sequence[Span], curves: Sequence[LevelCurve], solid: int) -> tuple[Mark, ...]:
+def _marks(avoided: Sequence[Range], curves: Sequence[LevelCurve], solid: int) -> tuple[Mark, ...]:
     """Return lines with their bands, those after the first few dashed, on shaded ranges."""
-    marks: list[Mark] = [*avoided]
+    marks: list[Mark] = [*spans(avoided)]
     bottom = max(float(curve.level_db.max()) for curve in curves) - _RANGE_DB
     for number, curve in enumerate(curves):
         dash = ("-" if number < solid else "--") if solid < len(curves) else ""
-        low, high = (None, None) if curve.band_db is None else np.maximum(curve.band_db, bottom)
+        band = None if curve.band_db is None else tuple(np.maximum(curve.band_db, bottom))
         marks.append(Line(
             curve.speed_rpm, np.where(curve.level_db > bottom, curve.level_db, np.nan),
-            wrapped(curve.label, 24), None if low is None else (low, high), dash=dash,
+            wrapped(curve.label, 24), band, dash=dash,
             marker="o" if curve.speed_rpm.size <= FEW_POINTS else "",
         ))  # fmt: skip
     return tuple(marks)

@@ -1,4 +1,4 @@
-"""Levels at unit velocity, and levels on a plane."""
+"""Levels at unit velocity over frequency and on a plane, and levels on a plane."""
 
 from collections.abc import Iterator, Sequence
 from typing import Final
@@ -11,7 +11,8 @@ from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import amplitude_of_level, level_of_amplitude
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results.labels import DOF_WORDS
-from ..charts.marks import Axis, Chart, Image, Note, Panel
+from ..charts.layout import wrapped
+from ..charts.marks import Axis, Chart, Image, Line, Note, Panel, frequency_axis
 from ..charts.needs import needs
 from ..shown_speeds import few_speeds
 
@@ -39,8 +40,8 @@ def unit_words(dof: str) -> str:
 
 def dof_title(dof: str) -> str:
     """What moves and how fast, as the head of a panel."""
-    words = DOF_WORDS.get(dof)
-    return f"{dof}: {words}, {unit_words(dof)}" if words else f"{dof}, {unit_words(dof)}"
+    words = f": {DOF_WORDS[dof]}" if dof in DOF_WORDS else ""
+    return f"{dof}{words}, {unit_words(dof)}"
 
 
 def names(field: xr.DataArray, dim: str) -> list[str]:
@@ -51,12 +52,10 @@ def names(field: xr.DataArray, dim: str) -> list[str]:
 def silent_dofs(field: ComplexArray, dofs: Sequence[str]) -> list[str]:
     """Those far below the loudest of the same unit; field (dof, ...)."""
     size = np.nanmax(np.abs(field).reshape(len(dofs), -1), axis=1)
-    silent = []
-    for unit in sorted({unit_words(dof) for dof in dofs}):
-        same = [index for index, dof in enumerate(dofs) if unit_words(dof) == unit]
-        floor = amplitude_of_level(-SILENT_DB) * size[same].max()
-        silent += [dofs[index] for index in same if size[index] <= floor]
-    return [dof for dof in dofs if dof in silent]
+    units = np.array([unit_words(dof) for dof in dofs])
+    loudest = np.array([size[units == unit].max() for unit in units])
+    is_silent = size <= amplitude_of_level(-SILENT_DB) * loudest
+    return [dof for dof, silent in zip(dofs, is_silent, strict=True) if silent]
 
 
 def silent_panel(title: str, height: float) -> Panel:
@@ -123,15 +122,14 @@ def _maps(radiated: xr.Dataset, levels: dict[str, Array | None]) -> Iterator[Pan
     (across, x), (up, y) = _plane(radiated)
     shape = float(np.ptp(up)) / max(float(np.ptp(across)), 1e-9)
     height = min(_WIDE * shape, 6.0) * (_COLUMNS / min(_COLUMNS, len(levels))) + 0.9
-    titles = list(levels)
-    for start in range(0, len(titles), _COLUMNS):
-        row = titles[start : start + _COLUMNS]
-        loud = [level for level in (levels[title] for title in row) if level is not None]
+    named = list(levels.items())
+    for start in range(0, len(named), _COLUMNS):
+        row = named[start : start + _COLUMNS]
+        loud = [level for _, level in row if level is not None]
         top = max((float(np.nanmax(level)) for level in loud), default=0.0)
         bottom = min((float(np.nanmin(level)) for level in loud), default=0.0)
         scale = (max(bottom, top - DEPTH_DB), top)
-        for title in row:
-            level = levels[title]
+        for title, level in row:
             if level is None:
                 yield silent_panel(title, height)
                 continue
@@ -151,3 +149,59 @@ def _plane(radiated: xr.Dataset) -> list[tuple[Array, str]]:
     normal = min(coordinates, key=lambda name: float(np.ptp(coordinates[name])))
     across, up = [name for name in "xyz" if name != normal]
     return [(coordinates[across][0], f"{across}, m"), (coordinates[up][:, 0], f"{up}, m")]
+
+
+CURVE_DEPTH_DB: Final = 100.0
+"""Curves are cut off this far below the loudest of their panel."""
+_HEIGHT: Final = 2.4
+
+
+@needs("transfer_vector", from_="`radiate` and `run`")
+def transfer_vectors(radiated: xr.Dataset) -> Chart:
+    """Level at every microphone over frequency at 1 mm/s or 1 mrad/s, dB: a panel a motion.
+
+    The estimated error of the grids is drawn as a band.
+
+    Parameters
+    ----------
+    radiated : of `radiate` or `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
+    """
+    dims = ("dof", "receiver", "frequency")
+    field, error = radiated["transfer_vector"].transpose(*dims), None
+    if "transfer_vector_error" in radiated:
+        error = radiated["transfer_vector_error"].transpose(*dims)
+    dofs = names(field, "dof")
+    silent = silent_dofs(field.values, dofs)
+    shaded = "" if error is None else " Band: plus and minus the estimated error of the grids."
+    panels = (
+        silent_panel(dof_title(dof), _HEIGHT)
+        if dof in silent
+        else _panel(field.sel(dof=dof), None if error is None else error.sel(dof=dof))
+        for dof in dofs
+    )
+    return Chart(
+        "transfer_vectors",
+        "Sound pressure level at every microphone per unit velocity of the housing against "
+        "frequency, a panel per degree of freedom.",
+        "Level at every microphone when the housing moves at 1 mm/s or turns at 1 mrad/s (root "
+        f"mean square) in one degree of freedom.{shaded}",
+        tuple(panels),
+        columns=2,
+        wide=True,
+    )
+
+
+def _panel(field: xr.DataArray, error: xr.DataArray | None) -> Panel:
+    """Curves of one degree of freedom, (receiver, frequency)."""
+    curves, frequency = [], field["frequency"].values
+    for name, values in zip(names(field, "receiver"), field, strict=True):
+        size, around = np.abs(values.values), None
+        if error is not None:
+            gap = error.sel(receiver=name).values
+            around = (unit_level_db(np.maximum(size - gap, 1e-3 * size)), unit_level_db(size + gap))
+        curves.append(Line(frequency, unit_level_db(size), wrapped(name, 24), around))
+    level = unit_level_db(field.values)
+    top, lowest = float(level.max()), float(level.min())
+    limits = (max(lowest, top - CURVE_DEPTH_DB) - 2.0, top + 4.0)
+    x, y = frequency_axis("Frequency, Hz", frequency), Axis("Level, dB re 20 µPa", limits=limits)
+    return Panel(x, y, tuple(curves), dof_title(str(field["dof"].item())), _HEIGHT)

@@ -1,5 +1,6 @@
-"""Order spectra of the options side by side: force, foot force, sound pressure level."""
+"""The force of the options over a revolution, and order spectra side by side."""
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -8,12 +9,49 @@ import xarray as xr
 from ...base import rounding
 from ...base.arrays import Array
 from ...base.vocabulary import REFERENCE_OPTION
-from ...results.stored_study import catalogue_receiver, options
+from ...results.stored_study import catalogue_receiver, options, speeds, words
 from ...results.titles import chosen
+from ..charts.axes import option_panel
 from ..charts.layout import wrapped
-from ..charts.marks import Axis, Chart, Panel, Points, named_axis
+from ..charts.marks import Axis, Chart, Panel, Points, lines
 from ..charts.needs import needs
 from ..shown_speeds import few_speeds
+
+
+@needs("force", from_="`run` (above 100 speeds with operation.keep_time_series)")
+def force_over_revolution(results: xr.Dataset, speed_rpm: float | None = None) -> Chart:
+    """Force on the housing over crank angle: a panel an axis, a line an option.
+
+    Parameters
+    ----------
+    results : of `run`; needs `force` (speed, option, source, axis, crank_angle), N
+    speed_rpm : one of the results' speeds; default: the highest
+    """
+    speed = max(speeds(results)) if speed_rpm is None else chosen(results, "speed", speed_rpm)
+    total = results["force"].sel(speed=speed).sum("source").transpose("axis", "option", ...)
+    names = [wrapped(name, 24) for name in options(results)]
+    degrees = np.rad2deg(results["crank_angle"].values)
+    angles = tuple((float(angle), str(angle)) for angle in range(0, 361, 60))
+    x, peak = Axis("Crank angle, degrees", "linear", (0.0, 360.0), angles), float(abs(total).max())
+    panels = tuple(
+        Panel(
+            x,
+            Axis(f"Along {along['axis'].item()}, N", limits=(-1.05 * peak, 1.05 * peak)),
+            lines(degrees, zip(names, along.values, strict=True)),
+            height=2.0,
+        )
+        for along in total
+    )
+    return Chart(
+        "force_over_revolution",
+        f"Resultant force along x, y and z over one revolution at {speed:g} rpm for every option; "
+        f"the largest force is {peak:.3g} N.",
+        f"Resultant force on the housing over one revolution at {speed:g} rpm, along "
+        f"{words(results)['axes']}. All three on one scale; lines that coincide are dashed "
+        "differently.",
+        panels,
+    )
+
 
 HIGHEST_ORDER: Final = 4
 """Highest order of forces that is shown: that of the balance of masses."""
@@ -71,13 +109,9 @@ def level_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
 
 def loudest_orders(level: xr.DataArray) -> list[float]:
-    """Return 1 and the orders that carry the sound, in rising order.
+    """Return 1 and the orders that carry the sound by level, (option, order, ...), in rising order.
 
     Half of them are the loudest without an option, the others the loudest of all options.
-
-    Parameters
-    ----------
-    level : A-weighted, (option, order, ...), dB; not a number where it is silent
     """
     ranked = []
     for levels in (level.sel(option=[REFERENCE_OPTION]), level):
@@ -103,16 +137,13 @@ def _dots(values: xr.DataArray, axis: Axis, lowest: float) -> tuple[Panel, ...]:
     shown = values.where(values >= lowest).transpose("speed", "order", "option")
     names = options(shown.to_dataset(name="value"))
     limits = _ends(shown.values, axis.scale == "log")
+    x, rows = replace(axis, limits=limits), np.arange(len(names))
     return tuple(
-        Panel(
-            Axis(axis.label, axis.scale, limits),
-            named_axis(names, wrapped),
-            tuple(
-                Points(sizes, np.arange(len(names)), f"{sizes['order'].item():g}×")
-                for sizes in at_speed
-            ),
+        option_panel(
+            x,
+            names,
+            (Points(sizes, rows, f"{sizes['order'].item():g}×") for sizes in at_speed),
             f"{at_speed['speed'].item():g} rpm",
-            0.8 + 0.26 * len(names),
         )
         for at_speed in shown
     )

@@ -54,10 +54,8 @@ def foot_bars(results: xr.Dataset, speed: float) -> Chart:
             Axis("Force into the foot, N peak", limits=(0.0, None)),
             named_axis(feet),
             tuple(
-                Bars(
-                    position + (number - 1) * thick, along, label=f"along {along['axis'].item()}",
-                    colour=COLOURS[1 + number], thickness=thick,
-                )
+                Bars(position + (number - 1) * thick, along, 0.0, f"along {along['axis'].item()}",
+                     None, COLOURS[1 + number], thick)
                 for number, along in enumerate(of_order)
             ),
             f"{of_order['order'].item():g}×",

@@ -1,4 +1,4 @@
-"""From the motion of the housing to the sound at the microphones."""
+"""Through the mounts to the feet, and from the housing to the sound at the microphones."""
 
 from typing import Final
 
@@ -7,26 +7,74 @@ import xarray as xr
 
 from ...base import rounding
 from ...results.estimates import has_samples
-from ...results.stored_study import catalogue_receiver, options, speeds
+from ...results.stored_study import catalogue_receiver, first_order_hz, options, speeds
 from ...results.titles import chosen
+from ..charts.axes import option_panel
 from ..charts.layout import COLOURS, wrapped
-from ..charts.marks import (
-    Axis,
-    Chart,
-    Line,
-    Panel,
-    Points,
-    Segments,
-    frequency_axis,
-    lines,
-    named_axis,
-)
+from ..charts.marks import Axis, Chart, Line, Panel, Points, Segments, Span, frequency_axis, lines
 from ..charts.needs import needs
 from ..file_names import file_name
 from ..kwave_words import computed_by_kwave, kwave_to_hz
 from ..sections.comparison.tables import comparison
-from ..shown_speeds import few_speeds
-from .first_order import first_order_mark, first_order_words
+from ..shown_speeds import few_speeds, many_speeds
+
+
+def first_order_mark(
+    results: xr.Dataset, label: str = "", colour: str = "#888888"
+) -> Span | Segments:
+    """Return a dotted line at every speed; where there are many, a band over their range."""
+    frequencies = first_order_hz(results)
+    if many_speeds(results):
+        return Span(float(frequencies.min()), float(frequencies.max()), label, "#888888")
+    ends = np.full(len(frequencies), np.nan)
+    return Segments(frequencies, ends, frequencies, ends, label, colour, ":")
+
+
+@needs("mount_transmissibility")
+def mount_transmissibility(results: xr.Dataset) -> Chart:
+    """Sum of the foot forces per force over frequency, with 1x marked at every speed.
+
+    Parameters
+    ----------
+    results : of `run`; needs `mount_transmissibility` (axis, mount_frequency), 1
+    """
+    nominal, attaching, curves = abs(results["mount_transmissibility"]), [], []
+    if "option_mount_transmissibility" in results:
+        attaching = list(abs(results["option_mount_transmissibility"]).dropna("option"))
+    frequency = nominal["mount_frequency"].values
+    looks = zip(nominal, ["-", "--", "-."], (COLOURS[3], COLOURS[2], COLOURS[5]), strict=True)
+    for curve, dash, colour in looks:
+        axis = curve["axis"].item()
+        curves.append(Line(frequency, curve, f"along {axis}", colour=colour, dash=dash))
+        for option in attaching:
+            label = f"along {axis}, {option['option'].item()}"
+            along = option.sel(axis=axis)
+            curves.append(Line(frequency, along, label, None, colour, dash, width=0.7))
+    first = first_order_mark(results, "1× at the speeds of the study", "#000000")
+    unity = Segments([frequency[0]], [1.0], [frequency[-1]], [1.0], colour="#888888", width=0.8)
+    x, y = (
+        frequency_axis("Frequency, Hz", frequency),
+        Axis("Sum of foot forces per force, 1", "log"),
+    )
+    panel = Panel(x, y, (*curves, first, unity), height=3.0)
+    return Chart(
+        "mount_transmissibility",
+        "Transmissibility of the mounts along x, y and z against frequency, above 1 around the "
+        "natural frequencies and falling above them.",
+        "Sum of the foot forces per force at the centre of mass, along the same axis. Below 1 the "
+        f"mounts isolate. 1× is at {_first_order(results)}.",
+        (panel,),
+    )
+
+
+def _first_order(results: xr.Dataset) -> str:
+    """Frequencies of 1×: the first two, or the range of many."""
+    shaft = first_order_hz(results)
+    if many_speeds(results):
+        return f"{rounding.span(shaft, rounding.fixed)} Hz"
+    marks = " and ".join(f"{frequency:.1f} Hz" for frequency in shaft[:2])
+    return marks if len(shaft) <= 2 else f"{marks} and further speeds"
+
 
 NEGLIGIBLE: Final = 1e-4
 """Motions are not drawn whose largest transfer is below this share of the largest of their kind:
@@ -49,35 +97,26 @@ def levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
     compared, names = comparison(results).sel(receiver=mic), options(results)
     what = "sources" if has_samples(results) else "orders"
     kinds = {
-        "level_1x_dba": ("1× line", "o", COLOURS[3]),
-        "level_modelled_dba": (f"all modelled {what}", "D", COLOURS[1]),
-        "level_total_dba": ("total", "s", COLOURS[0]),
+        "level_1x_dba": ("1× line", None, COLOURS[3], "o"),
+        "level_modelled_dba": (f"all modelled {what}", None, COLOURS[1], "D"),
+        "level_total_dba": ("total", None, COLOURS[0], "s"),
     }
-    shown = {
-        name: compared[name].where(compared[name] >= rounding.LEVEL_FLOOR_DB) for name in kinds
-    }
+    shown = compared[list(kinds)].where(compared[list(kinds)] >= rounding.LEVEL_FLOOR_DB)
+    x, rows = Axis("A-weighted level, dB(A) re 20 µPa"), np.arange(len(names))
     panels = tuple(
-        Panel(
-            Axis("A-weighted level, dB(A) re 20 µPa"),
-            named_axis(names, wrapped),
-            tuple(
-                Points(
-                    shown[name].sel(speed=speed), np.arange(len(names)), label, None, colour, mark
-                )
-                for name, (label, mark, colour) in kinds.items()
-            ),
+        option_panel(
+            x,
+            names,
+            (Points(shown[name].sel(speed=speed), rows, *looks) for name, looks in kinds.items()),
             f"{speed:g} rpm",
-            0.8 + 0.26 * len(names),
         )
         for speed in speeds(few_speeds(results))
     )
     total = compared["level_total_dba"]
     is_far = float(compared["level_modelled_dba"].max()) < float(total.min()) - 10.0
-    caption = (
-        "The total does not change because the modelled orders are far below it."
-        if is_far
-        else f"1× line, all modelled {what} and total{', medians' if has_samples(results) else ''}."
-    )
+    caption = f"1× line, all modelled {what} and total{', medians' * has_samples(results)}."
+    if is_far:
+        caption = "The total does not change because the modelled orders are far below it."
     return Chart(
         "levels",
         f"A-weighted levels at {mic} for every option and speed: 1× line, all modelled {what}, and "
@@ -100,28 +139,26 @@ def transfer(results: xr.Dataset, receiver: str | None = None) -> Chart:
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
     field = abs(results["transfer_vector"].sel(receiver=mic))
+    marked = "Grey band" if many_speeds(results) else "Vertical dotted lines"
     is_compared = mic in kwave_to_hz(results)
     closed = abs(results["transfer_vector_closed_form"].sel(receiver=mic)) if is_compared else None
     first, x = first_order_mark(results), frequency_axis("Frequency, Hz", field["frequency"])
     panels = tuple(
-        Panel(x, Axis(unit, "log"), (*_transfers(field, closed, letter), first), title, 2.5)
-        for title, letter, unit in (
-            ("Translations", "t", "Pa per m/s"),
-            ("Rotations", "r", "Pa per rad/s"),
+        Panel(
+            x, Axis(unit, "log"), (*_transfers(field, closed, title[0].lower()), first), title, 2.5
         )
+        for title, unit in (("Translations", "Pa per m/s"), ("Rotations", "Pa per rad/s"))
     )
-    greens = (
-        ": coloured lines with k-Wave's Green's function, dotted ones with the closed form"
-        if is_compared
-        else ", with the closed-form Green's function"
-    )
+    greens = ", with the closed-form Green's function"
+    if is_compared:
+        greens = ": coloured lines with k-Wave's Green's function, dotted ones with the closed form"
     return Chart(
         f"transfer_{file_name(mic)}",
         f"Sound pressure at {mic} per velocity of the housing against frequency, for translations "
         f"and rotations{'; k-Wave and closed form' if is_compared else ''}.",
         f"Sound pressure at {mic} per velocity of the housing{greens}. tx, ty, tz: motion along x, "
         "y, z; rx, ry, rz: rotation about them; motions that do not radiate are omitted. "
-        f"{first_order_words(results)}: 1× at the speeds of the study. Other microphones: in "
+        f"{marked}: 1× at the speeds of the study. Other microphones: in "
         "results.nc.",
         panels,
     )
@@ -135,14 +172,11 @@ def _transfers(field: xr.DataArray, closed: xr.DataArray | None, letter: str) ->
     marks = []
     for dof, dash, colour in looks:
         if largest.sel(dof=dof) > NEGLIGIBLE * largest.max():
-            curve = field.sel(dof=dof)
-            marks.append(Line(curve["frequency"], curve, dof, colour=colour, dash=dash))
+            x = field["frequency"]
+            marks.append(Line(x, field.sel(dof=dof), dof, colour=colour, dash=dash))
             if closed is not None:
                 exact = closed.sel(dof=dof)
-                label = "closed form"
-                marks.append(
-                    Line(curve["frequency"], exact, label, colour="#000000", dash=":", width=1.1)
-                )
+                marks.append(Line(x, exact, "closed form", None, "#000000", ":", width=1.1))
     return marks
 
 
@@ -159,11 +193,11 @@ def green_difference(results: xr.Dataset) -> Chart:
     ends = gap["frequency"].values[[0, -1]]
     zero = Segments(ends[:1], [0.0], ends[1:], [0.0], colour="#888888", width=0.8)
     curves = lines(gap["frequency"], zip(names, gap.values, strict=True))
-    y = Axis("k-Wave − closed form, dB")
+    x, y = Axis("Frequency, Hz"), Axis("k-Wave − closed form, dB")
     return Chart(
         "green_difference",
         "Difference between k-Wave's Green's function and the closed form against frequency, at "
         f"its microphones; at most {float(abs(results['green_difference']).max()):.2f} dB.",
         "k-Wave's Green's function against the closed form, level difference at its microphones.",
-        (Panel(Axis("Frequency, Hz"), y, (*curves, zero)),),
+        (Panel(x, y, (*curves, zero)),),
     )

@@ -10,8 +10,9 @@ import xarray as xr
 from ...results.estimates import has_samples
 from ...results.run_variables import ANY_WEIGHTS
 from ...results.stored_study import options
+from ..charts.axes import option_panel
 from ..charts.layout import COLOURS, wrapped
-from ..charts.marks import Axis, Bars, Chart, Panel, named_axis
+from ..charts.marks import Axis, Bars, Chart, Panel
 from ..charts.needs import needs
 
 _FIRST, _LAST = np.array([8, 48, 107]), np.array([222, 235, 247])
@@ -73,8 +74,7 @@ def _stacked(results: xr.Dataset, label: str, parts: Iterable[tuple[str, str, An
     for name, colour, sizes in parts:
         bars.append(Bars(np.arange(len(names)), sizes, base, name, colour=colour))
         base = base + sizes
-    x = Axis(label, limits=(0.0, 1.0))
-    return Panel(x, named_axis(names, wrapped), tuple(bars), height=0.8 + 0.26 * len(names))
+    return option_panel(Axis(label, limits=(0.0, 1.0)), names, bars)
 
 
 def contributions(results: xr.Dataset) -> xr.DataArray:

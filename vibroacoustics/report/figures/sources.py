@@ -1,4 +1,4 @@
-"""Third-octave spectra of the sources of sound, and of the options that change them."""
+"""Third octaves: of the sources, the options, the measured baseline, of a sound power."""
 
 from collections.abc import Iterable
 from typing import Final
@@ -10,17 +10,20 @@ from ...base.arrays import Array
 from ...base.remembered import remembered
 from ...base.vocabulary import REFERENCE_OPTION
 from ...base.weighting import a_weighting
+from ...results.data_sheet import SoundPower
 from ...results.estimates import has_samples
 from ...results.stored_study import (
     balancers,
     catalogue_receiver,
+    options,
     quoted_speed,
     source_name,
     speeds,
 )
 from ...results.titles import chosen
-from ..charts.layout import wrapped
-from ..charts.marks import Axis, Chart, Panel, frequency_axis, lines
+from ..charts.axes import band_axis, level_axis, stacked
+from ..charts.layout import COLOURS, wrapped
+from ..charts.marks import Axis, Bars, Chart, Panel, Points, frequency_axis, lines
 from ..charts.needs import needs
 from ..quantities import HEARD_DB
 from ..shown_speeds import few_speeds
@@ -51,9 +54,8 @@ def source_third_octaves(
     speed = chosen(results, "speed", speed_rpm or quoted_speed(results))
     case = {"option": chosen(results, "option", option), "receiver": mic, "speed": speed}
     spectra = results["source_band_level"].sel(case).transpose("sound_source", "band")
-    named = {
-        source_name(results, str(level["sound_source"].item())): level.values for level in spectra
-    }
+    sources = [source_name(results, str(name)) for name in spectra["sound_source"].values]
+    named = dict(zip(sources, spectra.values, strict=True))
     loud = {name: level for name, level in named.items() if level.max() > QUIETEST_DB}
     silent = ", ".join(name for name in named if name not in loud)
     below = f" Not drawn, everywhere below −{-QUIETEST_DB:g} dB: {silent}." if silent else ""
@@ -104,10 +106,8 @@ def _panel(
     band_hz: Array, named: Iterable[tuple[str, Array]], y: str, title: str = "", height: float = 2.4
 ) -> Panel:
     audible = ((name, np.where(curve > QUIETEST_DB, curve, np.nan)) for name, curve in named)
-    x = frequency_axis("Third-octave band, Hz", band_hz)
-    return Panel(
-        x, Axis(y, limits=(QUIETEST_DB, None)), lines(band_hz, audible, "o"), title, height
-    )
+    axes = (frequency_axis("Third-octave band, Hz", band_hz), Axis(y, limits=(QUIETEST_DB, None)))
+    return Panel(*axes, lines(band_hz, audible, "o"), title, height)
 
 
 def changing_options(results: xr.Dataset) -> list[str]:
@@ -133,3 +133,80 @@ def _weighted(results: xr.Dataset) -> xr.DataArray:
 
 def _medians(results: xr.Dataset) -> str:
     return ", medians" if has_samples(results) else ""
+
+
+@needs("baseline_band_level")
+def baseline_third_octaves(results: xr.Dataset, receiver: str | None = None) -> Chart:
+    """Third octaves that were measured, and what each option makes of them, dB, unweighted.
+
+    A panel a speed (six at most), a line an option.
+
+    Parameters
+    ----------
+    results : of `run` with a measured baseline; needs `baseline_band_level` (speed, option,
+        receiver, baseline_band), dB
+    receiver : one of the results' microphones; default: the first with third octaves
+    """
+    microphone = chosen(results, "receiver", receiver or measured_receivers(results)[0])
+    shown = few_speeds(results)
+    level = shown["baseline_band_level"].sel(receiver=microphone)
+    level = level.isel(baseline_band=level.notnull().any(["speed", "option"]).values)
+    names = options(shown)
+    words = ["measured" if name == REFERENCE_OPTION else wrapped(name, 24) for name in names]
+    band = level["baseline_band"].values
+    x, y = frequency_axis("Third-octave band, Hz", band), Axis("Level, dB re 20 µPa")
+    panels = (
+        Panel(x, y, lines(band, zip(words, curves, strict=True), "o"), f"{speed:g} rpm")
+        for speed in speeds(shown)
+        for curves in [(level.sel(option=name, speed=speed).values for name in names)]
+    )
+    return Chart(
+        "baseline_third_octaves",
+        f"Third-octave levels at {microphone}: measured without a balancer, and with every option "
+        "by the modelled change.",
+        f"Third octaves at {microphone}, unweighted: as measured, and what each option makes of "
+        "them. Where an option's line lies on the measured one it changes nothing there.",
+        stacked(panels),
+    )
+
+
+def measured_receivers(results: xr.Dataset) -> list[str]:
+    """Return microphones whose third octaves were measured; all of them where none has any."""
+    has_any = results["baseline_band_level"].notnull().any(["speed", "option", "baseline_band"])
+    measured = has_any.values if has_any.any() else ...
+    return [str(name) for name in results["receiver"].values[measured]]
+
+
+_RANGE_DB = 50.0
+
+
+def sheet_chart(power: SoundPower) -> Chart:
+    """Return the sound power level by band: the machine and its modelled sources."""
+    number = np.arange(len(power.bands))
+    total = np.array([band.total_db for band in power.bands], dtype=float)
+    modelled = np.array([band.modelled_db for band in power.bands], dtype=float)
+    y = level_axis("Level, dB re 1 pW", [*total, *modelled], _RANGE_DB)
+    base = -200.0 if y.limits is None else y.limits[0] or 0.0
+    marks = (
+        Bars(number, total - base, base, "machine", None, "#cccccc", 0.8, True),
+        Bars(number, modelled - base, base, "modelled sources", None, COLOURS[3], 0.45, True),
+    )
+    words = "Sound power level in third octaves: the machine and its modelled sources."
+    panel = Panel(band_axis([band.band_hz for band in power.bands]), y, marks, height=2.6)
+    return Chart("data_sheet", words, words, (panel,))
+
+
+def power_chart(measured: xr.Dataset) -> Chart:
+    """Return the sound power level by band, beside what it would be without corrections."""
+    number, level = np.arange(measured.sizes["band"]), measured["measured_power_level"].values
+    corrections = measured["background_correction"] + measured["environment_correction"]
+    uncorrected = level + corrections.values
+    bottom = max(float(np.nanmin(uncorrected)) - 10.0, 0.0)
+    y = Axis("Level, dB re 1 pW", limits=(bottom, float(np.nanmax(uncorrected)) + 3.0))
+    marks = (
+        Bars(number, level - bottom, bottom, "L_W", colour=COLOURS[6], upright=True),
+        Points(number, uncorrected, "without K1 and K2", None, COLOURS[3], "o", filled=False),
+    )
+    words = "Sound power level in third octaves."
+    panel = Panel(band_axis(measured["band"].values.tolist()), y, marks, height=2.8)
+    return Chart("sound_power", words, words, (panel,))

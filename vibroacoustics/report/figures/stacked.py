@@ -1,4 +1,4 @@
-"""A-weighted third octaves and lines, each a bar that is divided among the sources."""
+"""A-weighted levels of the sources: parts of third octaves and lines, and over a run-up."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -10,10 +10,12 @@ from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_power
 from ...base.units import shaft_frequency_hz
+from ...base.vocabulary import REFERENCE_OPTION
 from ...results.stored_study import catalogue_receiver, source_name
 from ...results.titles import chosen
+from ..charts.axes import level_image
 from ..charts.layout import COLOURS
-from ..charts.marks import Axis, Bars, Chart, Panel
+from ..charts.marks import Axis, Bars, Chart, Line, Panel
 from ..charts.needs import needs
 from ..sections.sources.words import UNMODELLED
 
@@ -37,10 +39,11 @@ def stacked_third_octaves(results: xr.Dataset, receiver: str | None = None) -> C
     energy = results["band_energy"].sel(receiver=mic)
     energy = energy.transpose("shown_option", "energy_part", "noise_band")
     bands = energy["noise_band"].values
-    ticks = tuple((float(row), _hertz(band)) for row, band in enumerate(bands) if row % 3 == 2)
+    words = (f"{band / 1000.0:g}k" if band >= 1000.0 else f"{band:g}" for band in bands)
+    ticks = tuple((float(row), word) for row, word in enumerate(words) if row % 3 == 2)
     axis = Axis("Third-octave band, Hz", ticks=ticks)
     panels = _panels(results, energy, np.arange(len(bands), dtype=float), axis, 0.9)
-    return _chart("stacked_third_octaves", "third octaves", mic, results, panels)
+    return _chart("stacked_third_octaves", f"third octaves at {mic}", results, panels)
 
 
 @needs("line_energy")
@@ -59,19 +62,14 @@ def stacked_lines(results: xr.Dataset, receiver: str | None = None) -> Chart:
     shaft_hz = shaft_frequency_hz(float(results["shown_speed"]))
     frequency = shaft_hz * energy["line_order"].values
     panels = _panels(results, energy, frequency, Axis("Frequency, Hz"), 0.8 * shaft_hz)
-    return _chart("stacked_lines", "lines of the shaft orders", mic, results, panels)
+    return _chart("stacked_lines", f"lines of the shaft orders at {mic}", results, panels)
 
 
 def divided(energy: Array, bottom_db: float) -> tuple[Array, Array]:
-    """Return where the parts of each bar begin and how long they are, shape (part, bar), dB.
+    """Return where the parts of each bar begin and how long they are, dB, from Pa², (part, bar).
 
     A bar is as high as the level of the sum; its parts are the shares of the sources in the
     energy, without those that work against the others.
-
-    Parameters
-    ----------
-    energy : mean square of each part, shape (part, bar), Pa²
-    bottom_db : foot of the bars
     """
     total = np.maximum(energy.sum(axis=0), 1e-30)
     height = np.maximum(level_of_power(total / REFERENCE_PRESSURE_PA**2) - bottom_db, 0.0)
@@ -112,19 +110,66 @@ def _panels(
     return tuple(panels)
 
 
-def _chart(
-    name: str, what: str, receiver: str, results: xr.Dataset, panels: tuple[Panel, ...]
-) -> Chart:
-    where = f"{receiver}, {float(results['shown_speed']):g} rpm"
+def _chart(name: str, what: str, results: xr.Dataset, panels: tuple[Panel, ...]) -> Chart:
+    levels = f"A-weighted {what}, {float(results['shown_speed']):g} rpm"
     return Chart(
         name,
-        f"A-weighted {what} at {where}, divided among the sources.",
-        f"A-weighted {what} at {where}, of the representative sample. The height of a bar is the "
+        f"{levels}, divided among the sources.",
+        f"{levels}, of the representative sample. The height of a bar is the "
         "level of the sum. Its colours are shares of the energy; sources that are not seen, or "
         "work against the others, are omitted.",
         panels,
     )
 
 
-def _hertz(band: float) -> str:
-    return f"{band / 1000.0:g}k" if band >= 1000.0 else f"{band:g}"
+@needs("run_up_level", "run_up_source_level", from_="`run` of a study with few speeds")
+def run_up_levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
+    """A-weighted levels of machine, sources and unmodelled noise over speed in a run-up.
+
+    Parameters
+    ----------
+    results : of `run`; needs `run_up_level` (run_up_speed, receiver), dB, and its parts
+    receiver : one of the results' microphones; default: that of the catalogue's noise
+    """
+    mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    total = results["run_up_level"].sel(receiver=mic)
+    speed, top = total["run_up_speed"].values, float(total.max())
+    levels = results["run_up_source_level"].sel(receiver=mic)
+    curves = {str(part): levels.sel(sound_source=part) for part in levels["sound_source"].values}
+    curves["unmodelled"] = results["run_up_unmodelled_level"]
+    shown = {part: level for part, level in curves.items() if level.max() > top - DEPTH_DB}
+    parts = tuple(
+        Line(speed, shown[part], words, colour=colour)
+        for part, (words, colour) in zip(shown, part_colours(results, list(shown)), strict=True)
+    )
+    machine = Line(speed, total, "machine", colour="#000000", dash="-", width=2.4)
+    y = Axis("Level, dB(A)", limits=(top - DEPTH_DB, top + 3.0))
+    return Chart(
+        "run_up_levels",
+        f"A-weighted levels of the machine and its sources at {mic} over speed.",
+        f"A-weighted levels at {mic} in a run-up, option {REFERENCE_OPTION}, of the representative "
+        f"sample. Sources more than {DEPTH_DB:g} dB below the machine are not drawn.",
+        (Panel(Axis("Speed, rpm"), y, (*parts, machine), height=3.0),),
+    )
+
+
+@needs("run_up_order_level", from_="`run` of a study with few speeds")
+def run_up_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
+    """A-weighted level of each order of all sources together over speed in a run-up, as colours.
+
+    Parameters
+    ----------
+    results : of `run`; needs `run_up_order_level` (run_up_speed, receiver, run_up_order), dB
+    receiver : one of the results' microphones; default: that of the catalogue's noise
+    """
+    mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
+    level = results["run_up_order_level"].sel(receiver=mic)
+    level = level.transpose("run_up_speed", "run_up_order")
+    image = level_image(level["run_up_order"], level["run_up_speed"], level, "dB(A)", DEPTH_DB)
+    return Chart(
+        "run_up_orders",
+        f"A-weighted level of each order at {mic} over speed.",
+        f"A-weighted level of each order of all sources at {mic} in a run-up, option "
+        f"{REFERENCE_OPTION}, of the representative sample; {DEPTH_DB:g} dB shown.",
+        (Panel(Axis("Shaft order", integer=True), Axis("Speed, rpm"), (image,), height=3.0),),
+    )

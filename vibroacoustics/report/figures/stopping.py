@@ -7,13 +7,13 @@ import xarray as xr
 
 from ...base.decibel import level_of_amplitude
 from ...results.stored_study import catalogue_receiver, speeds
+from ..charts.axes import level_image
 from ..charts.layout import shortened
-from ..charts.marks import Axis, Chart, Image, Panel, lines
+from ..charts.marks import Axis, Chart, Panel, lines
 from ..charts.needs import needs
 from ..sections.stopping.tables import force_and_moments
 from ..shown_speeds import few_speeds
 
-MAP_RANGE_DB: Final = 60.0
 LEVEL_RANGE_DB: Final = 40.0
 
 
@@ -69,9 +69,8 @@ def stopping_order_map(results: xr.Dataset) -> Chart:
     """
     along_x = results["stopping_order_map"].sel(axis="x").transpose("stopping_block", "map_order")
     level = level_of_amplitude(along_x.values)
-    top, label = float(level.max()), "Force along x, dB re 1 N peak"
-    speed = along_x["stopping_block_speed"]
-    image = Image(along_x["map_order"], speed, level, (top - MAP_RANGE_DB, top), label)
+    speed, label = along_x["stopping_block_speed"], "Force along x, dB re 1 N peak"
+    image = level_image(along_x["map_order"], speed, level, label)
     return Chart(
         "stopping_order_map",
         "Order map of the force along x over the falling speed of a stop without gas load.",

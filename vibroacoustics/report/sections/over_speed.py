@@ -9,8 +9,7 @@ from ..avoid import avoid_table, reference_words, rule_words
 from ..blocks import Block, Pictures, Text
 from ..figures.campbell import campbell
 from ..figures.levels_over_speed import levels_over_speed, source_levels_over_speed
-from ..figures.orders_over_speed import orders_over_speed
-from ..figures.speed_maps import speed_frequency_map
+from ..figures.orders_over_speed import orders_over_speed, speed_frequency_map
 from ..shown_speeds import over_speed
 from . import Section
 

@@ -4,7 +4,7 @@ import xarray as xr
 
 from ...base.registry import register
 from ..blocks import Block, Pictures
-from ..figures.run_up import run_up_levels, run_up_orders
+from ..figures.stacked import run_up_levels, run_up_orders
 from . import Section
 
 _FEWEST: int = 3

@@ -4,7 +4,7 @@ import xarray as xr
 
 from ....base.registry import register
 from ...blocks import Block, Bullets, Pictures, Text
-from ...figures.baseline import baseline_third_octaves
+from ...figures.sources import baseline_third_octaves
 from ...shown_speeds import chosen_speeds
 from .. import Section
 from . import tables as baseline

@@ -5,7 +5,7 @@ import xarray as xr
 from ....base.registry import register
 from ...blocks import Block, Pictures, Text
 from ...drawing import section_picture
-from ...figures.forces import force_over_revolution
+from ...figures.orders import force_over_revolution
 from .. import Section
 from .tables import figures_data
 

@@ -4,7 +4,7 @@ import xarray as xr
 
 from ....base.registry import register
 from ...blocks import Block, Pictures, Text
-from ...figures.mounts import mount_transmissibility
+from ...figures.radiation import mount_transmissibility
 from ...shown_speeds import chosen_speeds, few_speeds
 from .. import Section
 from .tables import attached_table, block_table, isolation_sentence, modes_table

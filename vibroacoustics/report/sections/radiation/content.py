@@ -5,8 +5,8 @@ import xarray as xr
 from ....base.registry import register
 from ...blocks import Block, Heading, Pictures, Text
 from ...figures.deflection import deflection_picture
+from ...figures.directivity import polar_levels
 from ...figures.maps import line_map
-from ...figures.polar import polar_levels
 from ...figures.radiation import green_difference, levels, transfer
 from ...kwave_words import kwave_sentence, kwave_to_hz
 from ...shown_speeds import chosen_speeds, few_speeds

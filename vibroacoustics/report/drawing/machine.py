@@ -1,13 +1,16 @@
-"""Outline of the machine, from the side and from above, about its centre of mass."""
+"""Outline of the machine about its centre of mass, and its forces at 1× without a balancer."""
 
 from collections.abc import Mapping
 from typing import Any, Final, NamedTuple
 
 import numpy as np
+import xarray as xr
 
-from ...base.arrays import Array
+from ...base.arrays import Array, ComplexArray
+from ...base.vocabulary import REFERENCE_OPTION
 
-CIRCLE: Final = 2.0 * np.pi * np.arange(48) / 48
+_ANGLE: Final = 2.0 * np.pi * np.arange(48) / 48
+_CIRCLE: Final = np.column_stack([np.cos(_ANGLE), np.sin(_ANGLE)])
 
 
 class Outline(NamedTuple):
@@ -35,14 +38,14 @@ def outline(shell: Mapping[str, Any], body: Mapping[str, Any]) -> Outline:
     kind = body.get("kind", "shell")
     if kind == "box":
         half_x, half_y = body["length_m"] / 2.0, body["width_m"] / 2.0
-        side = _rectangle(half_x, bottom, bottom + body["height_m"])
-        return Outline(side, _rectangle(half_x, -half_y, half_y), floor)
+        side = rectangle(half_x, bottom, bottom + body["height_m"])
+        return Outline(side, rectangle(half_x, -half_y, half_y), floor)
     if kind == "sphere":
         radius = body["diameter_m"] / 2.0
-        circle = radius * _circle()
+        circle = radius * _CIRCLE
         return Outline(circle + np.array([0.0, bottom + radius]), circle, floor)
     radius = shell["outer_diameter_m"] / 2.0
-    return Outline(_cylinder(shell, radius, bottom), radius * _circle(), floor)
+    return Outline(_cylinder(shell, radius, bottom), radius * _CIRCLE, floor)
 
 
 def feet_m(machine: Mapping[str, Any]) -> Array:
@@ -62,11 +65,8 @@ def feet_m(machine: Mapping[str, Any]) -> Array:
     return np.array([(x, y, under) for x in (half, -half) for y in (half, -half)])
 
 
-def _circle() -> Array:
-    return np.column_stack([np.cos(CIRCLE), np.sin(CIRCLE)])
-
-
-def _rectangle(half: float, lower: float, upper: float) -> Array:
+def rectangle(half: float, lower: float, upper: float) -> Array:
+    """Corners of a rectangle about the vertical axis, shape (4, 2)."""
     return np.array([(-half, lower), (half, lower), (half, upper), (-half, upper)])
 
 
@@ -77,3 +77,43 @@ def _cylinder(shell: Mapping[str, Any], radius: float, bottom: float) -> Array:
     upper = np.column_stack([radius * np.cos(arc), top - dome + dome * np.sin(arc)])
     lower = np.column_stack([-radius * np.cos(arc), bottom + dome - dome * np.sin(arc)])
     return np.concatenate([upper, lower])
+
+
+NEEDED = ("force_order", "moment_order", "foot_force_order", "force_amplitude", "moment_amplitude")
+
+
+class Loads(NamedTuple):
+    """Complex peaks at 1×, at the speed at which the resultant force is largest.
+
+    Force and moment on the machine about its centre of mass, shape (axis,), with the semi-major
+    axes of their ellipses, and forces into the feet, shape (foot, axis).
+    """
+
+    speed_rpm: float
+    force_n: ComplexArray
+    moment_nm: ComplexArray
+    foot_force_n: ComplexArray
+    force_amplitude_n: float
+    moment_amplitude_nm: float
+
+
+def loads(results: xr.Dataset) -> Loads | None:
+    """Loads without a balancer, as given; None in files of older versions."""
+    if any(name not in results for name in NEEDED):
+        return None
+    first = results[list(NEEDED)].sel(option=REFERENCE_OPTION, order=1)
+    at = first.isel(speed=int(first["force_amplitude"].argmax("speed")))
+    return Loads(
+        float(at["speed"]),
+        at["force_order"].sum("source").values,
+        at["moment_order"].sum("source").values,
+        at["foot_force_order"].sum("source").transpose("foot", "axis").values,
+        float(at["force_amplitude"]),
+        float(at["moment_amplitude"]),
+    )
+
+
+def turn(peak: ComplexArray, axes: tuple[int, int]) -> Array:
+    """Ends of the vector Re{peak exp(j angle)} over a turn in the plane of axes, shape (72, 2)."""
+    angle = 2.0 * np.pi * np.arange(72) / 72
+    return np.asarray((np.exp(1j * angle)[:, None] * peak[list(axes)]).real)
