@@ -15,9 +15,8 @@ from vibroacoustics import (
     mean_of_runs,
 )
 from vibroacoustics.report import analysis_of_comparison
-from vibroacoustics.report.compared.levels import levels_tables
 from vibroacoustics.report.compared.studies import inputs_table, key_figures
-from vibroacoustics.report.compared.validation import validations_of
+from vibroacoustics.report.compared.validation import levels_tables, validations_of
 from vibroacoustics.results.figure_limits import Compared
 from vibroacoustics.results.mean_of_runs import with_scatter
 from vibroacoustics.results.storage import write_results

@@ -16,7 +16,7 @@ from vibroacoustics.report.avoid import avoid_data
 from vibroacoustics.report.blocks import Part, from_json, pictures, to_json
 from vibroacoustics.report.blocks import drawn as drawn_blocks
 from vibroacoustics.report.charts.marks import Line, Points, Segments
-from vibroacoustics.report.compared.over_speed import channel_charts, over_speed_parts
+from vibroacoustics.report.compared.page import channel_charts, over_speed_parts
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.tables import to_csv
 from vibroacoustics.results.figure_limits import Compared

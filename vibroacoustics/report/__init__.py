@@ -8,21 +8,19 @@ from ..base.fault import collected
 from ..base.hashing import canonical_json
 from ..base.registry import plugins
 from .analysis import Analysis
-from .blocked_forces import analysis_of_blocked_forces
 from .columns import COLUMNS
-from .compared.limits import broken_lines
 from .compared.page import analysis_of_comparison
 from .curve_tables import analysis_of_curves
 from .data_sheet import analysis_of_data_sheet
-from .designs.best import no_best
-from .designs.page import analysis_of_designs, analysis_of_no_designs
+from .designs.page import analysis_of_designs, analysis_of_no_designs, no_best
 from .kept_columns import keep_columns
 from .kept_columns import kept as kept_columns
 from .kept_sections import keep_sections
 from .kept_sections import kept as kept_sections
 from .left_out import with_lines
+from .limit_tables import broken_lines
 from .measured_power import analysis_of_sound_power
-from .prediction import analysis_of_prediction
+from .measurements import analysis_of_blocked_forces, analysis_of_prediction
 from .radiation_tables import analysis_of_radiation
 from .recordings import analysis_of_map, analysis_of_orders, analysis_of_tracks
 from .responses import analysis_of_impulse_responses
@@ -56,10 +54,7 @@ __all__ = [
 def render(results: xr.Dataset, results_sha256: str = "") -> dict[str, bytes]:
     """All files of the report, by name; `/` in a name stands for a folder.
 
-    Parameters
-    ----------
-    results : dataset of a finished run, its attributes included
-    results_sha256 : hash of its file, which the page then names
+    The page names the hash of the results' file.
     """
     return analysis_of_study(results).files(results_sha256)
 

@@ -1,6 +1,6 @@
 """Speeds to avoid, in words, as table and file."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -60,16 +60,9 @@ def _alike(results: xr.Dataset, every: Sequence[Avoided]) -> list[list[Avoided]]
 def _row(results: xr.Dataset, same: Sequence[Avoided]) -> tuple[str, ...]:
     one, count = same[0], len(options(results))
     ends, peak, line, mode = _words(one)
-    return (
-        "all" if len(same) == count > 1 else ", ".join(other.option for other in same),
-        one.quantity,
-        ends,
-        peak,
-        rounding.fixed(one.range.above_db, 0),
-        _share(results, one),
-        line,
-        mode,
-    )
+    names = "all" if len(same) == count > 1 else ", ".join(other.option for other in same)
+    above = rounding.fixed(one.range.above_db, 0)
+    return names, one.quantity, ends, peak, above, _share(results, one), line, mode
 
 
 def _words(one: Avoided) -> tuple[str, str, str, str]:
@@ -80,7 +73,7 @@ def _words(one: Avoided) -> tuple[str, str, str, str]:
 
 
 def recorded_avoid_table(channel: str, ranges: Sequence[Range]) -> Table | None:
-    """Return the speed ranges to avoid of a recorded channel as a table; None without any."""
+    """Return the speeds to avoid of a recorded channel as a table; None without any."""
     if not ranges:
         return None
     rows = tuple(
@@ -119,17 +112,13 @@ def reference_words(every: Sequence[Avoided]) -> str:
 
 def avoid_data(every: Sequence[Avoided]) -> DataTable:
     """All of them; mode and its frequency are empty where none is near."""
-    return columns_of(_HEAD, _rows(every))
-
-
-def _rows(every: Sequence[Avoided]) -> Iterator[list[str | float]]:
+    rows: list[tuple[str | float, ...]] = []
     for one in every:
-        mode: tuple[str | float, ...] = ("", "")
-        if one.mode is not None:
-            mode = (f"{one.mode.kind} {one.mode.name}", one.mode.frequency_hz)
-        span = one.range
-        yield [one.option, one.quantity, span.from_rpm, span.to_rpm, span.peak_rpm,
-               span.above_db, one.line, one.line_hz, *mode]  # fmt: skip
+        ends, mode = (one.range.from_rpm, one.range.to_rpm, one.range.peak_rpm), one.mode
+        near = ("", "") if mode is None else (f"{mode.kind} {mode.name}", mode.frequency_hz)
+        what = (one.range.above_db, one.line, one.line_hz)
+        rows.append((one.option, one.quantity, *ends, *what, *near))
+    return columns_of(_HEAD, rows)
 
 
 def _ends(span: Range) -> str:

@@ -68,12 +68,7 @@ def fixed(value: Estimate) -> str:
 def band(results: xr.Dataset, name: str, **at: Any) -> Band:
     """Return the value of a variable with its interval.
 
-    Parameters
-    ----------
-    results : of a run
-    name : in the vocabulary
-    at : labels of its dimensions; A-weighted and at the microphone of the published level where
-        none is named
+    A-weighted and at the microphone of the published level where no other labels are given.
     """
     selection = {"weighting": "A", "receiver": catalogue_receiver(results), **at}
     value = estimate(results, name, **selection)
@@ -88,13 +83,7 @@ def number(
 ) -> Number:
     """Return the value of a variable as a number; its text has the interval in brackets.
 
-    Parameters
-    ----------
-    results : of a run
-    name : in the vocabulary
-    write : gives the text of a value
-    unit : that of the vocabulary where none is given
-    at : see `band`
+    The unit is that of the vocabulary where none is given; labels are those of `band`.
     """
     selection = {"weighting": "A", "receiver": catalogue_receiver(results), **at}
     text = band(results, name, **at).middle_and_ends(write)
@@ -102,13 +91,9 @@ def number(
 
 
 def written(value: Estimate, effective: float, finest: float | None = None) -> Band:
-    """Return a band with the digits that the number of samples allows.
+    """Return a band with the digits that the effective number of samples allows.
 
-    Parameters
-    ----------
-    value : estimate
-    effective : number of samples
-    finest : least standard error that sets the digits; none for that of an amount
+    `finest` is the least standard error that sets the digits; None for that of an amount.
     """
     least = FINEST_RATIO * abs(value.value) if finest is None else finest
     width = (value.high - value.low) / np.sqrt(max(effective, 1.0))

@@ -12,10 +12,23 @@ from .blocks import Bullets, Part, Pictures, Text
 from .figures.sources import sheet_chart
 from .file_names import file_name
 from .sections.tones.tables import excess_words
-from .tables import Table, columns_of
+from .tables import Table, columns_of, known
 
 Row = tuple[str, str, str, str | float, str]
 _HEAD: Final = ("part", "item", "quantity", "value", "unit")
+_OF_ALL: Final = ("level_dba", "modelled_dba", "nominal_dba", "uncertainty_k_db", "model_spread_db",
+                  "measurement_deviation_db", "batch_deviation_db")  # fmt: skip
+_OF_BAND: Final = ("modelled_db", "modelled_below_db", "unmodelled_db", "total_db")
+_OF_TONE: Final = (
+    ("frequency_hz", "Hz"), ("level_db", "dB"), ("excess_db", "dB"),
+    ("excess_low_db", "dB"), ("excess_high_db", "dB"), ("probability", "1"),
+)  # fmt: skip
+_OF_POINT: Final = (
+    ("displacement_peak_to_peak_m", "displacement p-p", "m", "s p-p, µm", 1e6),
+    ("velocity_rms_m_per_s", "velocity rms", "m/s", "v rms, mm/s", 1e3),
+    ("acceleration_rms_m_per_s2", "acceleration rms", "m/s²", "a rms, m/s²", 1.0),
+)
+"""Field, its quantity and unit in the CSV, its head in the page and what it is multiplied by."""
 
 
 def analysis_of_data_sheet(sheet: DataSheet) -> Analysis:
@@ -54,17 +67,16 @@ def headline(sheet: DataSheet) -> str:
     whose = "single machine" if power.batch_deviation_db is None else "batch"
     if power.declared is not None:
         level, uncertainty = power.declared
-        return (
-            f"L_WA = {level} dB, K_WA = {uncertainty} dB re 1 pW (dual number, as in ISO 4871; "
-            f"{whose}): {sheet.statement}{alone}."
+        words = (
+            f"{level} dB, K_WA = {uncertainty} dB re 1 pW (dual number, as in ISO 4871; {whose})"
         )
-    level_dba = float("nan") if power.level_dba is None else power.level_dba
-    level_words = f"L_WA = {rounding.fixed(level_dba)} dB re 1 pW, K_WA not known"
-    return f"{level_words}: {sheet.statement}{alone}."
+    else:
+        words = f"{_shown(power.level_dba) or rounding.NOTHING} dB re 1 pW, K_WA not known"
+    return f"L_WA = {words}: {sheet.statement}{alone}."
 
 
 def _words(power: SoundPower) -> tuple[Text, ...]:
-    modelled = "–" if power.modelled_dba is None else rounding.fixed(power.modelled_dba)
+    modelled = _shown(power.modelled_dba) or rounding.NOTHING
     lowest, highest = map(rounding.significant, power.model_range_hz)
     return (
         Text(f"Modelled sources alone: L_WA = {modelled} dB. Besides: {power.unmodelled_words}."),
@@ -90,7 +102,7 @@ def _bands(power: SoundPower) -> Table:
 def _modelled(band: BandPower) -> str:
     if band.modelled_below_db is not None:
         return f"model: below {rounding.fixed(band.modelled_below_db, 0)}"
-    return "not modelled" if band.modelled_db is None else rounding.fixed(band.modelled_db)
+    return _shown(band.modelled_db) or "not modelled"
 
 
 def _tones(sheet: DataSheet) -> tuple[Text | Table, ...]:
@@ -147,30 +159,28 @@ def _vibration(sheet: DataSheet) -> Table:
     rows = tuple(
         (
             point,
-            *(rounding.significant(1e6 * motion.displacement_peak_to_peak_m) for motion in motions),
-            *(rounding.significant(1e3 * motion.velocity_rms_m_per_s) for motion in motions),
-            *(rounding.significant(motion.acceleration_rms_m_per_s2) for motion in motions),
+            *(
+                rounding.significant(factor * getattr(motion, name))
+                for name, _, _, _, factor in _OF_POINT
+                for motion in motions
+            ),
         )
         for point, motions in of_point.items()
     )
     directions = [motion.direction for motion in next(iter(of_point.values()))]
-    names = ("s p-p, µm", "v rms, mm/s", "a rms, m/s²")
-    head = ("Point", *(f"{name}, {axis}" for name in names for axis in directions))
+    head = ("Point", *(f"{each[3]}, {axis}" for each in _OF_POINT for axis in directions))
     return Table("Displacement s, velocity v and acceleration a along x, y, z", head, rows)
 
 
 def _facts(sheet: DataSheet) -> Table:
     rows = tuple(
-        (fact.name, f"{_value(fact.value)} {fact.unit}".strip(), kind)
+        (fact.name, f"{value} {fact.unit}".strip(), kind)
         for kind, facts in (("operation", sheet.operating), ("mounting", sheet.mounting))
         for fact in facts
+        for value in [fact.value if isinstance(fact.value, str) else f"{fact.value:g}"]
     )
     head = ("", "Value", "")
     return Table("Conditions (EN 12102-1)", head, rows, frozenset({0, 1, 2}))
-
-
-def _value(value: float | str) -> str:
-    return value if isinstance(value, str) else f"{value:g}"
 
 
 def _sentence(words: str) -> str:
@@ -187,28 +197,17 @@ def _rows(sheet: DataSheet) -> Iterator[Row]:
     for part, facts in (("operating", sheet.operating), ("mounting", sheet.mounting)):
         for fact in facts:
             yield part, fact.name, "", fact.value, fact.unit
-    for name in (
-        "level_dba", "modelled_dba", "nominal_dba", "uncertainty_k_db", "model_spread_db",
-        "measurement_deviation_db", "batch_deviation_db",
-    ):  # fmt: skip
-        yield "sound power", "A-weighted", name, _cell(getattr(power, name)), "dB"
+    for name in _OF_ALL:
+        yield "sound power", "A-weighted", name, known(getattr(power, name)), "dB"
     yield "sound power", "prior of the unmodelled noise", "", power.prior, ""
     for band in power.bands:
-        for name in ("modelled_db", "modelled_below_db", "unmodelled_db", "total_db"):
-            yield "sound power", f"{band.band_hz:g} Hz", name, _cell(getattr(band, name)), "dB"
+        for name in _OF_BAND:
+            yield "sound power", f"{band.band_hz:g} Hz", name, known(getattr(band, name)), "dB"
     for tone in sheet.tones:
-        for name, unit in (
-            ("frequency_hz", "Hz"), ("level_db", "dB"), ("excess_db", "dB"),
-            ("excess_low_db", "dB"), ("excess_high_db", "dB"), ("probability", "1"),
-        ):  # fmt: skip
+        for name, unit in _OF_TONE:
             item = f"{tone.name} at {tone.microphone}"
-            yield "prominent tone", item, name, _cell(getattr(tone, name)), unit
+            yield "prominent tone", item, name, known(getattr(tone, name)), unit
     for point in sheet.vibration:
-        item = f"{point.point} {point.direction}"
-        yield "vibration", item, "displacement p-p", point.displacement_peak_to_peak_m, "m"
-        yield "vibration", item, "velocity rms", point.velocity_rms_m_per_s, "m/s"
-        yield "vibration", item, "acceleration rms", point.acceleration_rms_m_per_s2, "m/s²"
-
-
-def _cell(level: float | None) -> str | float:
-    return "" if level is None else level
+        for name, words, unit, _, _ in _OF_POINT:
+            item = f"{point.point} {point.direction}"
+            yield "vibration", item, words, getattr(point, name), unit

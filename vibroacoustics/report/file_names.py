@@ -14,11 +14,6 @@ def numbered(results: xr.Dataset, dimension: str) -> list[tuple[str, str]]:
     """Return labels of a dimension, each with the name of its file without ending.
 
     The number makes the name of a file unique; it has at most about 60 letters.
-
-    Parameters
-    ----------
-    results : with the dimension
-    dimension : its name
     """
     names = map(str, results[dimension].values)
     return [(name, f"{number}_{file_name(name)[:60]}") for number, name in enumerate(names, 1)]

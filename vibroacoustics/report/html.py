@@ -15,15 +15,7 @@ from .live.assets import live_script, live_style, packed, unpacking_script
 
 
 def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = "") -> bytes:
-    """Return a page; all figures and the style are inside, nothing is loaded from elsewhere.
-
-    Parameters
-    ----------
-    title : heading
-    about : paragraph below it
-    parts : sections
-    results_sha256 : hash of the results that the page names
-    """
+    """Return a page; all figures and the style are inside, nothing is loaded from elsewhere."""
     environment = Environment(
         loader=PackageLoader("vibroacoustics.report"),
         autoescape=True,
@@ -98,8 +90,5 @@ def _breakable(text: str) -> Markup:
 
 
 def _data_address(picture: Picture) -> str:
-    return _address(picture.content, {"png": "png", "svg": "svg+xml"}[picture.ending])
-
-
-def _address(content: bytes, kind: str) -> str:
-    return f"data:image/{kind};base64,{base64.b64encode(content).decode()}"
+    kind = {"png": "png", "svg": "svg+xml"}[picture.ending]
+    return f"data:image/{kind};base64,{base64.b64encode(picture.content).decode()}"

@@ -32,11 +32,8 @@ class ColumnsOf(NamedTuple):
 def columns_of(results: xr.Dataset) -> ColumnsOf:
     """Built-in columns, those of strangers that are loaded, and kept ones of others, in order."""
     strangers = COLUMNS.origins()
-    columns = [
-        column
-        for column in COLUMNS.values()
-        if column.name not in strangers and column.applies(results)
-    ]
+    built_in = [column for column in COLUMNS.values() if column.name not in strangers]
+    columns = [column for column in built_in if column.applies(results)]
     names = frozenset(column.name for column in columns)
     with collected() as lines:
         for name in strangers:
@@ -50,11 +47,8 @@ def columns_of(results: xr.Dataset) -> ColumnsOf:
 
 def keep_columns(results: xr.Dataset) -> xr.Dataset:
     """The results with head, values and texts of every column that is not built in."""
-    others = [
-        column
-        for column in columns_of(results).columns
-        if COLUMNS.origin(column.name) or column.name not in COLUMNS
-    ]
+    every = columns_of(results).columns
+    others = [one for one in every if COLUMNS.origin(one.name) or one.name not in COLUMNS]
     held = results.drop_vars(["column_value", "column"], errors="ignore")
     if not others:
         return held.assign_attrs({ATTRIBUTE: "[]"}) if COLUMNS.origins() else held
@@ -62,12 +56,9 @@ def keep_columns(results: xr.Dataset) -> xr.Dataset:
     held.attrs[ATTRIBUTE] = json.dumps(
         [_as_json(column, values, results) for column, values in zip(others, arrays, strict=True)]
     )
-    values = np.stack([array.values for array in arrays])
-    coords = {
-        "column": [column.name for column in others],
-        **{dim: results[dim] for dim in _DIMENSIONS},
-    }
-    held["column_value"] = stamp("column_value", values, coords)
+    names = [column.name for column in others]
+    coords = {"column": names, **{dim: results[dim] for dim in _DIMENSIONS}}
+    held["column_value"] = stamp("column_value", np.stack(arrays), coords)
     return held
 
 
@@ -124,16 +115,8 @@ class KeptColumn(Part):
 
     def column(self) -> Column:
         """The column with these texts."""
-        values = partial(_kept_values, self.name)
-        return Column(
-            self.name,
-            values,
-            self.head,
-            self.terminal,
-            _writer(self.texts),
-            self.change_of,
-            position=self.position,
-        )
+        shown = (partial(_kept_values, self.name), self.head, self.terminal, _writer(self.texts))
+        return Column(self.name, *shown, self.change_of, position=self.position)
 
 
 def kept(results: xr.Dataset) -> list[Column]:

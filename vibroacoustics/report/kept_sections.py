@@ -22,11 +22,8 @@ def sections_of(results: xr.Dataset) -> list[Section]:
     One that fails, or is missing, says so in one line.
     """
     strangers = SECTIONS.origins()
-    sections = [
-        section
-        for section in SECTIONS.values()
-        if section.name not in strangers and section.applies(results)
-    ]
+    built_in = [section for section in SECTIONS.values() if section.name not in strangers]
+    sections = [section for section in built_in if section.applies(results)]
     for name in strangers:
         sections += _guarded(SECTIONS[name], results)
     sections += [section for section in kept(results) if section.name not in SECTIONS]

@@ -62,8 +62,7 @@ def kwave_difference_db(results: xr.Dataset) -> float | None:
     if not by_kwave.size:
         return None
     differences = method_difference_db(results)
-    largest = by_kwave.values if differences is None else differences
-    return float(np.nanmax(np.abs(largest)))
+    return float(np.nanmax(np.abs(by_kwave.values if differences is None else differences)))
 
 
 def receiver_methods(results: xr.Dataset) -> dict[str, tuple[str, str]]:
@@ -78,11 +77,7 @@ def receiver_methods(results: xr.Dataset) -> dict[str, tuple[str, str]]:
 def computed_by_kwave(results: xr.Dataset) -> xr.DataArray:
     """`green_difference` at the microphones and frequencies that k-Wave computed; else empty."""
     if "green_difference" not in results:
-        return xr.DataArray(
-            np.empty((0, 0)),
-            coords={"receiver": [], "frequency": []},
-            dims=("receiver", "frequency"),
-        )
+        return xr.DataArray(np.empty((0, 0)), coords=[("receiver", []), ("frequency", [])])
     gap = results["green_difference"].transpose("receiver", "frequency")
     return gap.dropna("receiver", how="all").dropna("frequency", how="all")
 

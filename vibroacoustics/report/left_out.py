@@ -13,19 +13,8 @@ from ..results.left_out import keep_lines, lines_of
 def with_lines(
     results: xr.Dataset, lines: Sequence[str], registries: Sequence[Registry[Any]]
 ) -> xr.Dataset:
-    """Return the results with the present lines on things that are loaded, in place of older ones.
-
-    Parameters
-    ----------
-    results : of a run
-    lines : on what is omitted now
-    registries : of sections and columns
-    """
-    loaded = [
-        f"{registry.noun} {name} is omitted:"
-        for registry in registries
-        for name in registry.origins()
-    ]
+    """Return the results with these lines on things that are loaded, in place of older ones."""
+    loaded = [f"{each.noun} {name} is omitted:" for each in registries for name in each.origins()]
     older = [line for line in lines_of(results) if not line.startswith(tuple(loaded))]
     return keep_lines(results, [*older, *lines])
 
@@ -33,11 +22,7 @@ def with_lines(
 def missing(results: xr.Dataset, noun: str, attribute: str) -> dict[str, str]:
     """Lines on things that were registered when the results were made and were not kept, by name.
 
-    Parameters
-    ----------
-    results : of a run
-    noun : what such a thing is called, `section` or `column`
-    attribute : of the results that holds the kept ones
+    The noun is `section` or `column`; the attribute of the results holds the kept ones.
     """
     if attribute in results.attrs:
         return {}
@@ -46,6 +31,5 @@ def missing(results: xr.Dataset, noun: str, attribute: str) -> dict[str, str]:
         name: f"{noun} {name} is left out: {origin['file']} is not loaded, and the results do "
         "not hold it"
         for key, origin in plugins.items()
-        for kind, _, name in [key.partition(" ")]
-        if kind == noun
+        if (name := key.removeprefix(f"{noun} ")) != key
     }

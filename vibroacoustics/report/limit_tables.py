@@ -1,6 +1,6 @@
-"""Tables of orders against their limits."""
+"""Orders and other figures against their limits: tables, and a line for each that is broken."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -9,16 +9,22 @@ import xarray as xr
 from ..base import rounding
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_amplitude
+from ..results.figure_limits import CheckedFigure
 from ..results.order_limits import NOT_CHECKED
-from .order_tables import amplitude
-from .tables import DataTable, Table, columns_of
+from .bands import percent
+from .blocks import Block, Bullets, Text
+from .tables import DataTable, Record, Table, amplitude, columns_of, data_table, known, records
 
+_OF_RESULT: Final = ("channel", "speed_rpm", "value", "margin_db")
 _OF_ONE: Final = {"": ("channel", "speed", "channel_order_rms", "limit_margin")}
 _OF_TWO: Final = {
     "A": ("channel", "speed", "channel_order_rms", "limit_margin"),
     "B": ("compared_channel", "compared_speed", "compared_order_rms", "compared_limit_margin"),
 }
-"""By the result: names of its channel, speed, RMS and margin."""
+"""By the result: names of its channel, speed, RMS and margin, the columns that it has alone."""
+_FIELDS: Final = (
+    "result", "figure", "speed_rpm", "value", "limit", "unit", "side", "margin", "probability",
+)  # fmt: skip
 
 
 class _Checked(NamedTuple):
@@ -49,7 +55,9 @@ def limits_data(checked: xr.Dataset) -> DataTable:
 
 def limits_words(checked: xr.Dataset) -> list[str]:
     """How many orders exceed their limit, and what was not checked."""
-    return [_verdict(_worst(checked)), *_not_checked(checked)]
+    left_out = checked.attrs.get(NOT_CHECKED)
+    not_checked = [f"not checked, no such order or speed: {left_out}"] if left_out else []
+    return [_verdict(_worst(checked)), *not_checked]
 
 
 def order_limits_table(checked: xr.Dataset) -> Table:
@@ -100,11 +108,6 @@ def _verdict(worst: list[_Checked]) -> str:
     )
 
 
-def _not_checked(checked: xr.Dataset) -> list[str]:
-    left_out = checked.attrs.get(NOT_CHECKED)
-    return [f"not checked, no such order or speed: {left_out}"] if left_out else []
-
-
 def _worst(checked: xr.Dataset) -> list[_Checked]:
     """The row of least margin of each result, channel and order."""
     worst: dict[tuple[str, str, float], _Checked] = {}
@@ -117,30 +120,114 @@ def _worst(checked: xr.Dataset) -> list[_Checked]:
 def _rows(checked: xr.Dataset) -> Iterator[_Checked]:
     """Of each channel, speed and order with a limit, a row of each result that has a value."""
     names = _OF_TWO if "compared_limit_margin" in checked else _OF_ONE
-    used = {name for each in names.values() for name in each} | {"order_limit", "order"}
-    values = {name: checked[name].values for name in used}
-    units = checked["channel_unit"].values
-    for at in zip(*np.nonzero(np.isfinite(values["order_limit"])), strict=True):
-        unit = str(units[at[0]])
-        for result, (channel, speed, rms, margin) in names.items():
-            if np.isfinite(values[margin][at]):
-                yield _Checked(
-                    result=result,
-                    channel=str(values[channel][at[0]]),
-                    unit="dB" if unit == "Pa" else unit,
-                    order=float(values["order"][at[2]]),
-                    speed_rpm=float(values[speed][at[1]]),
-                    value=_in_unit(float(values[rms][at]), unit),
-                    limit=_in_unit(float(values["order_limit"][at]), unit),
-                    margin_db=float(values[margin][at]),
-                    within="yes" if values[margin][at] >= 0.0 else "no",
-                )
+    shared = {"unit": "channel_unit", "order": "order", "limit": "order_limit"}
+    tables = []
+    for of_result in names.values():
+        columns = shared | dict(zip(_OF_RESULT, of_result, strict=True))
+        arrays = {column: checked[name] for column, name in columns.items()}
+        tables.append(records(data_table(("channel", "speed", "order"), arrays)))
+    for rows in zip(*tables, strict=True):
+        for result, row in zip(names, rows, strict=True):
+            if np.isfinite(row["limit"]) and np.isfinite(row["margin_db"]):
+                within = "yes" if row["margin_db"] >= 0.0 else "no"
+                yield _Checked(result=result, within=within, **_in_unit(row))
 
 
-def _in_unit(rms: float, unit: str) -> float:
+def _in_unit(row: Record) -> Record:
     """Sound pressure as its level, all else as it is."""
-    return float(level_of_amplitude(rms / REFERENCE_PRESSURE_PA)) if unit == "Pa" else rms
+    if row["unit"] != "Pa":
+        return row
+    rms = np.array([row["value"], row["limit"]])
+    value, limit = level_of_amplitude(rms / REFERENCE_PRESSURE_PA).tolist()
+    return {**row, "unit": "dB", "value": value, "limit": limit}
 
 
 def _shown(value: float, unit: str) -> str:
     return rounding.fixed(value) if unit == "dB" else amplitude(value)
+
+
+def broken_lines(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> list[str]:
+    """What is broken, a line each; none where all limits hold."""
+    orders = broken_orders(checked) if "order_limit" in checked else []
+    return [*orders, *(_broken(row) for row in figures if not row.is_within)]
+
+
+def limit_blocks(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> list[Block]:
+    """What is broken, and every limit with its margin; nothing without limits."""
+    if not figures and "order_limit" not in checked:
+        return []
+    broken = broken_lines(checked, figures)
+    blocks: list[Block] = [Text(limits_sentence(checked, figures), "strong")]
+    if broken:
+        blocks.append(Bullets(tuple(broken)))
+    if "order_limit" in checked:
+        blocks.append(order_limits_table(checked))
+    return [*blocks, figure_limits_table(figures)] if figures else blocks
+
+
+def limits_sentence(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> str:
+    """How many limits are broken."""
+    count = len(broken_lines(checked, figures))
+    if not count:
+        return "Every limit holds."
+    return f"{count} limit{'s are' if count > 1 else ' is'} broken."
+
+
+def figure_limits_table(figures: Sequence[CheckedFigure]) -> Table:
+    """Every figure that has a limit."""
+    rows = [
+        (
+            f"{row.result}: {row.figure}",
+            _speed(row),
+            value,
+            f"{row.side} {limit}",
+            row.unit,
+            rounding.fixed(row.margin) if _is_level(row) else rounding.significant(row.margin),
+            percent(row.probability),
+            "" if row.is_within else "broken",
+        )
+        for row in figures
+        for value, limit in [_numbers(row)]
+    ]
+    head = ("Figure", "rpm", "Value", "Limit", "Unit", "Margin", "Probability that it holds", "")
+    return Table(
+        "Limits of totals, bands, criteria and lowest values",
+        head,
+        tuple(rows),
+        frozenset({0, 4, 7}),
+    )
+
+
+def figure_limits_data(figures: Sequence[CheckedFigure]) -> DataTable:
+    """Every figure that has a limit; the speed is empty where a figure is of all speeds."""
+    rows = [
+        [*(known(getattr(row, name)) for name in _FIELDS), "yes" if row.is_within else "no"]
+        for row in figures
+    ]
+    return columns_of((*_FIELDS, "within"), rows)
+
+
+def _speed(row: CheckedFigure) -> str:
+    return rounding.NOTHING if np.isnan(row.speed_rpm) else f"{row.speed_rpm:.0f}"
+
+
+def _broken(row: CheckedFigure) -> str:
+    at = "" if np.isnan(row.speed_rpm) else f" at {row.speed_rpm:.0f} rpm"
+    beyond = "above" if row.side == "highest" else "below"
+    value, limit = _numbers(row)
+    return (
+        f"{row.figure}{at} in {row.result}: {value} {row.unit} is {beyond} {limit} {row.unit} "
+        f"({row.origin})"
+    )
+
+
+def _numbers(row: CheckedFigure) -> tuple[str, str]:
+    """Value and limit: levels to 0.1 dB, to more digits where they would read the same."""
+    level, limit = (rounding.fixed(one) for one in (row.value, row.limit))
+    if _is_level(row) and level != limit:
+        return level, limit
+    return rounding.significant(row.value, 4), rounding.significant(row.limit, 4)
+
+
+def _is_level(row: CheckedFigure) -> bool:
+    return row.unit.startswith("dB")

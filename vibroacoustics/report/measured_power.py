@@ -7,13 +7,13 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from ..base import rounding
-from ..results.number import Number, number
+from ..results.number import number
 from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 from .analysis import Analysis, origin
 from .bands import fixed
 from .blocks import Bullets, Part, Pictures
 from .figures.sources import power_chart
-from .tables import Cell, DataTable, Table, columns_of
+from .tables import Cell, DataTable, Table, known
 
 GRADES: Final = {
     2: "grade 2 (ISO 3744, engineering)",
@@ -27,6 +27,8 @@ _COLUMNS: Final = {
     "environment_correction": "k2_db",
     "measured_power_level": "sound_power_level_db",
 }
+_NONE: Final = np.array(np.nan)
+"""Of the mean level of the positions there is no A-weighted sum."""
 
 
 def analysis_of_sound_power(measured: xr.Dataset) -> Analysis:
@@ -49,16 +51,14 @@ def analysis_of_sound_power(measured: xr.Dataset) -> Analysis:
 
 def _bands(measured: xr.Dataset) -> DataTable:
     """Every band, and the A-weighted sums in the last row; empty where nothing was measured."""
-    rows: list[list[str | float]] = [
-        [float(band), *(_cell(measured[name].values[at]) for name in _COLUMNS), _bound(margin)]
-        for at, (band, margin) in enumerate(
-            zip(measured["band"].values, measured["background_margin"].values, strict=True)
-        )
-    ]
-    sums = [measured[f"{name}_a"].item() for name in list(_COLUMNS)[1:]]
-    margin = measured["background_margin_a"].item()
-    rows.append(["A", "", *map(_cell, sums), _bound(margin)])
-    return columns_of(("band_hz", *_COLUMNS.values(), "is_upper_bound"), rows)
+    margins = [*measured["background_margin"].values, measured["background_margin_a"].item()]
+    columns = {head: [*measured[name].values.tolist(), measured.get(f"{name}_a", _NONE).item()]
+               for name, head in _COLUMNS.items()}  # fmt: skip
+    return {
+        "band_hz": [*measured["band"].values.tolist(), "A"],
+        **{head: [*map(known, values)] for head, values in columns.items()},
+        "is_upper_bound": [*map(_bound, margins)],
+    }
 
 
 def headline(measured: xr.Dataset) -> str:
@@ -75,15 +75,13 @@ def _table(measured: xr.Dataset) -> Table:
                                               for name in _COLUMNS))
         for band, bound in zip(measured["band"].values.tolist(), bounds, strict=True)
     ]  # fmt: skip
-    sums = (_sum(measured, f"{name}_a") for name in list(_COLUMNS)[1:])
+    units = {"measured_power_level": "dB(A)"}
+    sums = (
+        number(measured, f"{name}_a", fixed, units.get(name, "dB")) for name in list(_COLUMNS)[1:]
+    )
     head = ("Band, Hz", "Mean Lp", "over background", "K1", "K2", "L_W")
     caption = "Sound power level in third octaves, dB"
     return Table(caption, head, (*rows, ("A", "", *sums)))
-
-
-def _sum(measured: xr.Dataset, name: str) -> Number:
-    unit = "dB(A)" if name == "measured_power_level_a" else "dB"
-    return number(measured, name, fixed, unit)
 
 
 def _remarks(measured: xr.Dataset) -> list[str]:
@@ -115,10 +113,6 @@ def _background(measured: xr.Dataset) -> str:
     if _is_upper_bound(measured["background_margin"].values).any():
         words += "; in bands with * by less than 6 dB: their level is an upper bound"
     return f"{words}."
-
-
-def _cell(value: float) -> str | float:
-    return float(value) if np.isfinite(value) else ""
 
 
 def _bound(margin_db: float) -> str:

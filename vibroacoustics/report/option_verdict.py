@@ -8,12 +8,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.remembered import remembered
-from ..results.stored_study import (
-    balancers,
-    has_sources,
-    other_receivers,
-    words,
-)
+from ..results.stored_study import balancers, has_sources, other_receivers, words
 from .quantities import JUDGED, LINE
 from .sections.sources.changes import key_impacts
 from .shifts import Shift, shift

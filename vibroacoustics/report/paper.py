@@ -13,13 +13,9 @@ _INNERMOST: Final = re.compile(r"<details\b(?:(?!<details\b).)*?</details>", re.
 
 
 def for_paper(page: bytes, paper: str, brief: bool = False) -> bytes:
-    """Return the HTML page for paper; its policy allows its new style.
+    """Return the HTML page for paper, a name of PAPERS; brief: without what is folded.
 
-    Parameters
-    ----------
-    page : as a browser shows it
-    paper : a name of PAPERS
-    brief : without what is folded
+    The page's policy allows its new style.
     """
     text = page.decode()
     found_style = _STYLE.search(text)

@@ -1,5 +1,6 @@
 """Analysis of a housing's radiation: levels at unit velocity, their error, sound power."""
 
+from itertools import product
 from typing import Final
 
 import numpy as np
@@ -30,17 +31,14 @@ def analysis_of_radiation(radiated: xr.Dataset) -> Analysis:
     if "unit_sound_power_level" in radiated:
         tables.append(_power_table(radiated["unit_sound_power_level"], nearest, head))
     blocks: tuple[Block, ...] = (*tables, Text(kwave_line(radiated)))
+    figures = Pictures(tuple(radiation_figures(radiated)))
     return Analysis(
         "transfer_vectors",
         **origin(radiated, "Housing"),
         about="Sound of the housing at unit velocity.",
         parts=(
             Part("levels", "Levels at unit velocity", blocks),
-            Part(
-                "figures",
-                "Over frequency and direction",
-                (Pictures(tuple(radiation_figures(radiated))),),
-            ),
+            Part("figures", "Over frequency and direction", (figures,)),
         ),
         shown=blocks,
     )
@@ -48,19 +46,17 @@ def analysis_of_radiation(radiated: xr.Dataset) -> Analysis:
 
 def _level_table(radiated: xr.Dataset, nearest: list[int], head: tuple[str, ...]) -> Table:
     field = radiated["transfer_vector"].transpose("receiver", "dof", "frequency")
-    level = unit_level_db(field.values)
-    error = radiated.get("transfer_vector_error")
-    worst = None if error is None else _error_db(field, error)
-    rows = []
-    for i, receiver in enumerate(names(field, "receiver")):
-        for j, dof in enumerate(names(field, "dof")):
-            cells = [rounding.level(float(level[i, j, k])) for k in nearest]
-            if worst is not None:
-                cells.append(rounding.fixed(float(worst[i, j]), 2))
-            rows.append((receiver, dof, *cells))
-    last = () if worst is None else ("error dB",)
+    shape = (-1, len(nearest))
+    levels = unit_level_db(field.values)[:, :, nearest].reshape(shape).tolist()
+    cells = [[rounding.level(level) for level in row] for row in levels]
+    if "transfer_vector_error" in radiated:
+        head = (*head, "error dB")
+        errors = _error_db(field, radiated["transfer_vector_error"]).ravel().tolist()
+        cells = [[*row, rounding.fixed(error, 2)] for row, error in zip(cells, errors, strict=True)]
+    of_rows = product(names(field, "receiver"), names(field, "dof"))
+    rows = tuple((*of_row, *row) for of_row, row in zip(of_rows, cells, strict=True))
     caption = "Level at 1 mm/s (t), 1 mrad/s (r) rms, dB re 20 µPa; error: median estimate"
-    return Table(caption, ("Microphone", "dof", *head, *last), tuple(rows), frozenset({0, 1}))
+    return Table(caption, ("Microphone", "dof", *head), rows, frozenset({0, 1}))
 
 
 def _error_db(field: xr.DataArray, error: xr.DataArray) -> Array:

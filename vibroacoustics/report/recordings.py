@@ -1,12 +1,20 @@
-"""Analyses of a recording: its orders, tracked orders, and spectra over the speed."""
+"""Analyses of a recording: its orders and levels, tracked orders, and spectra over the speed."""
+
+from collections.abc import Iterator
+from functools import partial
+from itertools import product
+from typing import Final
 
 import numpy as np
 import xarray as xr
 
+from ..base import rounding
+from ..results.number import number
 from ..results.over_speed.avoid import recorded_speeds_to_avoid
 from ..results.over_speed.level_curves import is_run_up, recorded_curves
 from .analysis import Analysis, origin
 from .avoid import RECORDED_RULE, recorded_avoid_table
+from .bands import fixed
 from .blocks import Block, Bullets, Part, Pictures, Text
 from .figures.channel_orders import (
     recorded_order_charts,
@@ -14,14 +22,38 @@ from .figures.channel_orders import (
     tracked_order_charts,
 )
 from .limit_tables import limits_data, limits_words, order_limits_table
-from .order_tables import (
-    levels_data,
-    orders_data,
-    orders_facts,
-    orders_tables,
-    tracked_data,
-    tracked_facts,
-    tracked_table,
+from .tables import (
+    Cell,
+    Columns,
+    DataTable,
+    Table,
+    amplitude,
+    columns_of,
+    data_table,
+    phase_deg,
+    records,
+    table_of,
+)
+
+_MOST_SPEEDS: Final = 6
+"""Operating points in the text; all are in the CSV."""
+_MOST_FAULTS: Final = 5
+"""Faults of the tacho that are listed; all are counted."""
+_LEAST_COHERENCE: Final = 0.8
+"""Of an order whose phase is told; noise in five independent blocks reaches it once in 600 times,
+0.2^(5 - 1)."""
+_LEVELS: Final = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
+_DIMENSIONS: Final = ("channel", "speed", "order")
+_COLUMNS: Final[Columns] = (
+    ("Channel", "channel", str),
+    ("unit", "unit", str),
+    ("rpm", "speed_rpm", "{:.0f}".format),
+    ("blocks", "blocks", "{:.0f}".format),
+    ("Order", "order", "{:g}".format),
+    ("Peak", "amplitude_peak", amplitude),
+    ("phase, °", "known_phase_deg", rounding.fixed),
+    ("RMS in band", "rms_in_band", amplitude),
+    ("coherence", "coherence", partial(rounding.fixed, decimals=3)),
 )
 
 
@@ -33,7 +65,7 @@ def analysis_of_orders(results: xr.Dataset) -> Analysis:
         Part("orders", "Orders and levels", tuple(tables)),
         Part("settings", "Speed and resolution", (facts,)),
     ]
-    data = {"orders.csv": orders_data(results)}
+    data = {"orders.csv": data_table(_DIMENSIONS, _orders(results))}
     shown: list[Block] = [facts, *tables]
     if "equivalent_level" in results:
         data["levels.csv"] = levels_data(results)
@@ -90,3 +122,167 @@ def _avoid(mapped: xr.Dataset) -> list[Block]:
         table = recorded_avoid_table(channel, ranges)
         blocks.append(table or Text(f"{channel}: none by the rule below."))
     return [*blocks, Text(RECORDED_RULE, "note")]
+
+
+def orders_facts(results: xr.Dataset) -> list[str]:
+    """Where the speed comes from, and how finely orders are resolved."""
+    attrs = results.attrs
+    facts = [
+        f"speed: {attrs['speed_source']}",
+        f"crank angle zero: {attrs['angle_zero']}",
+        f"resolution: {attrs['resolution_order']:.3g} orders (noise bandwidth), blocks of "
+        f"{attrs['revolutions_per_block']} revolutions, {attrs['window']} window",
+    ]
+    if "fault_time" in results:
+        facts.append(_faults_line(results["fault_time"]))
+    if "left_out" in attrs:
+        facts.append(f"left out: {attrs['left_out']}")
+    return facts
+
+
+def orders_tables(results: xr.Dataset) -> list[Table]:
+    """Orders at some operating points, and levels of sound pressure where there are some."""
+    tables = [_orders_table(results)]
+    if "equivalent_level" in results:
+        tables.append(_levels_table(results))
+    return tables
+
+
+def levels_data(results: xr.Dataset) -> DataTable:
+    """Leq, LFmax, LSmax and third-octave levels of every channel of sound pressure.
+
+    Column `left_out_s`: what is left out at either end of the recording; `bands`: "sums" of the
+    lines within a third octave, or "filters" of IEC 61260-1.
+    """
+    names = ("leq_db", "lfmax_db", "lsmax_db", "left_out_s", "bands")
+    bands = [f"leq_{band:g}_hz_db" for band in results["band"].values]
+    method = str(results.attrs.get("band_method", "sums"))
+    rows: list[list[str | float]] = []
+    for channel, weighting in _level_rows(results):
+        levels = results.sel(channel=channel, weighting=weighting)
+        values = [levels[name].item() for name in _LEVELS]
+        left_out = _left_out_s(results, weighting)
+        rows.append(
+            [channel, weighting, *values, left_out, method, *levels.band_level.values.tolist()]
+        )
+    return columns_of(("channel", "weighting", *names, *bands), rows)
+
+
+def _left_out_s(results: xr.Dataset, weighting: str) -> float:
+    """What a level leaves out at either end: the run-in of the weighting's filter."""
+    return 0.0 if weighting == "Z" else float(results.attrs.get("levels_left_out_s", 0.0))
+
+
+def _faults_line(times: xr.DataArray) -> str:
+    kinds = [str(name).split()[1] for name in times["fault"].values]
+    counts = ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds)))
+    shown = [f"{kind} at {time:.3f} s" for kind, time in zip(kinds, times.values, strict=True)]
+    more = ["…"] if len(shown) > _MOST_FAULTS else []
+    return f"tacho faults: {counts} ({', '.join(shown[:_MOST_FAULTS] + more)})"
+
+
+def _orders(results: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Columns of orders.csv."""
+    peak = results["channel_order"]
+    return {
+        "channel": results["channel"],
+        "unit": results["channel_unit"],
+        "speed_rpm": results["speed"],
+        "blocks": results["block_count"],
+        "order": results["order"],
+        "frequency_hz": results["order"] * results["speed"] / 60.0,
+        "amplitude_peak": abs(peak),
+        "phase_deg": phase_deg(peak),
+        "rms_in_band": results["channel_order_rms"],
+        "coherence": results["channel_order_coherence"],
+    }
+
+
+def _orders_table(results: xr.Dataset) -> Table:
+    shown = shown_speeds(results)
+    columns = _orders(results)
+    known = columns["phase_deg"].where(columns["coherence"] >= _LEAST_COHERENCE)
+    every = records(data_table(_DIMENSIONS, {**columns, "known_phase_deg": known}))
+    caption = (
+        "Orders: peak and phase of the coherent mean over the blocks at a speed; RMS in a band of "
+        f"{results.attrs['band_order']:.3g} orders"
+    )
+    if len(shown) < results.sizes["speed"]:
+        caption += f"; {len(shown)} of {results.sizes['speed']} speeds, all in the CSV"
+    rows = [row for row in every if row["speed_rpm"] in shown]
+    return table_of(caption, rows, _COLUMNS, frozenset({0, 1}))
+
+
+def shown_speeds(results: xr.Dataset) -> set[float]:
+    """Some operating points, from the lowest to the highest."""
+    speeds = results["speed"].values
+    indices = np.linspace(0, speeds.size - 1, _MOST_SPEEDS).round().astype(int)
+    return set(speeds[indices].tolist())
+
+
+def _level_rows(results: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Channel and weighting of levels of sound pressure."""
+    channels = results["channel"].values[results["channel_unit"].values == "Pa"]
+    return product(map(str, channels), map(str, results["weighting"].values))
+
+
+def _levels_table(results: xr.Dataset) -> Table:
+    rows: list[tuple[Cell, ...]] = []
+    for channel, weighting in _level_rows(results):
+        at = {"channel": channel, "weighting": weighting}
+        rows.append((channel, weighting, *(number(results, each, fixed, **at) for each in _LEVELS)))
+    head = ("Channel", "weighting", "Leq, dB", "LFmax, dB", "LSmax, dB")
+    method = "IEC 61260-1 filters" if results.attrs.get("band_method") == "filters" else "band sums"
+    caption = (
+        "Sound pressure levels, dB re 20 µPa; A and C leave out the first and last "
+        f"{_left_out_s(results, 'A'):.3g} s, the filters' run-in; third octaves in levels.csv by "
+        f"{method}"
+    )
+    return Table(caption, head, tuple(rows), frozenset({0, 1}))
+
+
+_TRACKED_COLUMNS: Final[Columns] = (
+    ("Channel", "channel", str),
+    ("unit", "unit", str),
+    ("Order", "order", "{:g}".format),
+    ("Largest peak", "amplitude_peak", rounding.significant),
+    ("at s", "time_s", "{:.2f}".format),
+    ("at rpm", "speed_rpm", "{:.0f}".format),
+)
+
+
+def tracked_table(tracked: xr.Dataset) -> Table:
+    """Where each order of a channel is largest."""
+    size = abs(tracked["tracked_order"])
+    at = size.isel(track_time=size.argmax("track_time"))
+    rows = records(data_table(("channel", "order"), _tracked(tracked, at)))
+    caption = "Tracked orders: where each is largest"
+    return table_of(caption, rows, _TRACKED_COLUMNS, frozenset({0, 1}))
+
+
+def tracked_data(tracked: xr.Dataset) -> DataTable:
+    """Amplitude and phase of every tracked order of every channel over the time."""
+    peak = tracked["tracked_order"]
+    columns = {**_tracked(tracked, abs(peak)), "phase_deg": phase_deg(peak)}
+    return data_table(("channel", "order", "track_time"), columns)
+
+
+def _tracked(tracked: xr.Dataset, size: xr.DataArray) -> dict[str, xr.DataArray]:
+    return {
+        "channel": tracked["channel"],
+        "unit": tracked["channel_unit"],
+        "order": tracked["order"],
+        "time_s": size["track_time"],
+        "speed_rpm": size["track_speed"],
+        "amplitude_peak": size,
+    }
+
+
+def tracked_facts(tracked: xr.Dataset) -> list[str]:
+    """Where the speed comes from, and what passes around each order."""
+    attrs = tracked.attrs
+    return [
+        f"speed: {attrs['speed_source']}",
+        f"bandwidth: {attrs['bandwidth_hz']:g} Hz, {attrs['poles']} poles; noise within it grows "
+        f"by up to {attrs['noise_gain']:.2g}",
+    ]

@@ -8,13 +8,7 @@ import xarray as xr
 from ..base import rounding
 from ..base.decibel import level_of_power
 from ..base.vocabulary import REFERENCE_OPTION
-from ..results.stored_study import (
-    at_catalogue,
-    overall_noise,
-    parameters,
-    quoted_speed,
-    speeds,
-)
+from ..results.stored_study import at_catalogue, overall_noise, parameters, quoted_speed, speeds
 from .bands import Band, band
 
 _GROWTH = "remainder.speed_growth_db"
@@ -54,14 +48,13 @@ def growth_sentence(results: xr.Dataset) -> str:
 
     Also where a baseline stands for it.
     """
+    names = ""
     if "baseline_band_level" in results:
         levels = results["baseline_band_level"].sel(option=REFERENCE_OPTION)
-        measured = levels.notnull().any(["speed", "baseline_band"])
-        if not measured.any():
-            return _growth_sentence(results)
-        names = ", ".join(map(str, results["receiver"].values[measured.values]))
-        return f"{_growth_sentence(results)} At {names} the measured baseline stands in its place."
-    return _growth_sentence(results)
+        measured = levels.notnull().any(["speed", "baseline_band"]).values
+        names = ", ".join(map(str, results["receiver"].values[measured]))
+    placed = f" At {names} the measured baseline stands in its place." if names else ""
+    return f"{_growth_sentence(results)}{placed}"
 
 
 def _growth_sentence(results: xr.Dataset) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -71,7 +72,8 @@ class Shift:
 
     def written(self, changes: Band) -> str:
         """`+22 to +24`, of changes in their unit."""
-        return changes.ends(rounding.signed if self.quantity.is_level else _percent)
+        decimals = 1 if self.quantity.is_level else 0
+        return changes.ends(partial(rounding.signed, decimals=decimals))
 
     @property
     def unit(self) -> str:
@@ -138,7 +140,3 @@ def measurable(results: xr.Dataset) -> Measurable:
 def at_receiver(values: xr.DataArray, receiver: str) -> xr.DataArray:
     """The values at a microphone; forces have none and are returned as they are."""
     return values.sel(receiver=receiver) if "receiver" in values.dims else values
-
-
-def _percent(value: float) -> str:
-    return rounding.signed(value, 0)

@@ -47,10 +47,7 @@ def _analysis(results: xr.Dataset) -> Analysis:
         parts=tuple(side_by_side(blocks_of, range(len(sections)))),
         summary=sentences(named),
         shown=(*terminal_blocks(results), Text(kwave_line(results))),
-        tables={
-            **_tables(results),
-            **({"speeds.csv": avoid_data(avoided(results))} if over_speed(results) else {}),
-        },
+        tables=_tables(results),
         figures="figures/",
         in_markdown="comparison.md",
         title=of_study["title"],
@@ -62,4 +59,5 @@ def _analysis(results: xr.Dataset) -> Analysis:
 def _tables(results: xr.Dataset) -> dict[str, DataTable]:
     """Return the tables that sections write beside the page, by the name of their file."""
     tables = [section.tables(results) for section in sections_of(results)]
-    return {name: table for each in tables for name, table in each.items() if any(table.values())}
+    filled = {name: table for each in tables for name, table in each.items() if any(table.values())}
+    return filled | ({"speeds.csv": avoid_data(avoided(results))} if over_speed(results) else {})

@@ -17,6 +17,9 @@ Record: TypeAlias = Mapping[str, Any]
 """Values of a row by their names."""
 Columns: TypeAlias = Sequence[tuple[str, str, Callable[[Any], Cell]]]
 """Head of each column, name of its value in a record, and what writes it."""
+_IN_ASCII: Final = str.maketrans(
+    {"−": "-", "–": "-", "\u00a0": " ", "\n": " ", "×": "x", "Δ": "change "}
+)
 WIDEST_FIRST: Final = 40
 """Letters of the first column in a terminal."""
 
@@ -39,6 +42,11 @@ def to_csv(table: DataTable) -> bytes:
     return csv_bytes(list(table), rows, lambda number: f"{number:.9g}")
 
 
+def known(value: str | float | None) -> str | float:
+    """Return a cell of a CSV: empty where there is no value, or where it is not a number."""
+    return "" if value is None or (isinstance(value, float) and np.isnan(value)) else value
+
+
 def columns_of(head: Sequence[str], rows: Iterable[Sequence[str | float]]) -> DataTable:
     """Return rows as columns."""
     listed = list(rows)
@@ -47,10 +55,7 @@ def columns_of(head: Sequence[str], rows: Iterable[Sequence[str | float]]) -> Da
 
 
 def table_of(
-    caption: str,
-    rows: Iterable[Record],
-    columns: Columns,
-    words: frozenset[int] = frozenset({0}),
+    caption: str, rows: Iterable[Record], columns: Columns, words: frozenset[int] = frozenset({0})
 ) -> Table:
     """Table of records: a row for each, with the values that the columns name."""
     cells = tuple(tuple(write(row[name]) for _, name, write in columns) for row in rows)
@@ -60,10 +65,7 @@ def table_of(
 def data_table(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> DataTable:
     """Return a table with a row for each point of some dimensions, the last of which runs fastest.
 
-    Parameters
-    ----------
-    dims : all dimensions of the columns
-    columns : values by name, over some of the dimensions each
+    Each column is over some of the dimensions.
     """
     arrays = xr.broadcast(*columns.values())
     values = [array.transpose(*dims).values.ravel().tolist() for array in arrays]
@@ -78,11 +80,7 @@ def records(table: DataTable) -> list[Record]:
 def long_table(results: xr.Dataset, names: Iterable[str], **labels: Any) -> DataTable:
     """Return variables of any dimensions below one another, a row for each value that is a number.
 
-    Parameters
-    ----------
-    results : with the variables, of which some may be missing
-    names : variables
-    labels : of dimensions that are selected
+    Some variables may be missing; labels are those of dimensions that are selected.
     """
     arrays = [
         results[name].sel({dim: labels[dim] for dim in results[name].dims if dim in labels})
@@ -98,6 +96,11 @@ def long_table(results: xr.Dataset, names: Iterable[str], **labels: Any) -> Data
             cells = [point[dim].item() if dim in array.dims else "" for dim in dims]
             rows.append([str(array.name), unit, *cells, point.item()])
     return columns_of(("quantity", "unit", *dims, "value"), rows)
+
+
+def amplitude(value: float) -> str:
+    """Four digits of any unit: accelerations in m/s² and displacements in m alike."""
+    return f"{value:.4g}"
 
 
 def phase_deg(peaks: xr.DataArray) -> xr.DataArray:
@@ -118,7 +121,8 @@ def to_text(table: Table) -> str:
         return to_ascii(table.caption)
     rows = [[to_ascii(str(cell)) for cell in row] for row in (table.head, *table.rows)]
     for row in rows:
-        row[0] = _shorten(row[0], WIDEST_FIRST)
+        if len(row[0]) > WIDEST_FIRST:
+            row[0] = f"{row[0][: WIDEST_FIRST - 3]}..."
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = [
         "  ".join(
@@ -143,15 +147,4 @@ def _pipes(cells: Iterable[Cell]) -> str:
 
 def to_ascii(text: str) -> str:
     """Return text with ASCII in place of the signs of numbers."""
-    plain = (
-        text.replace("−", "-")
-        .replace("–", "-")
-        .replace("\u00a0", " ")
-        .replace("×", "x")
-        .replace("Δ", "change ")
-    )
-    return plain.replace("\n", " ")
-
-
-def _shorten(text: str, width: int) -> str:
-    return text if len(text) <= width else f"{text[: width - 3]}..."
+    return text.translate(_IN_ASCII)

@@ -18,7 +18,7 @@ from vibroacoustics.orders.recorded_speed import (
     recorded_speed,
 )
 from vibroacoustics.recordings import LabelledBlocks, csv_bytes, wav_bytes
-from vibroacoustics.report.order_tables import levels_data, orders_facts, orders_tables
+from vibroacoustics.report.recordings import levels_data, orders_facts, orders_tables
 from vibroacoustics.report.tables import records, to_text
 from vibroacoustics.results import storage
 from vibroacoustics.study.order_analysis import (

@@ -11,7 +11,7 @@ from support import tiny_run
 from vibroacoustics import analyse_orders, compare, label_recording
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
-from vibroacoustics.report.compared.order_rows import (
+from vibroacoustics.report.compared.orders import (
     compared_data,
     compared_facts,
     matching_orders,

@@ -1,5 +1,9 @@
-"""Orders of two results beside each other, in levels and amplitudes."""
+"""Orders of two results beside each other: those that matter, and all of them as columns."""
 
+from collections.abc import Iterable, Iterator
+from functools import partial
+from itertools import groupby
+from operator import itemgetter
 from typing import Final
 
 import numpy as np
@@ -10,11 +14,33 @@ from ...base import rounding
 from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_amplitude
-from ..order_tables import amplitude, shown_speeds
-from ..tables import Table
+from ...base.vocabulary import NO_ANGLE_ZERO
+from ..recordings import shown_speeds
+from ..tables import Columns, DataTable, Record, Table, amplitude, data_table, records, table_of
 
 WITHIN_DB: Final = 40.0
 """Orders further below the loudest of their channel are left to the CSV."""
+LOUD_DB: Final = 20.0
+"""Orders no further below the strongest of their channel and speed are printed."""
+CHANGED_DB: Final = 0.5
+"""So are those that differ by more, no further below than `WITHIN_DB`."""
+MOST_ORDERS: Final = 12
+"""Of a channel at a speed, the strongest."""
+_RESULTS: Final = ("channel", "compared")
+_SCATTER: Final = ("order_run_deviation", "order_specimen_deviation", "order_mean_uncertainty")
+_COLUMNS: Final[Columns] = (
+    ("Channel", "channel", str),
+    ("of B", "other_channel", str),
+    ("unit", "unit", str),
+    ("rpm", "speed_rpm", "{:.0f}".format),
+    ("of B", "other_speed_rpm", "{:.0f}".format),
+    ("Order", "order", "{:g}".format),
+    ("Peak A", "amplitude_peak", amplitude),
+    ("peak B", "other_amplitude_peak", amplitude),
+    ("B - A, dB", "difference_db", partial(rounding.signed, decimals=2)),
+    ("phase, °", "phase_difference_deg", rounding.signed),
+    ("coherence", "coherence", partial(rounding.fixed, decimals=3)),
+)
 
 
 def is_pressure(compared: xr.Dataset) -> list[bool]:
@@ -31,18 +57,14 @@ def orders_table(compared: xr.Dataset, channel: str) -> Table:
         at_speed = there.sel(speed=speed)
         for order in loud_orders(at_speed):
             one = at_speed.sel(order=order)
-            rows.append(
-                (
-                    f"{speed:.0f}",
-                    f"{order:g}×",
-                    _size(float(one["channel_order_rms"]), unit),
-                    _size(float(one["compared_order_rms"]), unit),
-                    rounding.signed(float(one["order_difference"]), 2),
-                    rounding.signed(float(np.degrees(one["order_phase_difference"])), 0),
-                    rounding.fixed(float(one["channel_order_coherence"]), 2),
-                    *(_scatter(one) if drawn else ()),
-                )
+            sizes = (_size(one[f"{name}_order_rms"].item(), unit) for name in _RESULTS)
+            changes = (
+                rounding.signed(one["order_difference"].item(), 2),
+                rounding.signed(float(np.degrees(one["order_phase_difference"])), 0),
             )
+            fixed = ["channel_order_coherence", *(_SCATTER if drawn else ())]
+            others = (rounding.fixed(one[name].item(), 2) for name in fixed)
+            rows.append((f"{speed:.0f}", f"{order:g}×", *sizes, *changes, *others))
     of_unit = "dB re 20 µPa" if unit == "Pa" else f"RMS, {unit}"
     head = ["rpm", "Order", f"A, {of_unit}", f"B, {of_unit}", "B − A, dB", "phase, °", "coherence"]
     if drawn:
@@ -56,14 +78,9 @@ def orders_table(compared: xr.Dataset, channel: str) -> Table:
 def known_channels(compared: xr.Dataset) -> list[str]:
     """Channels with an order that both results have, microphones first."""
     known = compared["order_difference"].notnull().any(("speed", "order")).values
-    names = [
-        (not pressure, str(name))
-        for name, pressure, has in zip(
-            compared["channel"].values, is_pressure(compared), known, strict=True
-        )
-        if has
-    ]
-    return [name for _, name in sorted(names, key=lambda one: one[0])]
+    pressure = np.array(is_pressure(compared), dtype=bool)
+    names = [compared["channel"].values[known & first] for first in (pressure, ~pressure)]
+    return [str(name) for name in np.concatenate(names)]
 
 
 def summary(compared: xr.Dataset) -> str:
@@ -106,6 +123,63 @@ def _size(rms: float, unit: str) -> str:
     return amplitude(rms)
 
 
-def _scatter(one: xr.Dataset) -> list[str]:
-    names = ("run_deviation", "specimen_deviation", "mean_uncertainty")
-    return [rounding.fixed(float(one[f"order_{name}"]), 2) for name in names]
+def matching_orders(compared: xr.Dataset) -> Table:
+    """Return the orders that matter of those that both results have, with their differences."""
+    every = records(compared_data(compared))
+    shown = shown_speeds(compared)
+    rows = list(_that_matter(row for row in every if row["speed_rpm"] in shown))
+    caption = "B against A: level and phase of each order; coherence is the lower of both"
+    if len(rows) < len(every):
+        caption += (
+            f"; {len(rows)} of {len(every)} rows, those within {LOUD_DB:g} dB of the strongest or "
+            f"with more than {CHANGED_DB:g} dB between A and B; all in the CSV"
+        )
+    return table_of(caption, rows, _COLUMNS, frozenset({0, 1, 2}))
+
+
+def compared_facts(compared: xr.Dataset) -> list[str]:
+    """Say what the results are, and where their phases count from."""
+    zeros = [(compared.attrs[name], compared.attrs[f"{name}_angle_zero"]) for name in
+             ("first", "second")]  # fmt: skip
+    from_bands = ", peaks from the RMS in the bands"
+    return [f"{name}; crank angle zero: {zero}{from_bands if zero == NO_ANGLE_ZERO else ''}"
+            for name, zero in zeros]  # fmt: skip
+
+
+def compared_data(compared: xr.Dataset) -> DataTable:
+    """Return every pair of orders."""
+    columns = {
+        "channel": compared["channel"],
+        "other_channel": compared["compared_channel"],
+        "unit": compared["channel_unit"],
+        "speed_rpm": compared["speed"],
+        "other_speed_rpm": compared["compared_speed"],
+        "order": compared["order"],
+        "amplitude_peak": abs(compared["channel_order"]),
+        "other_amplitude_peak": abs(compared["compared_order"]),
+        "difference_db": compared["order_difference"],
+        "phase_difference_deg": np.rad2deg(1.0) * compared["order_phase_difference"],
+        "coherence": compared["channel_order_coherence"],
+    }
+    return data_table(("channel", "speed", "order"), columns)
+
+
+def _that_matter(rows: Iterable[Record]) -> Iterator[Record]:
+    """Of each channel and speed the orders that are strong, or strong enough and different."""
+    for _, group in groupby(rows, key=itemgetter("channel", "speed_rpm")):
+        known = [row for row in group if np.isfinite(row["difference_db"])]
+        strongest = max((_peak(row) for row in known), default=0.0)
+        chosen = [row for row in known if _matters(row, strongest)]
+        printed = {row["order"] for row in sorted(chosen, key=_peak, reverse=True)[:MOST_ORDERS]}
+        yield from (row for row in chosen if row["order"] in printed)
+
+
+def _matters(row: Record, strongest: float) -> bool:
+    below_db = -level_of_amplitude(_peak(row) / strongest) if strongest > 0.0 else 0.0
+    differs = abs(row["difference_db"]) > CHANGED_DB
+    return bool(below_db <= LOUD_DB or (differs and below_db <= WITHIN_DB))
+
+
+def _peak(row: Record) -> float:
+    """The larger of both."""
+    return float(max(row["amplitude_peak"], row["other_amplitude_peak"]))

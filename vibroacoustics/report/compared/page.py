@@ -1,6 +1,6 @@
 """Analysis of two results beside each other."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Final
 
 import xarray as xr
@@ -18,17 +18,33 @@ from ...results.validation import (
 from ..analysis import Analysis
 from ..bands import percent
 from ..blocks import Block, Bullets, Details, Part, Pictures, Text
+from ..charts.marks import Chart
+from ..figures.campbell import campbell
 from ..figures.channel_orders import compared_order_charts, order_differences
-from ..limit_tables import limits_data, limits_words, order_limits_table
+from ..figures.levels_over_speed import levels_over_speed
+from ..figures.orders_over_speed import orders_over_speed
+from ..limit_tables import (
+    figure_limits_data,
+    limit_blocks,
+    limits_data,
+    limits_sentence,
+    limits_words,
+    order_limits_table,
+)
 from ..sections.evidence.tables import validation_table
+from ..shown_speeds import FEWEST_OVER_SPEED, over_speed
 from ..tables import Table
-from .levels import levels_tables
-from .limits import figure_limits_data, limit_blocks, limits_sentence
-from .order_rows import compared_data, compared_facts, matching_orders
-from .orders import is_pressure, known_channels, orders_table, summary
-from .over_speed import channel_charts, over_speed_parts
+from .orders import (
+    compared_data,
+    compared_facts,
+    is_pressure,
+    known_channels,
+    matching_orders,
+    orders_table,
+    summary,
+)
 from .studies import inputs_table, key_figures
-from .validation import is_study, validations_of
+from .validation import is_study, levels_tables, validations_of
 
 MOST_ROWS: Final = 40
 """Of a table that is not folded."""
@@ -42,19 +58,21 @@ def analysis_of_comparison(compared: Compared, figures: Sequence[CheckedFigure])
     compared : two results, with what limits of orders say
     figures : other figures that have a limit
     """
-    orders = compared.orders
-    parts = [
-        Part("verdict", "What comes out", tuple(_verdict(compared, figures))),
-        *_limits(compared, figures),
-        *_figures_of_studies(compared),
+    orders, validations = compared.orders, validations_of(compared)
+    of_studies = is_study(compared.first) and is_study(compared.second)
+    inputs, key = (inputs_table(compared), key_figures(compared)) if of_studies else (None, None)
+    parts = (
+        _part("verdict", "What comes out", *_verdict(compared, figures, validations)),
+        _part("limits", "Limits", *limit_blocks(orders, figures)),
+        _part("figures", "Key figures", key),
         *over_speed_parts(compared),
-        *_validation(compared),
-        Part("orders", "Orders", tuple(_orders(orders))),
-        *_levels(compared),
-        *_runs(compared),
-        *_inputs(compared),
-        Part("results", "The two results", (_results(compared),)),
-    ]
+        _part("validation", "Validation", *_validation(validations)),
+        _part("orders", "Orders", *_orders(orders)),
+        _part("levels", "Levels", *levels_tables(compared)),
+        _part("runs", "Runs and specimens", *_runs(orders)),
+        _part("inputs", "What differs in the inputs", inputs),
+        _part("results", "The two results", _results(compared)),
+    )
     shown: list[Block] = [Bullets(tuple(compared_facts(orders))), matching_orders(orders)]
     tables = {"compared_orders.csv": compared_data(orders)}
     if "order_limit" in orders:
@@ -68,19 +86,37 @@ def analysis_of_comparison(compared: Compared, figures: Sequence[CheckedFigure])
         kind=f"{orders.attrs['first']}; {orders.attrs['second']}",
         created=str(orders.attrs["created_utc"]),
         about="Two results beside each other: A is the reference, differences are B less A.",
-        parts=tuple(parts),
+        parts=tuple(part for part in parts if part.blocks),
         shown=tuple(shown),
         tables=tables,
     )
 
 
-def _verdict(compared: Compared, figures: Sequence[CheckedFigure]) -> list[Block]:
-    blocks: list[Block] = []
+def _part(name: str, title: str, *blocks: Block | None) -> Part:
+    return Part(name, title, tuple(block for block in blocks if block is not None))
+
+
+def over_speed_parts(compared: Compared) -> list[Part]:
+    """Return a section of two studies that both have several speeds; none of others."""
+    first, second = compared.first, compared.second
+    if not all(is_study(results) and over_speed(results) for results in (first, second)):
+        return []
+    option, other = (option for _, _, option, _ in compared.sides())
+    charts = (
+        levels_over_speed(first, None, [option], second, [other]),
+        campbell(first, None, option, second),
+    )
+    return [Part("speeds", "Over the speed", (Pictures(charts),))]
+
+
+def _verdict(
+    compared: Compared, figures: Sequence[CheckedFigure], validations: Sequence[Validation]
+) -> Iterator[Text]:
     if figures or "order_limit" in compared.orders:
-        blocks.append(Text(limits_sentence(compared.orders, figures), "headline"))
-    blocks.append(Text(summary(compared.orders), "strong"))
-    validations = validations_of(compared)
-    return [*blocks, Text(_agreement(validations))] if validations else blocks
+        yield Text(limits_sentence(compared.orders, figures), "headline")
+    yield Text(summary(compared.orders), "strong")
+    if validations:
+        yield Text(_agreement(validations))
 
 
 def _agreement(validations: Sequence[Validation]) -> str:
@@ -95,22 +131,9 @@ def _agreement(validations: Sequence[Validation]) -> str:
     )
 
 
-def _limits(compared: Compared, figures: Sequence[CheckedFigure]) -> list[Part]:
-    if not figures and "order_limit" not in compared.orders:
-        return []
-    return [Part("limits", "Limits", tuple(limit_blocks(compared.orders, figures)))]
-
-
-def _figures_of_studies(compared: Compared) -> list[Part]:
-    if not (is_study(compared.first) and is_study(compared.second)):
-        return []
-    return [Part("figures", "Key figures", (key_figures(compared),))]
-
-
-def _validation(compared: Compared) -> list[Part]:
-    validations = validations_of(compared)
+def _validation(validations: Sequence[Validation]) -> tuple[Block, ...]:
     if not validations:
-        return []
+        return ()
     note = (
         "E = S − D; u is the root of the sum of squares of u_num (grids of the radiation), u_input "
         "(spread of the samples; of levels in all) and u_D (scatter of the runs and specimens), in "
@@ -119,14 +142,16 @@ def _validation(compared: Compared) -> list[Part]:
     table: Block = validation_table("The study beside the recordings", validations)
     if len(validations) > MOST_ROWS:
         table = Details(f"All {len(validations)} figures", (table,))
-    return [Part("validation", "Validation", (Text(note, "note"), table))]
+    return Text(note, "note"), table
 
 
 def _orders(orders: xr.Dataset) -> list[Block]:
     channels = known_channels(orders)
     if not channels:
         return [Text(summary(orders))]
-    drawn = dict(zip(_drawn_channels(orders), compared_order_charts(orders), strict=True))
+    have_pictures = orders["order_difference"].notnull().any(("speed", "order")).values
+    with_pictures = map(str, orders["channel"].values[have_pictures])
+    drawn = dict(zip(with_pictures, compared_order_charts(orders), strict=True))
     loud = dict(zip(map(str, orders["channel"].values), is_pressure(orders), strict=True))
     first = [name for name in channels if loud[name]] or channels[:1]
     blocks: list[Block] = [Pictures((order_differences(orders),))]
@@ -137,21 +162,16 @@ def _orders(orders: xr.Dataset) -> list[Block]:
     return blocks
 
 
-def _drawn_channels(orders: xr.Dataset) -> list[str]:
-    """Channels that have a picture, in their order in the dataset."""
-    known = orders["order_difference"].notnull().any(("speed", "order")).values
-    return [str(name) for name in orders["channel"].values[known]]
+def channel_charts(orders: xr.Dataset, channel: str) -> list[Chart]:
+    """Return orders of a channel in both results over the speeds, where these are several."""
+    several = orders.sizes["speed"] >= FEWEST_OVER_SPEED
+    return [orders_over_speed(orders, channel)] if several else []
 
 
-def _levels(compared: Compared) -> list[Part]:
-    tables = levels_tables(compared)
-    return [Part("levels", "Levels", tuple(tables))] if tables else []
-
-
-def _runs(compared: Compared) -> list[Part]:
-    runs = runs_of(compared.orders)
+def _runs(orders: xr.Dataset) -> tuple[Block, ...]:
+    runs = runs_of(orders)
     if not runs:
-        return []
+        return ()
     rows = [(str(number), run["file"], run["specimen"]) for number, run in enumerate(runs, 1)]
     note = (
         "Means are energy means over the runs of each specimen and then over the specimens. "
@@ -160,13 +180,7 @@ def _runs(compared: Compared) -> list[Part]:
         "uncertainty of the mean of one specimen holds for that specimen alone."
     )
     table = Table("Runs", ("Run", "Recording", "Specimen"), tuple(rows), frozenset({0, 1, 2}))
-    return [Part("runs", "Runs and specimens", (Text(note, "note"), table))]
-
-
-def _inputs(compared: Compared) -> list[Part]:
-    if not (is_study(compared.first) and is_study(compared.second)):
-        return []
-    return [Part("inputs", "What differs in the inputs", (inputs_table(compared),))]
+    return Text(note, "note"), table
 
 
 def _results(compared: Compared) -> Table:

@@ -1,19 +1,114 @@
-"""A study beside recordings in the form of ASME V&V 20: error and validation uncertainty."""
+"""Levels of two results; error and validation uncertainty of a study beside recordings."""
 
 from collections.abc import Iterator
+from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
+from ...base import rounding
+from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_amplitude
 from ...results.estimates import has_samples, in_samples
 from ...results.figure_limits import PRESSURE, Compared
 from ...results.grid_error import grid_error_db
 from ...results.validation import Validation
-from ..order_tables import shown_speeds
-from .levels import levels_at
-from .orders import known_channels, loud_orders
+from ..recordings import shown_speeds
+from ..tables import Table
+from .orders import is_pressure, known_channels, loud_orders
+
+
+class Levels(NamedTuple):
+    """Levels of one result at a microphone; uncertainty of the mean where several runs tell it."""
+
+    total_dba: float
+    total_uncertainty_db: float
+    band_hz: Array
+    band_db: Array
+    band_uncertainty_db: Array
+
+
+def levels_tables(compared: Compared) -> list[Table]:
+    """A table for each microphone and speed at which both results have levels."""
+    channels = compared.orders["channel"].values[is_pressure(compared.orders)]
+    rows = product(map(str, channels), sorted(shown_speeds(compared.orders)))
+    return [table for one in rows if (table := _table(compared, *one)) is not None]
+
+
+def levels_at(compared: Compared, channel: str, speed: float) -> tuple[Levels, Levels] | None:
+    """Levels of both at a microphone; none where one has none at such a speed."""
+    there = compared.orders.sel(channel=channel, speed=speed)
+    other, other_speed = str(there["compared_channel"].item()), float(there["compared_speed"])
+    names = {"channel": (channel, speed), "compared_channel": (other, other_speed)}
+    first, second = (
+        _of_study(result, option, *names[key])
+        if is_study(result)
+        else _of_recording(result, *names[key])
+        for _, result, option, key in compared.sides()
+    )
+    return None if first is None or second is None else (first, second)
+
+
+def _of_study(result: xr.Dataset, option: str, channel: str, speed: float) -> Levels | None:
+    receiver = channel.removeprefix(PRESSURE)
+    total = float(result["level_total"].sel(option=option, receiver=receiver, speed=speed))
+    nothing = np.zeros(0)
+    if "modelled_band_level" not in result or speed not in result["path_speed"].values:
+        return Levels(total, float("nan"), nothing, nothing, nothing)
+    bands = result["modelled_band_level"].sel(option=option, receiver=receiver, path_speed=speed)
+    known = bands.values > rounding.LEVEL_FLOOR_DB
+    hertz = bands["band"].values[known]
+    return Levels(total, float("nan"), hertz, bands.values[known], np.full(hertz.size, np.nan))
+
+
+def _of_recording(result: xr.Dataset, channel: str, _: float) -> Levels | None:
+    """Of all of a recording, which must be at one speed."""
+    if "equivalent_level" not in result or result.sizes["speed"] > 1:
+        return None
+    there = result.sel(channel=channel)
+    total, bands = there["equivalent_level"], there["band_level"].sel(weighting="Z")
+    total_spread = there.get("equivalent_mean_uncertainty", np.nan * total).sel(weighting="A")
+    spread = there.get("band_mean_uncertainty", np.nan * there["band_level"]).sel(weighting="Z")
+    return Levels(
+        total.sel(weighting="A").item(), total_spread.item(),
+        bands["band"].values, bands.values, spread.values,
+    )  # fmt: skip
+
+
+def _table(compared: Compared, channel: str, speed: float) -> Table | None:
+    both = levels_at(compared, channel, speed)
+    if both is None:
+        return None
+    rows = [_row("all, dB(A)", *((one.total_dba, one.total_uncertainty_db) for one in both))]
+    first, second = (
+        dict(zip(one.band_hz, zip(one.band_db, one.band_uncertainty_db, strict=True), strict=True))
+        for one in both
+    )
+    shared = sorted(first.keys() & second)
+    rows += [_row(f"{band:g} Hz", first[band], second[band]) for band in shared]
+    if len(rows) == 1:  # no third octave in common; levels in all are in other tables
+        return None
+    head = ("Band", "A", "B", "B − A, dB", "u of the mean, dB")
+    caption = (
+        f"{channel}, {speed:.0f} rpm: A-weighted level in all and third octaves, unweighted, dB re "
+        "20 µPa; third octaves of a study are those of the modelled sound"
+    )
+    shown = len(head) if any(row[-1] != rounding.NOTHING for row in rows) else -1
+    return Table(caption, head[:shown], tuple(row[:shown] for row in rows))
+
+
+def _row(name: str, first: tuple[float, float], second: tuple[float, float]) -> tuple[str, ...]:
+    """Levels with their uncertainties, not a number where these are not known."""
+    known = [spread for _, spread in (first, second) if np.isfinite(spread)]
+    return (
+        name,
+        rounding.level(first[0]),
+        rounding.level(second[0]),
+        rounding.signed(second[0] - first[0]),
+        rounding.fixed(float(np.linalg.norm(known)), 2) if known else rounding.NOTHING,
+    )
 
 
 def is_study(result: xr.Dataset) -> bool:
@@ -22,67 +117,69 @@ def is_study(result: xr.Dataset) -> bool:
 
 
 def validations_of(compared: Compared) -> list[Validation]:
-    """Orders and totals of a study beside those of recordings; none of two of a kind."""
+    """Orders and totals of a study beside those of recordings, in the form of ASME V&V 20.
+
+    None of two of a kind.
+    """
     kinds = [is_study(compared.first), is_study(compared.second)]
     if sum(kinds) != 1:
         return []
     return [*_totals(compared, kinds[0]), *_orders(compared, kinds[0])]
 
 
-def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
+def _points(compared: Compared, study_first: bool) -> Iterator[tuple[xr.Dataset, str]]:
+    """Orders of each channel at each speed, with the name of the channel in the study."""
     orders = compared.orders
-    study = compared.first if study_first else compared.second
     for channel in known_channels(orders):
         there = orders.sel(channel=channel)
-        unit = str(there["channel_unit"].item())
         named = channel if study_first else str(there["compared_channel"].item())
         for speed in sorted(shown_speeds(orders)):
-            at_speed = there.sel(speed=speed)
-            for order in loud_orders(at_speed):
-                one = at_speed.sel(order=order)
-                levels = [
-                    _level(one[f"{name}_order_rms"], unit) for name in ("channel", "compared")
-                ]
-                simulation, data = levels if study_first else levels[::-1]
-                spread = float(one.get("order_mean_uncertainty", np.nan))
-                yield Validation(
-                    f"Order {order:g} of {channel}, {speed:.0f} rpm",
-                    "dB" if unit == "Pa" else f"dB re 1 {unit}",
-                    simulation,
-                    data,
-                    _numerical(study, named),
-                    0.0,
-                    spread if np.isfinite(spread) else 0.0,
-                    str(orders.attrs["second" if study_first else "first"]),
-                )
+            yield there.sel(speed=speed), named
+
+
+def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
+    study = compared.first if study_first else compared.second
+    for at_speed, named in _points(compared, study_first):
+        unit = str(at_speed["channel_unit"].item())
+        for order in loud_orders(at_speed):
+            one = at_speed.sel(order=order)
+            levels = [_level(one[f"{name}_order_rms"], unit) for name in ("channel", "compared")]
+            simulation, data = levels if study_first else levels[::-1]
+            spread = float(one.get("order_mean_uncertainty", np.nan))
+            yield Validation(
+                f"Order {order:g} of {one['channel'].item()}, {one['speed'].item():.0f} rpm",
+                "dB" if unit == "Pa" else f"dB re 1 {unit}",
+                simulation,
+                data,
+                _numerical(study, named),
+                0.0,
+                spread if np.isfinite(spread) else 0.0,
+                str(one.attrs["second" if study_first else "first"]),
+            )
 
 
 def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
-    orders = compared.orders
     study = compared.first if study_first else compared.second
     _, _, option, _ = list(compared.sides())[0 if study_first else 1]
-    for channel in known_channels(orders):
-        there = orders.sel(channel=channel)
-        if str(there["channel_unit"].item()) != "Pa":
+    for one, named in _points(compared, study_first):
+        channel, speed = str(one["channel"].item()), float(one["speed"])
+        is_sound = str(one["channel_unit"].item()) == "Pa"
+        both = levels_at(compared, channel, speed) if is_sound else None
+        if both is None:
             continue
-        named = channel if study_first else str(there["compared_channel"].item())
-        for speed in sorted(shown_speeds(orders)):
-            both = levels_at(compared, channel, float(speed))
-            if both is None:
-                continue
-            simulated, data = both if study_first else both[::-1]
-            at = float(speed if study_first else there["compared_speed"].sel(speed=speed))
-            spread = data.total_uncertainty_db
-            yield Validation(
-                f"Level in all at {channel}, {speed:.0f} rpm",
-                "dB(A)",
-                simulated.total_dba,
-                data.total_dba,
-                _numerical(study, named),
-                _inputs(study, option, named, at),
-                spread if np.isfinite(spread) else 0.0,
-                str(orders.attrs["second" if study_first else "first"]),
-            )
+        simulated, data = both if study_first else both[::-1]
+        at = speed if study_first else float(one["compared_speed"])
+        spread = data.total_uncertainty_db
+        yield Validation(
+            f"Level in all at {channel}, {speed:.0f} rpm",
+            "dB(A)",
+            simulated.total_dba,
+            data.total_dba,
+            _numerical(study, named),
+            _inputs(study, option, named, at),
+            spread if np.isfinite(spread) else 0.0,
+            str(one.attrs["second" if study_first else "first"]),
+        )
 
 
 def _numerical(study: xr.Dataset, channel: str) -> float:

@@ -20,12 +20,7 @@ _PANELS: Final = 4
 
 
 def front_chart(designs: Evaluated) -> Chart:
-    """Return every objective over the first: allowed designs, front, best few.
-
-    Parameters
-    ----------
-    designs : with two objectives or more
-    """
+    """Return every objective over the first, of two or more: allowed designs, front, best few."""
     first, *others = designs.objectives
     front = np.flatnonzero(designs.front)
     x_ends = _near_front(first.values, front)
@@ -78,9 +73,7 @@ def _near_front(values: Array, front: IndexArray) -> tuple[float, float]:
 def parallel_chart(designs: Evaluated) -> Chart:
     """Return parallel coordinates of the front: a line a design over variables and objectives.
 
-    Parameters
-    ----------
-    designs : the front's designs are drawn, at most 200 of them, and the best few
+    At most 200 of the front's designs are drawn, and the best few.
     """
     columns = (*designs.variables, *designs.objectives)
     front = _thinned(np.flatnonzero(designs.front), _MOST_LINES)
@@ -121,10 +114,7 @@ def main_effects_charts(
 ) -> Iterator[Chart]:
     """Yield an objective over variables: median of designs that fill the space, and 80 % of them.
 
-    Parameters
-    ----------
-    variables, objective : of the same designs; those that failed are not numbers
-    number : of the objective
+    Designs that failed are not numbers; the number is that of the objective.
     """
     for start in range(0, len(variables), _PANELS):
         yield Chart(
@@ -149,16 +139,13 @@ def _effect(variable: Column, objective: Column) -> Panel:
 
 def _by_bin(values: Array, objective: Array) -> tuple[Array, Array]:
     """Return middles of the bins of a variable, and quantiles 10, 50 and 90 %, shape (3, bin)."""
-    levels = np.unique(values)
-    if len(levels) <= _BINS:
-        groups = [objective[values == level] for level in levels]
-        return levels, np.array([np.quantile(group, (0.1, 0.5, 0.9)) for group in groups]).T
-    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS + 1)))
-    number = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, len(edges) - 2)
-    filled = [n for n in range(len(edges) - 1) if (number == n).any()]
-    middle = np.array([np.median(values[number == n]) for n in filled])
-    quantiles = [np.quantile(objective[number == n], (0.1, 0.5, 0.9)) for n in filled]
-    return middle, np.array(quantiles).T
+    levels, number = np.unique(values, return_inverse=True)
+    if len(levels) > _BINS:
+        edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS + 1)))
+        number = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, len(edges) - 2)
+    bins = [number == filled for filled in np.unique(number)]
+    middle = np.array([np.median(values[rows]) for rows in bins])
+    return middle, np.array([np.quantile(objective[rows], (0.1, 0.5, 0.9)) for rows in bins]).T
 
 
 def _share(values: Array, rows: IndexArray) -> Array:

@@ -1,21 +1,32 @@
 """Analysis of a search of designs."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
 
+from ...base import rounding
+from ...base.vocabulary import MEDIAN
+from ...results.number import Number
 from ...results.stored_study import parameters
 from ..analysis import Analysis, origin
 from ..blocks import Block, Bullets, Details, Part, Pictures, Text
 from ..sections.unknowns.tables import NOT_RESOLVED, share_words
-from ..tables import Table
-from .best import best_designs, best_tables, limiting, no_best, shown
-from .csv import designs_data
-from .evaluated import Column, Evaluated
+from ..tables import Cell, DataTable, Table
+from .evaluated import (
+    Evaluated,
+    designs_data,
+    evaluated,
+    heading,
+    objectives_of,
+    variable_label,
+    variables_of,
+)
 from .figures import front_chart, main_effects_charts, parallel_chart
-from .reading import evaluated, objectives_of, variable_label, variables_of
+
+_AT_END = 1e-3
+"""Share of a variable's range, or of a limit, that counts as at it."""
 
 
 def analysis_of_designs(search: xr.Dataset) -> Analysis:
@@ -26,20 +37,22 @@ def analysis_of_designs(search: xr.Dataset) -> Analysis:
     search : dataset of a search of designs, with the study's parameters as attribute
     """
     designs, study = evaluated(search), parameters(search)
-    reason = no_best(search)
-    best: tuple[Block, ...] = () if reason else tuple(best_tables(search, designs))
-    limits = () if reason else (Bullets(tuple(limiting(search, designs))),)
-    best_data = {} if reason else {"best.csv": best_designs(designs)}
-    unchanged = _sentence(search.attrs["no_change"]) if search.attrs["no_change"] else ""
-    counts = Text(f"{designs.count} designs were evaluated, {designs.met.sum()} meet every "
-                 f"constraint{_failed(search)}.", "note")  # fmt: skip
-    promised = () if reason else (Text(_promised(search), "note"),)
-    closing = (Text(unchanged),) if unchanged and not reason else ()
+    reason, no_change = no_best(search), search.attrs["no_change"]
+    counts = f"{designs.count} designs were evaluated, {designs.met.sum()} meet every constraint"
+    best: list[Block] = [Text(f"{counts}{_failed(search)}.", "note")]
+    shown_best: list[Block] = []
+    tables = {"designs.csv": designs_data(search)}
+    if not reason:
+        first, limits = best_tables(search, designs), Bullets(tuple(limiting(search, designs)))
+        closing = [Text(_sentence(no_change))] if no_change else []
+        shown_best = [*first, limits, *closing]
+        best = [*shown_best[:2], *closing, limits, *best, Text(_promised(search), "note")]
+        tables["best.csv"] = best_designs(designs)
     parts = (
-        Part("best", "The best few", (*best, *closing, *limits, counts, *promised)),
+        Part("best", "The best few", tuple(best)),
         Part("front", "Front", tuple(_front(designs))),
         Part("deciding", "What decides", tuple(_deciding(search))),
-        Part("searched", "What was searched", tuple(_searched(search, designs))),
+        Part("searched", "What was searched", _searched(search, designs)),
     )
     return Analysis(
         "designs",
@@ -49,8 +62,8 @@ def analysis_of_designs(search: xr.Dataset) -> Analysis:
         about="Designs, what each objective costs the others, and what built pieces will keep.",
         parts=tuple(part for part in parts if part.blocks),
         summary=(_sentence(reason) if reason else _headline(search, designs),),
-        shown=(*best, *limits, *closing, Text(search.attrs["method"])),
-        tables={"designs.csv": designs_data(search), **best_data},
+        shown=(*shown_best, Text(search.attrs["method"])),
+        tables=tables,
         figures="figures/",
     )
 
@@ -83,7 +96,9 @@ def _sentence(words: str) -> str:
 def _headline(search: xr.Dataset, designs: Evaluated) -> str:
     """What the first of the best few promises, beside the machine without an option."""
     reached = []
-    for number, column in _aims(search, designs):
+    roles = search["wanted_role"].values
+    aims = [number for number, role in enumerate(roles) if role in ("least", "greatest")]
+    for number, column in zip(aims, designs.objectives, strict=True):
         promised = shown(float(search["wanted_promised"].values[0, number]), column.unit)
         before = shown(float(search["wanted_reference"].values[number]), column.unit)
         reached.append(f"{column.label} {promised} {column.unit} (without an option {before})")
@@ -102,19 +117,10 @@ def _precision(search: xr.Dataset) -> str:
     )
 
 
-def _aims(search: xr.Dataset, designs: Evaluated) -> list[tuple[int, Column]]:
-    """Numbers of the objectives among what is wanted, with their columns."""
-    roles = search["wanted_role"].values
-    numbers = [n for n, role in enumerate(roles) if role in ("least", "greatest")]
-    return list(zip(numbers, designs.objectives, strict=True))
-
-
 def _failed(search: xr.Dataset) -> str:
     reasons = json.loads(search.attrs["failures"])
-    if not reasons:
-        return ""
     count = sum(number for _, number in reasons)
-    return f", {count} failed (most often: {reasons[0][0]})"
+    return f", {count} failed (most often: {reasons[0][0]})" if reasons else ""
 
 
 def _front(designs: Evaluated) -> list[Block]:
@@ -140,34 +146,115 @@ def _shares(search: xr.Dataset) -> Table:
         (str(name), *(share_words(search, "design_share", number, at) for at in range(len(keys))))
         for number, name in enumerate(search["wanted"].values)
     ]
-    return Table(
-        f"Share of each variable alone in the variance over the design space; "
-        f"{NOT_RESOLVED}: no more than chance gives",
-        ("Wanted", *keys),
-        tuple(rows),
+    caption = (
+        "Share of each variable alone in the variance over the design space; "
+        f"{NOT_RESOLVED}: no more than chance gives"
     )
+    return Table(caption, ("Wanted", *keys), tuple(rows))
 
 
-def _searched(search: xr.Dataset, designs: Evaluated) -> Sequence[Block]:
+def _searched(search: xr.Dataset, designs: Evaluated) -> tuple[Block, ...]:
+    ends = zip(search["design_low"].values, search["design_high"].values, strict=True)
+    allowed = [
+        (column.label, column.unit, ", ".join(column.words) or f"{low:.4g} to {high:.4g}")
+        for column, (low, high) in zip(designs.variables, ends, strict=True)
+    ]
+    head = ("Variable", "Unit", "Allowed")
+    variables = Table("Variables", head, tuple(allowed), frozenset({0, 1, 2}))
+    names = ("wanted", "wanted_label", "wanted_unit", "wanted_role", "wanted_limit")
+    wanted = [
+        (*map(str, words), "" if np.isnan(limit) else f"{limit:g}")
+        for *words, limit in zip(*(search[name].values for name in names), strict=True)
+    ]
+    return (
+        variables,
+        Table("Objectives and constraints", ("Name", "What it is", "Unit", "Role", "Limit"),
+              tuple(wanted), frozenset({0, 1, 2, 3})),
+        Text(search.attrs["method"], "note"),
+    )  # fmt: skip
+
+
+def best_tables(search: xr.Dataset, designs: Evaluated) -> Iterator[Table]:
+    """Values of the best few, and what they reach as meant and as promised."""
+    numbers = [str(number) for number, _ in enumerate(designs.best, 1)]
+    values = [(each.heading, *map(each.cell, designs.best)) for each in designs.variables]
+    yield Table("The best few designs", ("Variable", *numbers), tuple(values))
+    reached = [row for number in range(search.sizes["wanted"]) for row in _reached(search, number)]
+    caption = "What they reach, as meant and as promised, beside the machine without an option"
+    yield Table(caption, ("Wanted", "", "without", *numbers), tuple(reached), frozenset({0, 1}))
+
+
+def best_designs(designs: Evaluated) -> DataTable:
+    """Return the variables of the best few; `row` counts the rows of `designs.csv` from 0."""
+    columns = {each.label: [*map(each.cell, designs.best)] for each in designs.variables}
+    rows = designs.best.tolist()
+    return {"design": list(range(1, len(rows) + 1)), "row": rows, **columns}
+
+
+def _reached(search: xr.Dataset, number: int) -> Iterator[tuple[Cell, ...]]:
+    """A wanted value as meant and as promised."""
+    unit = str(search["wanted_unit"].values[number])
+    name = heading(str(search["wanted"].values[number]), unit)
+    before = shown(float(search["wanted_reference"].values[number]), unit)
+    as_meant = search["wanted_as_meant"].values[:, number]
+    yield (name, "as meant", before, *(shown(float(value), unit) for value in as_meant))
+    yield (name, "promised", before, *_promised_numbers(search, number, unit))
+    if search.attrs["is_sampled"]:
+        ends = (search[f"wanted_promised_{end}"].values[:, number] for end in ("low", "high"))
+        each = (
+            f"{shown(low, unit)} to {shown(high, unit)}" for low, high in zip(*ends, strict=True)
+        )
+        yield (name, "80 % interval", "", *each)
+
+
+def _promised_numbers(search: xr.Dataset, number: int, unit: str) -> Iterator[Number]:
+    ends = (search[f"wanted_promised{end}"].values[:, number] for end in ("", "_low", "_high"))
+    for design, (value, low, high) in enumerate(zip(*ends, strict=True), 1):
+        selection = {"design": design, "wanted": str(search["wanted"].values[number])}
+        yield Number(
+            float(value), unit, "wanted_promised", selection, MEDIAN, float(low), float(high),
+            shown(float(value), unit),
+        )  # fmt: skip
+
+
+def no_best(search: xr.Dataset) -> str:
+    """Return the sentence in place of the best designs; empty where they are listed.
+
+    Every objective is a total level, and no design changes it by what could be measured.
+    """
+    return str(search.attrs["no_change"]) if search.attrs["only_totals"] else ""
+
+
+def shown(value: float, unit: str) -> str:
+    """A number with as many digits as it means: decibels with two decimals, others with four."""
+    if not np.isfinite(value):
+        return "–"
+    return rounding.fixed(value, 2) if unit.startswith("dB") else f"{value:.4g}"
+
+
+def limiting(search: xr.Dataset, designs: Evaluated) -> Iterator[str]:
+    """What limits each of the best few: constraints that it just meets, ends of ranges."""
     low, high = search["design_low"].values, search["design_high"].values
-    rows = []
-    for number, column in enumerate(designs.variables):
-        allowed = ", ".join(column.words) or f"{low[number]:.4g} to {high[number]:.4g}"
-        rows.append((column.label, column.unit, allowed))
-    variables = Table(
-        "Variables", ("Variable", "Unit", "Allowed"), tuple(rows), frozenset({0, 1, 2})
-    )
-    wanted = Table(
-        "Objectives and constraints",
-        ("Name", "What it is", "Unit", "Role", "Limit"),
-        tuple(
-            (str(name), str(label), str(unit), str(role), "" if np.isnan(limit) else f"{limit:g}")
-            for name, label, unit, role, limit in zip(
-                search["wanted"].values,
-                *(search[f"wanted_{part}"].values for part in ("label", "unit", "role", "limit")),
-                strict=True,
-            )
-        ),
-        frozenset({0, 1, 2, 3}),
-    )
-    return [variables, wanted, Text(search.attrs["method"], "note")]
+    for rank, row in enumerate(designs.best, 1):
+        reasons = []
+        for number, column in enumerate(designs.variables):
+            value, span = float(column.values[row]), high[number] - low[number]
+            if column.words or np.isnan(value) or span <= 0.0:
+                continue
+            if value - low[number] < _AT_END * span:
+                reasons.append(f"{column.label} is the least allowed")
+            elif high[number] - value < _AT_END * span:
+                reasons.append(f"{column.label} is the greatest allowed")
+        reasons += _met_just(search, int(row))
+        yield f"Design {rank}: " + ("; ".join(reasons) or "nothing limits it") + "."
+
+
+def _met_just(search: xr.Dataset, row: int) -> Iterator[str]:
+    for number, role in enumerate(search["wanted_role"].values):
+        limit = float(search["wanted_limit"].values[number])
+        if np.isnan(limit):
+            continue
+        value = float(search["wanted_value"].values[row, number])
+        if abs(value - limit) <= 10.0 * _AT_END * max(abs(limit), 1e-12):
+            unit = str(search["wanted_unit"].values[number])
+            yield f"{search['wanted'].values[number]} is just {role} {limit:g} {unit}".rstrip()
