@@ -23,7 +23,7 @@ from vibroacoustics.report.drawing.view import bar, fitted
 from vibroacoustics.report.quantities import FOOT_FORCE, FORCE, LINE, TOTAL
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.sections.verdict import words as first_screen
-from vibroacoustics.report.sections.verdict.charts import light, lights
+from vibroacoustics.report.sections.verdict.content import light, lights
 from vibroacoustics.report.sections.verdict.words import sentences
 from vibroacoustics.report.shifts import Shift
 from vibroacoustics.results.complete import check_run

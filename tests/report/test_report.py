@@ -33,17 +33,16 @@ from vibroacoustics.base.vocabulary import (
 from vibroacoustics.report import render
 from vibroacoustics.report.figures.scores import contributions
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
-from vibroacoustics.report.sections.assumptions.tables import records_table
+from vibroacoustics.report.sections.assumptions import records_table
 from vibroacoustics.report.sections.comparison.tables import (
     comparison,
     comparison_data,
     comparison_table,
 )
-from vibroacoustics.report.sections.mounts.tables import isolation_sentence, shape_words
-from vibroacoustics.report.sections.radiation.tables import grid_error_sentence
-from vibroacoustics.report.sections.reasons.words import options_table
-from vibroacoustics.report.sections.scores.tables import scores_data, wrong_sums
-from vibroacoustics.report.sections.scores.words import ranking_sentence
+from vibroacoustics.report.sections.mounts import isolation_sentence, shape_words
+from vibroacoustics.report.sections.radiation import grid_error_sentence
+from vibroacoustics.report.sections.reasons import options_table
+from vibroacoustics.report.sections.scores import ranking_sentence, scores_data, wrong_sums
 from vibroacoustics.report.sections.verdict.words import sentences
 from vibroacoustics.report.tables import to_csv
 from vibroacoustics.scoring import score

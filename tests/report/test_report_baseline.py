@@ -6,9 +6,8 @@ import pytest
 from sound_studies import result_with_baseline
 
 from vibroacoustics.commands.tone_tables import tone_row
-from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.sections.baseline import tables as baseline
-from vibroacoustics.report.sections.reasons import words as verdict
+from vibroacoustics.report.sections import SECTIONS, baseline
+from vibroacoustics.report.sections import reasons as verdict
 from vibroacoustics.report.sections.verdict import words as first_screen
 from vibroacoustics.sound import tonality
 from vibroacoustics.sound.ingredients import ingredients

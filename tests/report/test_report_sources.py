@@ -16,8 +16,8 @@ from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTI
 from vibroacoustics.report import render
 from vibroacoustics.report.bands import Band, percent
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
-from vibroacoustics.report.sections.assumptions.tables import not_modelled, remainder_sentence
-from vibroacoustics.report.sections.scores.tables import too_close_words
+from vibroacoustics.report.sections.assumptions import not_modelled, remainder_sentence
+from vibroacoustics.report.sections.scores import too_close_words
 from vibroacoustics.report.sections.sources.tables import source_table
 from vibroacoustics.report.sections.sources.words import certainty_sentences, samples_sentence
 from vibroacoustics.report.sections.unknowns.words import held_sentence, sampled_sentences

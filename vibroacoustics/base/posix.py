@@ -21,10 +21,10 @@ __all__ = ["ENDING", "check_memory", "fcntl", "resource"]
 ENDING: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)
 """Signals that end a command; the last one repeats the others."""
 LEAST_BYTES: Final = 700_000_000
-"""Of addresses for a command that only reads and prints, with its libraries."""
+"""Address space of a command that only reads and prints, with its libraries."""
 LEAST_TO_COMPUTE_BYTES: Final = 1_200_000_000
-"""Of addresses for a command that computes: below it, threads of libraries cannot start and wait
-for one another without end."""
+"""Address space of a command that computes: with less, threads of libraries cannot start, and the
+command waits for them without end."""
 
 
 def check_memory(least_bytes: int) -> None:

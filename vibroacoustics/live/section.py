@@ -9,7 +9,7 @@ import xarray as xr
 from ..base.registry import register
 from ..levels.measured_points import BASELINE_BANDS
 from ..report.blocks import Block, Live, Text
-from ..report.sections import Section
+from ..report.sections import Section, hold
 from ..report.shown_speeds import chosen_speeds, few_speeds
 from ..results.stored_study import catalogue_receiver, options
 from .cases import case_of
@@ -103,9 +103,4 @@ def _values_words(results: xr.Dataset) -> str:
     )
 
 
-def _applies(results: xr.Dataset) -> bool:
-    """Only results that hold what is no tone, too."""
-    return "noise_band_level" in results and "pressure_line" in results
-
-
-register(Section("live", "Try it", _blocks, _applies, position=25.0))
+register(Section("live", "Try it", _blocks, hold("noise_band_level", "pressure_line"), 25.0))

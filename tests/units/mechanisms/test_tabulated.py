@@ -16,7 +16,7 @@ from vibroacoustics.mechanisms.tabulated.other_files import read_spectra
 from vibroacoustics.mechanisms.tabulated.shaft_axes import ShaftAxes, axes_lines
 from vibroacoustics.mechanisms.tabulated.spectra import Spectra, orders_of, over_revolution
 from vibroacoustics.orders.spectrum import order_spectrum_at_speed
-from vibroacoustics.report.sections.assumptions.tables import not_modelled
+from vibroacoustics.report.sections.assumptions import not_modelled
 from vibroacoustics.results import storage
 from vibroacoustics.study.loading import load_machine, load_study
 

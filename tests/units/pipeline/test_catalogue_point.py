@@ -4,7 +4,7 @@ import pytest
 from sources_study import SOURCES_STUDY, run_made_up
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.report.sections.assumptions.tables import remainder_sentence
+from vibroacoustics.report.sections.assumptions import remainder_sentence
 from vibroacoustics.report.sections.sources.words import samples_sentence
 from vibroacoustics.study.loading import load_study
 

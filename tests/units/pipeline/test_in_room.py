@@ -19,7 +19,7 @@ from vibroacoustics.pipeline.cost import run_cost
 from vibroacoustics.radiation.rooms import of_study as rooms
 from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.sections.in_room.tables import (
+from vibroacoustics.report.sections.in_room import (
     absorption,
     room_sentence,
     room_table,

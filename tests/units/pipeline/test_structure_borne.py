@@ -11,7 +11,7 @@ from vibroacoustics.mechanics.loads import Loads, Tone
 from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.sections.structure_borne.tables import carrier, way_sentence, ways_table
+from vibroacoustics.report.sections.structure_borne import carrier, way_sentence, ways_table
 from vibroacoustics.sources.cases import cases_of
 from vibroacoustics.study.selection import at_speeds
 from vibroacoustics.transfer import on_mounts

@@ -13,7 +13,7 @@ from vibroacoustics.machine.floor import Floor
 from vibroacoustics.machine.housing import Housing
 from vibroacoustics.machine.mount_stiffness import MountStiffness
 from vibroacoustics.machine.mounts import Mounts
-from vibroacoustics.report.sections.assumptions.tables import not_modelled
+from vibroacoustics.report.sections.assumptions import not_modelled
 from vibroacoustics.study.loading import load_machine, load_study
 from vibroacoustics.transfer import MachineOnMounts, on_mounts
 

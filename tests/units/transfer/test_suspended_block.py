@@ -9,7 +9,7 @@ from support import ROOT, made_up_radiation
 from vibroacoustics import pipeline
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.machine.housing import Housing
-from vibroacoustics.report.sections.mounts.tables import block_table, modes_table
+from vibroacoustics.report.sections.mounts import block_table, modes_table
 from vibroacoustics.study.loading import load_machine, load_study
 from vibroacoustics.transfer import MachineOnMounts, on_mounts
 

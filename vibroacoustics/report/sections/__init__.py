@@ -1,16 +1,16 @@
 """Sections of the report, each in a folder or a file: blocks of the page, tables beside it.
 
-`content.py` of a folder registers the section, `tables.py` makes its tables and sentences.
+A file, or `content.py` of a folder, registers the section; `tables.py` makes tables and sentences.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Literal
 
 import xarray as xr
 
 from ...base.registry import LAST, Registry
-from ..blocks import Block
+from ..blocks import Block, Text
 from ..tables import DataTable
 
 
@@ -52,6 +52,20 @@ class Section:
     position: float = LAST
     folded: bool = True
     tables: Callable[[xr.Dataset], Mapping[str, DataTable]] = _no_tables
+
+
+def hold(*names: str) -> Callable[[xr.Dataset], bool]:
+    """Return what says whether results hold some variables."""
+
+    def applies(results: xr.Dataset) -> bool:
+        return all(name in results for name in names)
+
+    return applies
+
+
+def text(words: str, kind: Literal["plain", "strong", "note"] = "plain") -> list[Text]:
+    """Return a paragraph; none without words."""
+    return [Text(words, kind)] if words else []
 
 
 SECTIONS: Final[Registry[Section]] = Registry(

@@ -39,18 +39,15 @@ def _data(results: xr.Dataset) -> dict[str, DataTable]:
 def _rows(results: xr.Dataset) -> list[tuple[str, str]]:
     """All that is needed to make the results again."""
     radiation = json.loads(results.attrs.get("radiation") or "{}")
+    packages = json.loads(results.attrs.get("package_versions", "{}"))
     rows = {
         "Study file": parameters(results)["source_file"],
         **{label: str(results.attrs.get(key, "")) for key, label in _ATTRIBUTES.items()},
         "Radiation method": _settings(radiation),
         "Radiation settings": _settings(parameters(results)["radiation"]),
-        **{f"{name} version": version for name, version in sorted(_packages(results).items())},
+        **{f"{name} version": version for name, version in sorted(packages.items())},
     }
     return [(label, text or NOT_STATED) for label, text in rows.items()]
-
-
-def _packages(results: xr.Dataset) -> dict[str, str]:
-    return dict(json.loads(results.attrs.get("package_versions", "{}")))
 
 
 def _settings(settings: dict[str, Any]) -> str:

@@ -5,14 +5,10 @@ import xarray as xr
 from ...base.registry import register
 from ..blocks import Block, Pictures
 from ..figures.stacked import run_up_levels, run_up_orders
-from . import Section
+from . import Section, hold
 
 _FEWEST: int = 3
 """Orders from which on they are shown as colours."""
-
-
-def _applies(results: xr.Dataset) -> bool:
-    return "run_up_level" in results
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
@@ -21,4 +17,4 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [Pictures((run_up_levels(results), *orders))]
 
 
-register(Section("run-up", "Run-up", _blocks, _applies, 35.0))
+register(Section("run-up", "Run-up", _blocks, hold("run_up_level"), 35.0))

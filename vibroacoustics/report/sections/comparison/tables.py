@@ -1,13 +1,11 @@
 """The comparison of the options: one value per option, speed and microphone."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import xarray as xr
 
 from ....base import rounding
-from ....base.arrays import Array
 from ....base.remembered import remembered
 from ....base.vocabulary import REFERENCE_OPTION
 from ....results.estimates import has_samples
@@ -52,8 +50,8 @@ def comparison(results: xr.Dataset) -> xr.Dataset:
 def comparison_data(results: xr.Dataset) -> DataTable:
     """One row per option, speed and microphone."""
     compared = comparison(results)
-    keys = {"option": "option", "speed_rpm": "speed", "receiver": "receiver"}
-    columns = {head: compared[dim] for head, dim in keys.items()}
+    heads = ("option", "speed_rpm", "receiver")
+    columns = {head: compared[dim] for head, dim in zip(heads, _DIMENSIONS, strict=True)}
     values = {str(name): column for name, column in compared.data_vars.items()}
     return data_table(_DIMENSIONS, {**columns, **values})
 
@@ -68,7 +66,8 @@ def comparison_table(results: xr.Dataset) -> Table:
 def terminal_blocks(results: xr.Dataset) -> tuple[Block, ...]:
     """Compact tables for the terminal, at the catalogue's microphone, and what their values are."""
     tables = _tables(results, catalogue_receiver(results), lambda column: column.terminal)
-    notes = [bands_sentence(results), few_speeds_words(results), _no_total(results)]
+    no_total = total_sentence(results) if overall_noise(results) is None else ""
+    notes = [bands_sentence(results), few_speeds_words(results), no_total]
     return (*tables, *map(Text, filter(None, notes)))
 
 
@@ -79,85 +78,47 @@ def bands_sentence(results: xr.Dataset) -> str:
     return f"Values are medians of the weighted samples, with their {INTERVAL} in brackets."
 
 
-def _no_total(results: xr.Dataset) -> str:
-    return total_sentence(results) if overall_noise(results) is None else ""
-
-
 def _tables(
     results: xr.Dataset, receiver: str, head_of: Callable[[Column], str | None]
 ) -> list[Table]:
     shown = few_speeds(results)
-    columns = columns_of(shown).columns
-    cells = _Cells.of(shown, receiver)
-    heads = {column.name: head for column in columns if (head := head_of(column)) is not None}
+    columns = [each for each in columns_of(shown).columns if head_of(each) is not None]
     words = level_words(results)
-    return [
-        Table(
-            f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}",
-            ("Option", "Level", *heads.values()),
-            tuple(
-                (
-                    option,
-                    words[option],
-                    *(cells.cell(column, at, i) for column in columns if column.name in heads),
-                )
-                for at, option in enumerate(options(shown))
-            ),
-            frozenset({0, 1}),
+    tables = []
+    for speed, frequency in zip(speeds(shown), first_order_hz(shown), strict=True):
+        at = {"receiver": receiver, "speed": speed}
+        here = comparison(shown).sel(at)
+        rows = tuple(
+            (option, words[option], *(_cell(shown, each, here, option, at) for each in columns))
+            for option in options(shown)
         )
-        for i, (speed, frequency) in enumerate(
-            zip(speeds(shown), first_order_hz(shown), strict=True)
-        )
-    ]
+        caption = f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}"
+        head = ("Option", "Level", *(head_of(column) or "" for column in columns))
+        tables.append(Table(caption, head, rows, frozenset({0, 1})))
+    return tables
 
 
-@dataclass(frozen=True)
-class _Cells:
-    """Values at one microphone.
+def _cell(
+    results: xr.Dataset, column: Column, here: xr.Dataset, option: str, at: Mapping[str, Any]
+) -> Cell:
+    """Value with its interval; a change of a silent level is none."""
 
-    Attributes
-    ----------
-    results : with the speeds that are shown
-    numbers : by column, shape (option, speed)
-    receiver : the microphone
-    """
+    def write(value: float) -> str:
+        return column.write(value, results)
 
-    results: xr.Dataset
-    numbers: dict[str, Array]
-    receiver: str
-
-    @classmethod
-    def of(cls, results: xr.Dataset, receiver: str) -> "_Cells":
-        compared = comparison(results).sel(receiver=receiver)
-        numbers = {str(name): array.values for name, array in compared.data_vars.items()}
-        return cls(results, numbers, receiver)
-
-    def cell(self, column: Column, option: int, speed: int) -> Cell:
-        """Value with its interval; a change of a silent level is none."""
-        value = float(self.numbers[column.name][option, speed])
-        if column.change_of:
-            level = self.numbers[column.change_of][:, speed]
-            if level[options(self.results).index(REFERENCE_OPTION)] < rounding.LEVEL_FLOOR_DB:
-                return rounding.NOTHING
-            if level[option] < rounding.LEVEL_FLOOR_DB:
-                return "silent"
-        if not column.variable:
-            return column.write(value, self.results)
-        at = {"option": options(self.results)[option], "speed": speeds(self.results)[speed]}
-        return number(
-            self.results,
-            column.variable,
-            partial(_write, column, self.results),
-            _UNITS.get(column.name.rsplit("_", 1)[-1], ""),
-            **{"receiver": self.receiver, **at, **column.at},
-        )
+    if column.change_of:
+        level = here[column.change_of]
+        if level.sel(option=REFERENCE_OPTION) < rounding.LEVEL_FLOOR_DB:
+            return rounding.NOTHING
+        if level.sel(option=option) < rounding.LEVEL_FLOOR_DB:
+            return "silent"
+    if not column.variable:
+        return write(float(here[column.name].sel(option=option)))
+    unit = _UNITS.get(column.name.rsplit("_", 1)[-1], "")
+    return number(results, column.variable, write, unit, **{"option": option, **at, **column.at})
 
 
 def level_words(results: xr.Dataset) -> dict[str, str]:
     """Return what every option does to the level, in the word of the first screen."""
     changed = {name: word(shift(results, TOTAL, name)) for name in balancers(results)}
     return {REFERENCE_OPTION: rounding.NOTHING, **changed}
-
-
-def _write(column: Column, results: xr.Dataset, value: float) -> str:
-    return column.write(value, results)

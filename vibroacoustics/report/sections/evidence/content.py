@@ -13,14 +13,13 @@ from ....results.validation import (
 from ...bands import percent
 from ...blocks import Block, Text
 from ...tables import DataTable, long_table
-from .. import Section
-from . import conflict
-from .tables import agreement_sentence, evidence_table
+from .. import Section, text
+from .tables import agreement_sentence, conflict_table, evidence_table
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     return [
-        *_agreement(results),
+        *text(agreement_sentence(results), "strong"),
         evidence_table(results),
         Text(
             "E is simulation minus data, u the root of the sum of squared standard uncertainties "
@@ -29,13 +28,8 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             f"a force) and differ where |E| > {COVERAGE:g} u.",
             "note",
         ),
-        *([conflict.conflict_table(results)] if conflict.applies(results) else []),
+        *([conflict_table(results)] if "datum_tail" in results else []),
     ]
-
-
-def _agreement(results: xr.Dataset) -> list[Block]:
-    sentence = agreement_sentence(results)
-    return [Text(sentence, "strong")] if sentence else []
 
 
 def _data(results: xr.Dataset) -> dict[str, DataTable]:

@@ -1,11 +1,15 @@
 """Results beside published values, in words and tables."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import Final
 
 import xarray as xr
 
 from ....base import rounding
+from ....base.vocabulary import PUBLISHED_LEVEL, PUBLISHED_SHARE
+from ....results.stored_study import parameters
 from ....results.validation import AGREES, DIFFERS, UNDECIDED, Validation, validations
+from ...bands import Band, percent
 from ...tables import Table
 
 
@@ -42,7 +46,6 @@ def validation_table(caption: str, shown: Iterable[Validation]) -> Table:
 
 
 def _row(shown: Validation) -> tuple[str, ...]:
-    numbers = (shown.simulation, shown.data)
     spreads = (shown.numerical, shown.inputs, shown.published, shown.uncertainty)
     is_level = shown.unit.startswith("dB")
     write = rounding.fixed if is_level else rounding.significant
@@ -51,7 +54,7 @@ def _row(shown: Validation) -> tuple[str, ...]:
     return (
         shown.quantity,
         shown.unit,
-        *map(write, numbers),
+        *map(write, (shown.simulation, shown.data)),
         rounding.signed(shown.error) if is_level else _with_sign(shown.error),
         *(rounding.significant(spread, 2) for spread in spreads),
         verdict,
@@ -62,3 +65,46 @@ def _row(shown: Validation) -> tuple[str, ...]:
 def _with_sign(value: float) -> str:
     text = rounding.significant(value)
     return f"+{text}" if value > 0.0 else text
+
+
+CONFLICT: Final = 0.05
+"""Tail of the prior predictive below which published data are in conflict with the model."""
+_ALL: Final = "all together"
+
+
+def conflict_table(results: xr.Dataset) -> Table:
+    """A row for each published datum, and one for all together."""
+    rows = []
+    names = map(str, results["datum"].values)
+    tails = dict(zip(names, results["datum_tail"].values.tolist(), strict=True))
+    if len(tails) > 1:
+        tails[_ALL] = results["conflict_tail"].item()
+    for name, tail in tails.items():
+        expected = published = ""
+        if name != _ALL:
+            published = _published(results, name)
+            quantiles = results["datum_expected"].sel(datum=name).transpose("datum_quantile")
+            expected = Band(*quantiles.values.tolist()).middle_and_ends(_number(name))
+        word = "conflict" if tail < CONFLICT else "no conflict"
+        rows.append((name, published, expected, rounding.fixed(tail, 3), word))
+    head = ("Datum", "Published", "Expected by the model", "Tail of the prior", "")
+    caption = "Published data beside the prior predictive distribution, median (80 % interval)"
+    return Table(caption, head, tuple(rows), frozenset({0, 4}))
+
+
+def _published(results: xr.Dataset, name: str) -> str:
+    value, deviation = (
+        float(results[of].sel(datum=name)) for of in ("datum_value", "datum_deviation")
+    )
+    return f"{_number(name)(value)} ± {_number(name)(deviation)}{_unit(results, name)}"
+
+
+def _number(name: str) -> Callable[[float], str]:
+    return percent if name == PUBLISHED_SHARE else rounding.fixed
+
+
+def _unit(results: xr.Dataset, name: str) -> str:
+    if name == PUBLISHED_LEVEL:
+        return " dB(A)"
+    below_hz = parameters(results)["machine"]["overall_noise"]["spectral_share"]["below_hz"]
+    return f" of the energy below {below_hz:g} Hz"

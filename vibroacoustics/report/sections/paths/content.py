@@ -21,7 +21,7 @@ from .tables import (
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     receiver, speed = catalogue_receiver(results), path_speed(results)
-    return [
+    blocks: list[Block] = [
         Text(leading_sentence(results, receiver), "strong"),
         Text(
             "A path is a source, the part it acts on and a direction. Lines of one frequency add "
@@ -37,18 +37,14 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             f"and path_orders.csv{', motions in path_motions.csv' * has_motions(results)}.",
             "note",
         ),
-        *_of_feet(results, speed),
     ]
-
-
-def _of_feet(results: xr.Dataset, speed: float) -> list[Block]:
-    if not foot_orders(results, speed):
-        return []
-    return [
-        Heading("Forces into the feet"),
-        Pictures((foot_bars(results, speed),)),
-        Text("Values by source are in feet.csv.", "note"),
-    ]
+    if foot_orders(results, speed):
+        blocks += [
+            Heading("Forces into the feet"),
+            Pictures((foot_bars(results, speed),)),
+            Text("Values by source are in feet.csv.", "note"),
+        ]
+    return blocks
 
 
 register(Section("paths", "Transfer paths", _blocks, has_paths, 32.0, tables=path_data))

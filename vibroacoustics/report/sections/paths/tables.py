@@ -11,7 +11,7 @@ from ....base.decibel import amplitude_of_level, power_of_level, sound_pressure_
 from ....base.remembered import remembered
 from ....base.vocabulary import REFERENCE_OPTION
 from ....results.labels import DOF_WORDS
-from ....results.stored_study import quoted_speed, source_name
+from ....results.stored_study import a_weighted, at_catalogue, quoted_speed, source_name
 from ...bands import percent
 from ...tables import DataTable, Table, data_table, phase_deg
 
@@ -27,6 +27,7 @@ _RELATIONS: Final = (
 """Words from a cosine on."""
 LEAST: Final = 0.005
 """Smaller shares are omitted in sentences."""
+_NAMED: Final = ("path_source", "path_port", "path_direction")
 _KINDS: Final = {"f": "force along", "m": "moment about"}
 
 
@@ -56,10 +57,7 @@ def at_path_speed(results: xr.Dataset, receiver: str, option: str = REFERENCE_OP
 
 def path_words(results: xr.Dataset, row: int) -> tuple[str, str]:
     """Source of a path, and where it acts in which direction, in plain words."""
-    source, port, direction = (
-        str(results.variables[f"path_{field}"].values[row])
-        for field in ("source", "port", "direction")
-    )
+    source, port, direction = (str(results.variables[name].values[row]) for name in _NAMED)
     kind = _KINDS.get(direction[0]) if len(direction) == 2 else None
     words = DOF_WORDS.get(direction) or (f"{kind} {direction[1]}" if kind else direction)
     return source_name(results, source), f"{port.replace('_', ' ')} {words}"
@@ -82,12 +80,9 @@ def leading_sentence(results: xr.Dataset, receiver: str) -> str:
     """The two paths with the largest shares, and that with the most negative one."""
     share = at_path_speed(results, receiver)["path_share"].values
     first = " and ".join(with_share(results, row, share) for row in leading(share, 2))
-    against = int(np.argmin(share))
-    less = (
-        f" Most negative: {with_share(results, against, share)}."
-        if share[against] <= -LEAST
-        else ""
-    )
+    against, less = int(np.argmin(share)), ""
+    if share[against] <= -LEAST:
+        less = f" Most negative: {with_share(results, against, share)}."
     return (
         f"Dominant paths to {receiver} at {path_speed(results):g} rpm without a balancer: "
         f"{first} of the modelled energy.{less}"
@@ -113,14 +108,14 @@ def signed_percent(share: float) -> str:
 
 _SHOWN: Final = 5
 _ORDERS: Final = 6
-_NAMED: Final = ("path_source", "path_port", "path_direction")
 
 
 def paths_table(results: xr.Dataset, receiver: str) -> Table:
     """The leading paths of the A-weighted level."""
     there = at_path_speed(results, receiver)
     share, alone = there["path_share"].values, there["path_level"].values
-    total = _modelled_level(results, receiver)
+    at = at_catalogue(results, receiver=receiver, speed=path_speed(results))
+    total = float(a_weighted(results["level_modelled"]).sel(at))
     bands = there["path_band_share"].transpose("path", "band")
     energy = np.abs(bands.values) * power_of_level(there["modelled_band_level"].values)
     rows = tuple(
@@ -219,22 +214,15 @@ def _levels(pressure: xr.DataArray) -> xr.DataArray:
     return pressure.copy(data=sound_pressure_level(pressure.values))
 
 
-def _modelled_level(results: xr.Dataset, receiver: str) -> float:
-    at = {"receiver": receiver, "option": REFERENCE_OPTION, "weighting": "A"}
-    return float(results["level_modelled"].sel(at).sel(speed=path_speed(results)))
-
-
 def paths_data(results: xr.Dataset) -> DataTable:
     """One row per option, speed, microphone and path."""
     dims = ("option", "path_speed", "receiver", "path")
     share = results["path_share"].transpose(*dims)
     level = results["level_modelled"].sel(weighting="A", drop=True).rename(speed="path_speed")
     total = level.sel(path_speed=results["path_speed"])
+    heads = ("option", "speed_rpm", "receiver", "source", "port", "direction")
     columns = {
-        "option": results["option"],
-        "speed_rpm": results["path_speed"],
-        "receiver": results["receiver"],
-        **{name: results[f"path_{name}"] for name in ("source", "port", "direction")},
+        **{head: results[name] for head, name in zip(heads, (*dims[:3], *_NAMED), strict=True)},
         "level_dba": results["path_level"],
         "share_of_modelled_energy": share,
         "share_so_far": _so_far(share, share),
@@ -257,14 +245,3 @@ def foot_forces(results: xr.Dataset, speed: float) -> xr.DataArray:
 def _forces(results: xr.Dataset, speed: float, orders: list[int]) -> xr.DataArray:
     at = {"speed": speed, "option": REFERENCE_OPTION, "order": orders}
     return results["foot_force_order"].sel(at)
-
-
-def _cells(there: xr.DataArray) -> tuple[str, str]:
-    """Force of all that moves, and the largest of one of them alone."""
-    alone = np.abs(there.values)
-    first = int(np.argmax(alone))
-    if alone[first] < rounding.FORCE_FLOOR:
-        return "0", rounding.NOTHING
-    source = str(there["source"].values[first]).replace("_", " ")
-    total = rounding.significant(float(np.abs(there.values.sum())))
-    return total, f"{source}, {rounding.significant(float(alone[first]))} N alone"

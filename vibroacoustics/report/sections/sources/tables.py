@@ -1,10 +1,12 @@
 """Tables of the sources of sound, and of what the options do to them."""
 
+from typing import Final
+
 import xarray as xr
 
 from ....base import rounding
 from ....base.vocabulary import SUFFIXES
-from ....results.estimates import has_samples, is_sampled
+from ....results.estimates import estimate, has_samples, is_sampled
 from ....results.stored_study import (
     at_catalogue,
     catalogue_receiver,
@@ -12,13 +14,13 @@ from ....results.stored_study import (
     overall_noise,
     source_name,
 )
-from ...bands import INTERVAL, band
+from ...bands import FINEST_DB, INTERVAL, Band, band, written
 from ...remainder import remainder_band
 from ...tables import DataTable, Table, data_table
-from .words import ranked, source_share, unmodelled_share
+from .words import UNMODELLED, ranked, source_share, unmodelled_share
 
 
-def sources_data(results: xr.Dataset) -> DataTable:
+def sources_data(results: xr.Dataset) -> dict[str, DataTable]:
     """Return a row per option, speed, microphone and source."""
     columns = {
         "option": results["option"],
@@ -33,23 +35,20 @@ def sources_data(results: xr.Dataset) -> DataTable:
         if is_sampled(results, variable):
             for suffix in SUFFIXES.values():
                 columns[f"{stem}{suffix}{unit}"] = results[f"{variable}{suffix}"]
-    return data_table(("option", "speed", "receiver", "sound_source"), columns)
+    dims = ("option", "speed", "receiver", "sound_source")
+    return {"sources.csv": data_table(dims, columns)}
 
 
 def source_table(results: xr.Dataset) -> Table:
     """Return level and share of each source without a balancer at the published speed."""
     speed = nearest_speed(results)
     at = at_catalogue(results, speed=speed)
-    rows = [
-        (
-            source_name(results, source).capitalize(),
-            band(results, "source_level", **at, sound_source=source).middle_and_ends(
-                rounding.level
-            ),
-            source_share(results, source, speed).in_percent(),
-        )
-        for source in ranked(results, speed)
-    ]
+    rows = []
+    for source in ranked(results, speed):
+        level = band(results, "source_level", **at, sound_source=source)
+        share = source_share(results, source, speed).in_percent()
+        name = source_name(results, source).capitalize()
+        rows.append((name, level.middle_and_ends(rounding.level), share))
     modelled = band(results, "level_modelled", **at).middle_and_ends(rounding.level)
     rows.append(("All modelled sources", modelled, rounding.NOTHING))
     if overall_noise(results) is not None:
@@ -66,3 +65,65 @@ def source_table(results: xr.Dataset) -> Table:
         "levels do not add up"
     )
     return Table(caption, head, tuple(rows))
+
+
+LEAST: Final = 0.01
+"""Smaller shares are in uncertainty.csv."""
+_WORDS = {"level alone": "published level alone", "other prior": "second prior"}
+
+
+def alternatives_table(results: xr.Dataset) -> Table | None:
+    """Return level and shares with all data, and with alternatives; None without alternatives."""
+    if "alternative" not in results:
+        return None
+    speed, alternatives = nearest_speed(results), list(map(str, results["alternative"].values))
+    total = band(results, "level_total", **at_catalogue(results, speed=speed))
+    levels = [total, *(_level(results, name) for name in alternatives)]
+    texts = (level.middle_and_ends(rounding.level) for level in levels)
+    rows = [("Level of the machine, dB(A)", *texts)]
+    largest = results["alternative_share"].max("alternative")
+    for part in map(str, results["energy_part"].where(largest >= LEAST, drop=True).values):
+        here, name = unmodelled_share(results, speed), UNMODELLED
+        if part in results["sound_source"].values:
+            here, name = source_share(results, part, speed), source_name(results, part)
+        shares = [here, *(_share(results, alternative, part) for alternative in alternatives)]
+        rows.append((f"Share of {name}", *(share.in_percent() for share in shares)))
+    effective = ", ".join(
+        f"{_effective(results, name):.0f} with {_WORDS[name]}" for name in alternatives
+    )
+    head = ("", "all data, first prior", *(_WORDS[name] for name in alternatives))
+    caption = f"Less evidence or another prior (shares from 1 %); effective sample size {effective}"
+    return Table(caption, head, tuple(rows))
+
+
+def spectrum_sentence(results: xr.Dataset) -> str:
+    """Return how far the published spectral share changes shares; empty without one."""
+    if "alternative" not in results or "level alone" not in results["alternative"].values:
+        return ""
+    speed, sources = nearest_speed(results), list(map(str, results["sound_source"].values))
+
+    def change(source: str) -> float:
+        alone = _share(results, "level alone", source).middle
+        return abs(source_share(results, source, speed).middle - alone)
+
+    source = max(sources, key=change)
+    name = source_name(results, source)
+    return (
+        f"With the published spectral share {name} make "
+        f"{source_share(results, source, speed).in_percent()} of the energy, with the level alone "
+        f"{_share(results, 'level alone', source).in_percent()}."
+    )
+
+
+def _share(results: xr.Dataset, alternative: str, part: str) -> Band:
+    known = estimate(results, "alternative_share", alternative=alternative, energy_part=part)
+    return written(known, _effective(results, alternative))
+
+
+def _level(results: xr.Dataset, alternative: str) -> Band:
+    known = estimate(results, "alternative_level", alternative=alternative)
+    return written(known, _effective(results, alternative), FINEST_DB)
+
+
+def _effective(results: xr.Dataset, alternative: str) -> float:
+    return float(results["alternative_effective"].sel(alternative=alternative))

@@ -64,21 +64,17 @@ def samples_sentence(results: xr.Dataset) -> str:
     tried, effective, computed = sample_numbers(results)
     if not has_samples(results):
         return _unresolved(results, tried, effective)
-    if overall_noise(results) is None and "baseline_band_level" not in results:
+    why = ""
+    if "baseline_band_level" in results:
+        how = "by the likelihood of the measured baseline"
+    elif overall_noise(results) is not None:
+        how = f"by the likelihood of the published level{elsewhere(results)}"
+    else:
         how = "by the hammer test" if "shell_weight" in results else "equally"
-        why = "no level of the machine is published"
-        return (
-            f"{tried} samples were weighted {how}, as {why}: effective sample size "
-            f"{effective:.0f}. {computed} of them were computed in all cases."
-        )
-    datum = (
-        "the measured baseline"
-        if "baseline_band_level" in results
-        else f"the published level{elsewhere(results)}"
-    )
+        why = ", as no level of the machine is published"
     return (
-        f"{tried} samples were weighted by the likelihood of {datum}: effective sample size "
-        f"{effective:.0f}. {computed} of them were computed in all cases."
+        f"{tried} samples were weighted {how}{why}: effective sample size {effective:.0f}. "
+        f"{computed} of them were computed in all cases."
     )
 
 

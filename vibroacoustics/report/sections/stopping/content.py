@@ -6,12 +6,8 @@ from ....base.registry import register
 from ...blocks import Block, Pictures, Text
 from ...figures.stopping import stopping, stopping_order_map
 from ...shown_speeds import chosen_speeds, few_speeds
-from .. import Section
+from .. import Section, hold
 from .tables import forces_table, sentences, stopping_data
-
-
-def _applies(results: xr.Dataset) -> bool:
-    return "stopping_force" in results
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
@@ -26,4 +22,5 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     ]
 
 
+_applies = hold("stopping_force")
 register(Section("stopping", "Stopping", _blocks, _applies, 80.0, tables=stopping_data))

@@ -21,15 +21,8 @@ def sentences(results: xr.Dataset) -> tuple[str, ...]:
 def force_and_moments(results: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
     """Resultant force, tilting moment and size of the roll moment, (speed, stopping_time)."""
     force, moment = results["stopping_force"], results["stopping_moment"]
-    return (
-        _resultant(force),
-        _resultant(moment.sel(axis=["x", "y"])),
-        _resultant(moment.sel(axis=["z"])),
-    )
-
-
-def _resultant(vector: xr.DataArray) -> xr.DataArray:
-    return vector.reduce(np.linalg.norm, "axis")
+    tilting = moment.sel(axis=["x", "y"]).reduce(np.linalg.norm, "axis")
+    return force.reduce(np.linalg.norm, "axis"), tilting, abs(moment.sel(axis="z", drop=True))
 
 
 def _greatest(over_time: xr.DataArray) -> tuple[Array, Array]:
@@ -80,15 +73,12 @@ def _line_foot_force_n(results: xr.Dataset, speed: int) -> float:
 
 def _map_sentence(results: xr.Dataset) -> str:
     turned = rounding.span(results["stopping_revolutions"].values, rounding.fixed)
-    if "stopping_order_map" not in results:
-        return (
-            f"The shaft turns {turned} times while it stops, too few for an order map even without "
-            "gas load."
-        )
-    return (
-        f"The shaft turns {turned} times while it stops. The order map is that of a stop from the "
-        "highest speed without gas load."
+    words = (
+        ". The order map is that of a stop from the highest speed without gas load."
+        if "stopping_order_map" in results
+        else ", too few for an order map even without gas load."
     )
+    return f"The shaft turns {turned} times while it stops{words}"
 
 
 def _limits(results: xr.Dataset) -> str:

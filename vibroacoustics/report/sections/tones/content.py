@@ -5,8 +5,8 @@ import xarray as xr
 from ....base.registry import register
 from ....results.estimates import is_sampled
 from ...blocks import Block, Text
-from .. import Section
-from .tables import NO_LOUDNESS, has_sound, tone_data, tone_table
+from .. import Section, hold
+from .tables import NO_LOUDNESS, tone_data, tone_table
 
 _HOW = (
     "A tone is listed if it is audible and prominent (ECMA-418-1){samples}. The excess is the "
@@ -22,4 +22,5 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [tone_table(results), Text(_HOW.format(samples=samples, loudness=loudness), "note")]
 
 
-register(Section("tones", "Tones and loudness", _blocks, has_sound, 38.0, tables=tone_data))
+_applies = hold("pressure_line", "noise_band_level", "tone_excess")
+register(Section("tones", "Tones and loudness", _blocks, _applies, 38.0, tables=tone_data))

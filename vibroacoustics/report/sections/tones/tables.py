@@ -21,18 +21,11 @@ NO_LOUDNESS: Final = (
 )
 
 
-def has_sound(results: xr.Dataset) -> bool:
-    """Return whether results hold what sounds are made of, and their tones."""
-    return {"pressure_line", "noise_band_level", "tone_excess"} <= set(results)
-
-
 def excess_words(excess_db: Estimate) -> str:
     """Return the ends of the interval of an excess: dB, or that the tone is not prominent."""
-    ends = [
-        rounding.fixed(end) if end >= 0.0 else NOT_PROMINENT
-        for end in (excess_db.low, excess_db.high)
-    ]
-    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
+    ends = (excess_db.low, excess_db.high)
+    words = [rounding.fixed(end) if end >= 0.0 else NOT_PROMINENT for end in ends]
+    return " to ".join(dict.fromkeys(words))
 
 
 def tone_table(results: xr.Dataset) -> Table:
@@ -40,21 +33,19 @@ def tone_table(results: xr.Dataset) -> Table:
     microphone, speed = catalogue_receiver(results), nearest_speed(results)
     loud = _loudness(results, microphone, speed)
     sampled = is_sampled(results, "tone_excess")
-    rows = tuple(
-        (
-            option,
-            _names(listed_tones(results, option, microphone, speed)),
-            *_cells(nearest_tone(results, option, microphone, speed), sampled),
-            *((_percent(_some_tone(results, option, microphone, speed)),) if sampled else ()),
-            *loud.get(option, ()),
-        )
-        for option in options(results)
-    )
+    rows = []
+    for option in options(results):
+        case = {"option": option, "receiver": microphone, "speed": speed}
+        cells = [option, _names(listed_tones(results, option, microphone, speed))]
+        cells += _cells(nearest_tone(results, option, microphone, speed), sampled)
+        if sampled:
+            cells.append(_percent(estimate(results, "any_tone_probability", **case).value))
+        rows.append((*cells, *loud.get(option, ())))
     of_samples = ("80 % interval, dB", "probability", "some tone") if sampled else ()
     with_loudness = ("sone", "acum") if loud else ()
     head = (*HEAD, *of_samples, *with_loudness)
     caption = f"Prominent tones, and the tone with the largest excess, {microphone}, {speed:g} rpm"
-    return Table(caption, head, rows, frozenset({0, 1, 2}))
+    return Table(caption, head, tuple(rows), frozenset({0, 1, 2}))
 
 
 def tone_data(results: xr.Dataset) -> dict[str, DataTable]:
@@ -92,12 +83,6 @@ def _cells(tone: ProminentTone | None, sampled: bool) -> tuple[str, ...]:
     if not sampled:
         return cells
     return (*cells, excess_words(tone.excess_db), _percent(tone.probability))
-
-
-def _some_tone(results: xr.Dataset, option: str, microphone: str, speed: float) -> float:
-    """Probability that some tone is prominent."""
-    case = {"option": option, "receiver": microphone, "speed": speed}
-    return estimate(results, "any_tone_probability", **case).value
 
 
 def _percent(share: float) -> str:

@@ -5,15 +5,14 @@ import xarray as xr
 from ....base.registry import register
 from ...blocks import Block, Text
 from ...tables import DataTable, long_table
-from .. import Section
+from .. import Section, hold, text
 from . import tables as unknowns
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    sentence = unknowns.measure_next_sentence(results)
     table = unknowns.unknowns_table(results)
     return [
-        *([Text(sentence, "strong")] if sentence else []),
+        *text(unknowns.measure_next_sentence(results), "strong"),
         Text(unknowns.resolved_sentence(results)),
         *([table] if table else []),
         Text(
@@ -33,8 +32,4 @@ def _data(results: xr.Dataset) -> dict[str, DataTable]:
     return {"uncertainty.csv": long_table(results, names)}
 
 
-def _applies(results: xr.Dataset) -> bool:
-    return "level_share" in results
-
-
-register(Section("unknowns", "Sensitivity", _blocks, _applies, 35.0, tables=_data))
+register(Section("unknowns", "Sensitivity", _blocks, hold("level_share"), 35.0, tables=_data))

@@ -17,7 +17,7 @@ from ....results.estimates import (
 from ....results.stored_study import catalogue_receiver, overall_noise
 from ...bands import INTERVAL, percent, written
 from ...tables import Table
-from .words import file_unit, named
+from .words import file_unit, named, with_unit
 
 NOT_RESOLVED: Final = "not resolved"
 SMALLEST_DB: Final = 0.1
@@ -26,13 +26,7 @@ BEFORE: Final = "before"
 
 
 def resolved(results: xr.Dataset, name: str) -> Array:
-    """Whether shares are more than chance gives: their intervals end above the floor.
-
-    Parameters
-    ----------
-    results : with shares, ends of their intervals and floors
-    name : of the shares, whose dimensions are a quantity and an unknown
-    """
+    """Whether shares (quantity, unknown) are more than chance gives: they end above the floor."""
     return np.asarray(results[f"{name}_low"].values > results[f"{name}_floor"].values[:, None])
 
 
@@ -73,7 +67,7 @@ def unknowns_table(results: xr.Dataset) -> Table | None:
     names = [str(name) for name in shares["uncertain_parameter"].values]
     rows = tuple(
         (
-            _with_unit(results, names[at]),
+            with_unit(named(names[at]), file_unit(results, names[at])[0]),
             *(_values(results, names[at], number) for number in range(-1, len(knowledge) - 1)),
             *(share_words(results, "level_share", number, at) for number in columns),
         )
@@ -83,15 +77,10 @@ def unknowns_table(results: xr.Dataset) -> Table | None:
     if not rows:
         return None
     words = [_knowledge(results, name) for name in knowledge]
-    return Table(
-        f"Parameters that the modelled level depends on: median of the values with {INTERVAL}",
-        (
-            "Parameter",
-            *(f"value {word}" for word in words),
-            *(f"share of the variance {words[number]}" for number in columns),
-        ),
-        rows,
-    )
+    values = (f"value {word}" for word in words)
+    of_variance = (f"share of the variance {words[number]}" for number in columns)
+    caption = f"Parameters that the modelled level depends on: median of the values with {INTERVAL}"
+    return Table(caption, ("Parameter", *values, *of_variance), rows)
 
 
 def most_valuable(results: xr.Dataset) -> str:
@@ -127,11 +116,8 @@ def measure_next_sentence(results: xr.Dataset) -> str:
 
 def _most_valuable(results: xr.Dataset) -> str:
     """The unknown worth most for a choice, or that the samples do not show which it is."""
-    gain, choice, best = (
-        results["parameter_information"].values,
-        results["choice"].item(),
-        _best(results),
-    )
+    gain, choice = results["parameter_information"].values, results["choice"].item()
+    best = _best(results)
     everything = f"{rounding.fixed(float(results['perfect_information']))} dB"
     if best is not None:
         name = named(str(results["uncertain_parameter"].values[best]))
@@ -156,20 +142,13 @@ def _best(results: xr.Dataset) -> int | None:
 
 def _values(results: xr.Dataset, name: str, prior: int) -> str:
     """Median and interval of an unknown's values by a prior; by equal weights for -1."""
-    if prior >= 0 and not has_samples(results):
-        return rounding.NOTHING
     ensemble = prior_ensemble(results)
-    if ensemble is None:
+    if ensemble is None or (prior >= 0 and not has_samples(results)):
         return rounding.NOTHING
     values = ensemble.value.sel(uncertain_parameter=name).values / file_unit(results, name)[1]
     weight = ensemble.before if prior < 0 else ensemble.weight[prior]
     known = written(weighted_estimate(values, weight), effective_number(weight))
     return known.middle_and_ends(rounding.three_digits)
-
-
-def _with_unit(results: xr.Dataset, name: str) -> str:
-    unit = file_unit(results, name)[0]
-    return f"{named(name)}, {unit}" if unit else named(name)
 
 
 def _knowledge(results: xr.Dataset, name: str) -> str:

@@ -32,15 +32,17 @@ def held_sentence(results: xr.Dataset) -> str:
     return f"{count} not sampled; inputs.csv gives ranges and reasons."
 
 
-def _table(dotted: str) -> str:
-    first, *rest = dotted.split(".")
-    return " ".join([_TABLES.get(first, first), *rest]).replace("_", " ")
-
-
 def named(name: str) -> str:
     """Plain words for a sampled value by its dotted name, without its unit."""
     table, _, field = name.rpartition(".")
-    return f"{_table(table)} {labels.name(field).lower()}"
+    first, *parts = table.split(".")
+    where = " ".join([_TABLES.get(first, first), *parts]).replace("_", " ")
+    return f"{where} {labels.name(field).lower()}"
+
+
+def with_unit(words: str, symbol: str) -> str:
+    """Words for a value with its unit, if it has one."""
+    return f"{words}, {symbol}" if symbol else words
 
 
 def in_si(field: str) -> str:

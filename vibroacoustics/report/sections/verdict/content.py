@@ -1,27 +1,115 @@
 """Two charts of the first screen; forces, lines and the machine folded."""
 
+from collections.abc import Mapping, Sequence
+from typing import Final, Literal, TypeAlias
+
+import numpy as np
 import xarray as xr
 
 from ....base.registry import register
+from ....results.estimates import QUANTILES, has_samples
 from ....results.left_out import lines_of
-from ....results.stored_study import parameters
+from ....results.stored_study import balancers, catalogue_receiver, other_receivers, parameters
 from ....results.version_2 import RAISED
-from ...blocks import Beside, Block, Bullets, Details, Pictures, Text
+from ...blocks import Beside, Block, Bullets, Details, Light, LightRow, Lights, Pictures, Text
 from ...drawing import machine_picture
-from ...option_verdict import option_verdicts
+from ...option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
+from ...quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
+from ...shifts import Shift, extent, measurable, shift
 from .. import Section
-from ..scores.words import ranking_sentence
-from . import words as first_screen
-from .charts import lights
+from ..scores import ranking_sentence
+from .words import changes, contributions, word
+
+FULL_SCALE: Final = {"%": 100.0, "dB": 20.0}
+"""Change at which a bar reaches the end of its cell."""
+_SURE: Final = QUANTILES[0]
+"""Share of the samples with a measurable change from which on it is not said that there is none."""
+
+Word: TypeAlias = Literal["better", "worse", "mixed", "uncertain", "no change"]
+_WORDS: Final[dict[str, Word]] = {
+    BETTER: "better", WORSE: "worse", MIXED: "mixed", NO_CHANGE: "no change",
+}  # fmt: skip
+
+
+_OF_TOTAL: Final[Mapping[str, Word]] = {
+    "louder": "worse", "quieter": "better", "uncertain": "uncertain", "no change": "no change",
+}  # fmt: skip
+
+
+def lights(results: xr.Dataset) -> Lights | None:
+    """A row an option, a column a quantity that can be measured; None without options."""
+    if not balancers(results):
+        return None
+    verdicts = option_verdicts(results)
+    rows = tuple(
+        LightRow(of.option, _WORDS[of.judgement], _row(results, of.option)) for of in verdicts
+    )
+    receiver = catalogue_receiver(results)
+    elsewhere = ("1× line, others, dB",) if other_receivers(results) else ()
+    head = (
+        "Option", "1× force, %", "1× moment, %", "1× foot force, %", "total level, dB",
+        "1× line, dB", *elsewhere,
+    )  # fmt: skip
+    others = " and at the other microphones" if elsewhere else ""
+    caption = f"Each option against no balancer; levels at {receiver}{others}"
+    return Lights(caption, head, rows, _note(results))
+
+
+def light(shifts: Sequence[Shift]) -> Light:
+    """The light of a quantity, at one microphone or several.
+
+    Better and worse are as the verdicts say; not sure is what is neither, although the band of
+    the samples reaches beyond what could be measured.
+    """
+    full = FULL_SCALE[shifts[0].unit]
+    within = extent(shifts)
+    ends = np.nan_to_num([within.lowest, within.highest]) / full
+    low, high = np.clip(ends, -1.0, 1.0).tolist()
+    least = shifts[0].least
+    zone = least.level_db if shifts[0].quantity.is_level else 100.0 * least.force_ratio
+    return Light(_word(shifts), _change(shifts), (low, high), min(zone / full, 1.0))
+
+
+def _row(results: xr.Dataset, option: str) -> tuple[Light, ...]:
+    by_quantity = [
+        [shift(results, quantity, option)] for quantity in (FORCE, MOMENT, FOOT_FORCE, TOTAL, LINE)
+    ]
+    elsewhere = [shift(results, LINE, option, name) for name in other_receivers(results)]
+    return tuple(light(shifts) for shifts in [*by_quantity, elsewhere] if shifts)
+
+
+def _word(shifts: Sequence[Shift]) -> Word:
+    if shifts[0].quantity == TOTAL:
+        return _OF_TOTAL[word(shifts[0])]
+    judgement = judge(any(one.worsens for one in shifts), any(one.improves for one in shifts))
+    unsure = any(max(one.grown, one.fallen) > _SURE for one in shifts)
+    return "uncertain" if judgement == NO_CHANGE and unsure else _WORDS[judgement]
+
+
+def _change(shifts: Sequence[Shift]) -> str:
+    """The range over samples, speeds and microphones; a word where there was or is nothing."""
+    first, floor = shifts[0], shifts[0].quantity.floor
+    if len(shifts) == 1 and first.before.min() < floor:
+        return "appears" if first.after.max() >= floor else "0"
+    if len(shifts) == 1 and first.after.max() < floor:
+        return "vanishes"
+    return first.written(extent(shifts))
+
+
+def _note(results: xr.Dataset) -> str:
+    least = measurable(results)
+    over = "80 % intervals at all speeds" if has_samples(results) else "all speeds, nominal"
+    return (
+        f"Numbers and bars: {over}; bars end at ±100 % and ±20 dB. Grey: less than "
+        f"{100.0 * least.force_ratio:g} % or {least.level_db:g} dB, not measurable. Mixed: better "
+        "at some microphones or speeds, worse at others."
+    )
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    return [
-        *left_out_words(results),
-        *coarse_words(results),
-        *_charts(results),
-        *_details(results),
-    ]
+    contributed, changed = contributions(results), changes(results)
+    charts = contributed if changed is None else Beside(contributed, changed)
+    return [*left_out_words(results), *coarse_words(results), charts, *_details(results)]
 
 
 def left_out_words(results: xr.Dataset) -> list[Block]:
@@ -38,11 +126,6 @@ def coarse_words(results: xr.Dataset) -> list[Block]:
     if RAISED in results.attrs:
         blocks.append(Text("Made by an earlier version: values without an interval are nominal."))
     return blocks
-
-
-def _charts(results: xr.Dataset) -> list[Block]:
-    contributions, changes = first_screen.contributions(results), first_screen.changes(results)
-    return [contributions] if changes is None else [Beside(contributions, changes)]
 
 
 def _details(results: xr.Dataset) -> list[Block]:

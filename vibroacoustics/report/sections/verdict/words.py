@@ -71,14 +71,9 @@ def contributions(results: xr.Dataset) -> Intervals:
     scale = (float(np.floor(lowest - 1.0)), float(np.ceil(max(ends) + 1.0)))
     where = f"{catalogue_receiver(results)}, {speed:g} rpm"
     of = ", median and 80 % interval" if has_samples(results) else ""
-    return Intervals(
-        f"Contributions to the level at {where}",
-        ("", f"dB(A){of}"),
-        tuple(rows),
-        scale,
-        None,
-        "Each part alone; levels of parts do not add up to that of the machine.",
-    )
+    caption = f"Contributions to the level at {where}"
+    note = "Each part alone; levels of parts do not add up to that of the machine."
+    return Intervals(caption, ("", f"dB(A){of}"), tuple(rows), scale, None, note)
 
 
 def changes(results: xr.Dataset) -> Intervals | None:
@@ -90,16 +85,11 @@ def changes(results: xr.Dataset) -> Intervals | None:
     rows += [_change(results, option, least) for option in balancers(results)]
     ends = [abs(end) for row in rows for end in (row.low, row.high) if np.isfinite(end)]
     span = float(np.ceil(max(*ends, _LEAST_SPAN_DB)))
-    where = catalogue_receiver(results)
     several = " At the speed where it is largest." if len(speeds(results)) > 1 else ""
-    return Intervals(
-        f"Change of the total level at {where} by option",
-        ("Option", "dB, median and 80 % interval" if has_samples(results) else "dB"),
-        tuple(rows),
-        (-span, span),
-        (-least, least),
-        f"Grey: ±{least:g} dB, not measurable.{several}",
-    )
+    head = ("Option", "dB, median and 80 % interval" if has_samples(results) else "dB")
+    caption = f"Change of the total level at {catalogue_receiver(results)} by option"
+    note = f"Grey: ±{least:g} dB, not measurable.{several}"
+    return Intervals(caption, head, tuple(rows), (-span, span), (-least, least), note)
 
 
 def _contribution(name: str, level: Band, word: IntervalWord) -> Interval:
@@ -108,8 +98,8 @@ def _contribution(name: str, level: Band, word: IntervalWord) -> Interval:
 
 
 def _change(results: xr.Dataset, option: str, least: float) -> Interval:
-    of_total, row = shift(results, TOTAL, option), largest(shift(results, TOTAL, option))
-    change = of_total.bands[row]
+    of_total = shift(results, TOTAL, option)
+    change = _at_largest(of_total)
     text = change.middle_and_ends(rounding.signed)
     return Interval(option, text, change.lowest, change.middle, change.highest, word(of_total))
 
@@ -162,10 +152,8 @@ def _room(results: xr.Dataset) -> str:
     if "room_level" not in results:
         return ""
     at = {"option": REFERENCE_OPTION, "speed": nearest_speed(results)}
-    known = {
-        str(name): band(results, "room_level", **at, listener=name)
-        for name in results["listener"].values.tolist()
-    }
+    names = results["listener"].values.tolist()
+    known = {name: band(results, "room_level", **at, listener=name) for name in names}
     name = max(known, key=lambda one: known[one].middle)
     return f"In the room, at {name}: {known[name].middle_and_ends(rounding.level)} dB(A)."
 
@@ -209,7 +197,8 @@ def _claim(shifts: Mapping[str, Shift], names: Sequence[str], verb: str) -> str:
     first, *others = names
     does = f"may {verb}" if word(shifts[first]) == "uncertain" else f"{verb}s"
     too = f"{len(others)} others" if len(others) > 1 else "".join(others)
-    return f"{first} {does} it: {_written(shifts[first])}{f', {too} too' if too else ''}."
+    too = f", {too} too" if too else ""
+    return f"{first} {does} it: {_with_unit(_at_largest(shifts[first]), 'dB')}{too}."
 
 
 def _vibration(results: xr.Dataset) -> str:
@@ -234,10 +223,6 @@ def _measurement(results: xr.Dataset) -> str:
 
 def _at_largest(of_quantity: Shift) -> Band:
     return of_quantity.bands[largest(of_quantity)]
-
-
-def _written(of_total: Shift) -> str:
-    return _with_unit(_at_largest(of_total), "dB")
 
 
 def _with_unit(change: Band, unit: str) -> str:

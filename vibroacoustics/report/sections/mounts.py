@@ -1,15 +1,20 @@
-"""The housing on its mounts, and the places of the microphones."""
+"""The housing on its mounts."""
 
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
-from ....base import rounding
-from ....base.arrays import Array
-from ....results import labels
-from ....results.stored_study import first_order_hz, options, parameters, speeds
-from ...tables import Table
+from ...base import rounding
+from ...base.arrays import Array
+from ...base.registry import register
+from ...results import labels
+from ...results.stored_study import first_order_hz, options, parameters, speeds
+from ..blocks import Block, Pictures, Text
+from ..figures.radiation import mount_transmissibility
+from ..shown_speeds import chosen_speeds, few_speeds
+from ..tables import Table
+from . import Section
 
 DOMINANT: Final = 0.02
 """Degrees of freedom with a smaller share of the mode's kinetic energy are not named."""
@@ -27,11 +32,9 @@ def modes_table(results: xr.Dataset) -> Table:
         for mode in frequency["mode"].values
     )
     head = ("Mode", "Natural frequency, Hz", "Motion by share of kinetic energy")
-    redesigned = any(
-        option["kind"] == "redesign" for option in parameters(results)["options"].values()
-    )
-    caption = "Rigid-body modes on the mounts" + (", machine as it is" if redesigned else "")
-    return Table(caption, head, rows, frozenset({0, 2}))
+    kinds = [option["kind"] for option in parameters(results)["options"].values()]
+    which = ", machine as it is" if "redesign" in kinds else ""
+    return Table(f"Rigid-body modes on the mounts{which}", head, rows, frozenset({0, 2}))
 
 
 def attached_table(results: xr.Dataset) -> Table | None:
@@ -51,9 +54,8 @@ def attached_table(results: xr.Dataset) -> Table | None:
         if np.isfinite(hertz := frequency.sel(which := {"option": option, "option_mode": mode}))
     )
     head = ("Option", "Mode", "Natural frequency, Hz", "Motion by share of kinetic energy")
-    return Table(
-        "Rigid-body modes on the mounts with attached bodies", head, rows, frozenset({0, 3})
-    )
+    caption = "Rigid-body modes on the mounts with attached bodies"
+    return Table(caption, head, rows, frozenset({0, 3}))
 
 
 def shape_words(results: xr.Dataset, mode: str) -> str:
@@ -103,3 +105,17 @@ def isolation_sentence(results: xr.Dataset) -> str:
     if shaft.min() > modes.max():
         return f"{where}, just above the highest mode at {highest} Hz: resonance is near."
     return f"{where}, the highest mode at {highest} Hz: the 1× line can meet a resonance."
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    block = block_table(few_speeds(results))
+    return [
+        Text(isolation_sentence(results)),
+        *filter(None, (modes_table(results), attached_table(results))),
+        *(chosen_speeds(results, "results.nc") if block else []),
+        *([block] if block else []),
+        Pictures((mount_transmissibility(results),)),
+    ]
+
+
+register(Section("mounts", "Mounts", _blocks, position=60.0))

@@ -1,13 +1,14 @@
-"""Where the inputs come from, what is not modelled, and the errors of the source."""
+"""Where the inputs come from, and what is not modelled."""
 
 from typing import Any, Final
 
 import xarray as xr
 
-from ....base import rounding
-from ....base.decibel import level_of_power, power_of_level
-from ....results.estimates import has_samples
-from ....results.stored_study import (
+from ...base import rounding
+from ...base.decibel import level_of_power, power_of_level
+from ...base.registry import register
+from ...results.estimates import has_samples
+from ...results.stored_study import (
     assumed_level,
     catalogue_receiver,
     operating_points,
@@ -16,12 +17,13 @@ from ....results.stored_study import (
     quoted_dba,
     words,
 )
-from ...bands import INTERVAL, band
-from ...remainder import growth_sentence
-from ...tables import DataTable, Table, columns_of
-from ..unknowns.words import dotted, in_si
+from ..bands import INTERVAL, band
+from ..blocks import Block, Bullets, Heading, Text
+from ..remainder import growth_sentence
+from ..tables import DataTable, Table, columns_of
+from . import Section, text
+from .unknowns.words import dotted, in_si
 
-ASSUMED: Final = "assumed"
 SHOWN: Final = 5
 """Inputs on the page."""
 
@@ -82,7 +84,7 @@ def _mounts_held(machine: dict[str, Any]) -> tuple[str, ...]:
     )
 
 
-def inputs_data(results: xr.Dataset) -> DataTable:
+def inputs_data(results: xr.Dataset) -> dict[str, DataTable]:
     """Every recorded value with its range, the range in SI, and why a range is not sampled."""
     held = {dotted(item): item for item in parameters(results).get("held_ranges", ())}
     sampled = {dotted(item): item for item in parameters(results).get("ranges", ())}
@@ -91,28 +93,21 @@ def inputs_data(results: xr.Dataset) -> DataTable:
         name = in_si(record["field"])
         item = sampled.get(name) or held.get(name) or {}
         use = item.get("reason", "sampled") if item else ""
-        ends = [record[end] for end in ("lowest", "highest")] + [
-            item.get(end) for end in ("lowest", "highest")
-        ]
-        rows.append(
-            (
-                record["field"],
-                record["value"],
-                record["unit"] or "1",
-                *("" if end is None else end for end in ends),
-                use,
-                record["source"],
-                record["file"],
-            )
-        )
+        ends = [of.get(end) for of in (record, item) for end in ("lowest", "highest")]
+        cells = ["" if end is None else end for end in ends]
+        named = (record["field"], record["value"], record["unit"] or "1")
+        rows.append((*named, *cells, use, record["source"], record["file"]))
     head = ("field", "value", "unit", "lowest", "highest", "lowest_si", "highest_si", "use",
             "source", "file")  # fmt: skip
-    return columns_of(head, rows)
+    return {"inputs.csv": columns_of(head, rows)}
 
 
 def records_table(results: xr.Dataset) -> Table:
     """Recorded values that the level depends on most, or with the widest ranges."""
-    shares = _shares(results)
+    shares: dict[str, float] = {}
+    if "level_share" in results:  # before any data
+        share = results["level_share"].isel(knowledge=0)
+        shares = dict(zip(share["uncertain_parameter"].values, share.values.tolist(), strict=True))
 
     def weight(record: dict[str, Any]) -> tuple[float, float]:
         low, high = (record[end] or 0.0 for end in ("lowest", "highest"))
@@ -121,31 +116,13 @@ def records_table(results: xr.Dataset) -> Table:
 
     ordered = sorted(parameters(results)["records"], key=weight, reverse=True)
     head = ("Value of", "Value", "Unit", "Range", "Source")
-    rows = tuple(_record_row(record) for record in ordered[:SHOWN])
+    rows = []
+    for record in ordered[:SHOWN]:
+        low, high, value = record["lowest"], record["highest"], record["value"].replace("-", "−")
+        span = rounding.NOTHING if low is None else f"{low:g} to {high:g}".replace("-", "−")
+        rows.append((record["field"], value, record["unit"] or "1", span, record["source"]))
     what = "that the level depends on most" if shares else "with the widest ranges"
-    return Table(f"Inputs {what}", head, rows, frozenset({0, 2, 4}))
-
-
-def _shares(results: xr.Dataset) -> dict[str, float]:
-    """Share of each uncertain parameter in the variance of the level, before any data."""
-    if "level_share" not in results:
-        return {}
-    share = results["level_share"].isel(knowledge=0)
-    return dict(zip(share["uncertain_parameter"].values, share.values.tolist(), strict=True))
-
-
-def assumed_count(results: xr.Dataset) -> tuple[int, int]:
-    """Number of assumed values, and of all recorded values."""
-    records = parameters(results)["records"]
-    return sum(_is_assumed(record) for record in records), len(records)
-
-
-def errata_table(results: xr.Dataset) -> Table | None:
-    """Errors in the source document; None if none are listed."""
-    errata = parameters(results)["machine"]["errata"]
-    rows = tuple((entry["item"], entry["printed"], entry["finding"]) for entry in errata)
-    head = ("Item", "As printed", "Finding")
-    return Table("Errata of the source", head, rows, frozenset({0, 1, 2})) if rows else None
+    return Table(f"Inputs {what}", head, tuple(rows), frozenset({0, 2, 4}))
 
 
 def remainder_sentence(results: xr.Dataset) -> str:
@@ -154,10 +131,9 @@ def remainder_sentence(results: xr.Dataset) -> str:
     if noise is None:
         return growth_sentence(results)
     kind = "assumed" if assumed_level(results) else "published"
+    unmodelled = f"{rounding.fixed(results['level_unmodelled'].item())} dB(A)"
     if has_samples(results):
         unmodelled = f"{band(results, 'level_unmodelled').ends(rounding.fixed)} dB(A) ({INTERVAL})"
-    else:
-        unmodelled = f"{rounding.fixed(results['level_unmodelled'].item())} dB(A)"
     return (
         f"The {kind} level is {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
         f"{noise['speed_rpm']:g} rpm{_point_words(results)}. What the model does not explain of it "
@@ -201,21 +177,40 @@ def structure_borne_sentence(results: xr.Dataset) -> str:
     )
 
 
-def _is_assumed(record: dict[str, Any]) -> bool:
-    return str(record["source"]).startswith(ASSUMED)
+def _blocks(results: xr.Dataset) -> list[Block]:
+    records = parameters(results)["records"]
+    assumed = sum(str(record["source"]).startswith("assumed") for record in records)
+    discrepancy = text(discrepancy_sentence(results))
+    return [
+        Heading("What is not modelled"),
+        Bullets(tuple(not_modelled(results))),
+        *([Text(structure_borne_sentence(results))] if overall_noise(results) else []),
+        Heading("Unmodelled noise"),
+        Text(remainder_sentence(results)),
+        *([Heading("Model discrepancy")] if discrepancy else []),
+        *discrepancy,
+        Heading("Inputs"),
+        Text(
+            f"{assumed} of {len(records)} recorded values are assumed; all are in inputs.csv. A "
+            "range is expected to hold the true value."
+        ),
+        records_table(results),
+    ]
 
 
-def _record_row(record: dict[str, Any]) -> tuple[str, ...]:
-    return (
-        record["field"],
-        record["value"].replace("-", "−"),
-        record["unit"] or "1",
-        _range(record),
-        record["source"],
-    )
+register(Section("assumptions", "Assumptions", _blocks, position=100.0, tables=inputs_data))
 
 
-def _range(record: dict[str, Any]) -> str:
-    if record["lowest"] is None:
-        return rounding.NOTHING
-    return f"{record['lowest']:g} to {record['highest']:g}".replace("-", "−")
+def _errata(results: xr.Dataset) -> list[Block]:
+    """Errors in the source document."""
+    errata = parameters(results)["machine"]["errata"]
+    rows = tuple((entry["item"], entry["printed"], entry["finding"]) for entry in errata)
+    head = ("Item", "As printed", "Finding")
+    return [Table("Errata of the source", head, rows, frozenset({0, 1, 2}))]
+
+
+def _has_errata(results: xr.Dataset) -> bool:
+    return bool(parameters(results)["machine"]["errata"])
+
+
+register(Section("errata", "Errata of the source", _errata, _has_errata, 110.0))

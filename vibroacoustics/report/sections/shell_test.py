@@ -1,4 +1,4 @@
-"""What a hammer test tells of the shell: values, mobilities and level before and after it."""
+"""What a hammer test of the shell tells: before and after."""
 
 from collections.abc import Callable, Iterator
 from typing import Final
@@ -6,31 +6,29 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ....base import rounding
-from ....base.arrays import Array
-from ....base.quantiles import weighted_quantiles
-from ....results.estimates import (
+from ...base import rounding
+from ...base.arrays import Array
+from ...base.quantiles import weighted_quantiles
+from ...base.registry import register
+from ...results.estimates import (
     QUANTILES,
     effective_number,
     prior_ensemble,
     sample_numbers,
     weighted_estimate,
 )
-from ....results.labels import unit
-from ....results.stored_study import catalogue_receiver
-from ...bands import INTERVAL, written
-from ...tables import Table
-from ..unknowns.words import named
+from ...results.labels import unit
+from ...results.stored_study import catalogue_receiver
+from ..bands import INTERVAL, written
+from ..blocks import Block, Text
+from ..tables import Table
+from . import Section, hold
+from .unknowns.words import named, with_unit
 
 NARROWED: Final = 0.8
 """Values whose band is narrowed to less than this part are listed."""
 GIVEN_UP: Final = 20.0
 """Effective samples below which a warning is given."""
-
-
-def applies(results: xr.Dataset) -> bool:
-    """Whether a hammer test weighed the samples."""
-    return "shell_likelihood" in results
 
 
 def test_sentence(results: xr.Dataset) -> str:
@@ -52,13 +50,9 @@ def peaks_sentence(results: xr.Dataset) -> str:
     """The clear peaks with their loss factors."""
     if "shell_peak_loss" not in results:
         return "The mobilities have no clear peak: frequencies and loss factors tell nothing."
-    peaks = [
-        f"{peak:.0f} Hz ({100.0 * loss:.2g} %)"
-        for peak, loss in zip(
-            results["shell_peak"].values, results["shell_peak_loss"].values, strict=True
-        )
-    ]
-    return f"Clear peaks, with loss factor: {', '.join(peaks)}."
+    pairs = zip(results["shell_peak"].values, results["shell_peak_loss"].values, strict=True)
+    peaks = ", ".join(f"{peak:.0f} Hz ({100.0 * loss:.2g} %)" for peak, loss in pairs)
+    return f"Clear peaks, with loss factor: {peaks}."
 
 
 def samples_sentence(results: xr.Dataset) -> str:
@@ -74,11 +68,8 @@ def samples_sentence(results: xr.Dataset) -> str:
 
 def before_and_after(results: xr.Dataset) -> Table:
     """Middle and band by the ranges alone and with the test."""
-    return Table(
-        f"Before and after the hammer test: median with {INTERVAL}",
-        ("", "by the ranges alone", "with the test"),
-        tuple(_rows(results)),
-    )
+    caption = f"Before and after the hammer test: median with {INTERVAL}"
+    return Table(caption, ("", "by the ranges alone", "with the test"), tuple(_rows(results)))
 
 
 def _rows(results: xr.Dataset) -> Iterator[tuple[str, str, str]]:
@@ -89,26 +80,20 @@ def _rows(results: xr.Dataset) -> Iterator[tuple[str, str, str]]:
         ("loss factors, model over measured", "shell_loss_ratio", _number),
     ):
         values = results[name].values
-        known = np.isfinite(values)
-        if np.any(known & (likelihood > 0.0)):
-            yield _row(words, values[known], likelihood[known], write)
+        if np.any(np.isfinite(values) & (likelihood > 0.0)):
+            yield _row(words, values, likelihood, write)
     for name in map(str, results["shell_parameter"].values):
         values = results["shell_value"].sel(shell_parameter=name).values
         if _narrowed(values, likelihood) < NARROWED:
-            symbol = unit(name.rpartition(".")[2])
-            words = f"{named(name)}, {symbol}" if symbol else named(name)
+            words = with_unit(named(name), unit(name.rpartition(".")[2]))
             yield _row(words, values, likelihood, _number)
     ensemble = prior_ensemble(results)
     before = results["shell_level_before"].values
     after = before[:0] if ensemble is None else ensemble.level_dba
-    known = np.isfinite(before), np.isfinite(after)
-    weight = after[known[1]] if ensemble is None else ensemble.before[known[1]]
+    weight = after if ensemble is None else ensemble.before
+    by_ranges = _band(before, np.ones(before.size), rounding.fixed)
     words = f"modelled level at {catalogue_receiver(results)}, dB(A)"
-    yield (
-        words,
-        _band(before[known[0]], np.ones(int(known[0].sum())), rounding.fixed),
-        _band(after[known[1]], weight, rounding.fixed),
-    )
+    yield words, by_ranges, _band(after, weight, rounding.fixed)
 
 
 def _row(
@@ -118,6 +103,9 @@ def _row(
 
 
 def _band(values: Array, weight: Array, write: Callable[[float], str]) -> str:
+    """Middle and band of the values that are numbers."""
+    finite = np.isfinite(values)
+    values, weight = values[finite], weight[finite]
     if not values.size:
         return rounding.NOTHING
     known = weighted_estimate(values, weight)
@@ -135,3 +123,15 @@ def _narrowed(values: Array, weight: Array) -> float:
 
 def _number(value: float) -> str:
     return f"{value:.3g}".replace("-", "−")
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    return [
+        Text(test_sentence(results)),
+        Text(peaks_sentence(results)),
+        before_and_after(results),
+        Text(samples_sentence(results), "note"),
+    ]
+
+
+register(Section("shell-test", "The shell, by hammer", _blocks, hold("shell_likelihood"), 34.0))

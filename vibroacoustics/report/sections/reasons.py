@@ -1,13 +1,14 @@
-"""Reasons for the summary, in sentences."""
+"""Why the verdict is as it is, and what each option does."""
 
 from collections.abc import Sequence
 from typing import Final
 
 import xarray as xr
 
-from ....base import rounding
-from ....results.sample_words import not_sampled_sentence
-from ....results.stored_study import (
+from ...base import rounding
+from ...base.registry import register
+from ...results.sample_words import not_sampled_sentence
+from ...results.stored_study import (
     at_catalogue,
     catalogue_receiver,
     first_order_hz,
@@ -17,14 +18,16 @@ from ....results.stored_study import (
     quoted_speed,
     speeds,
 )
-from ...column_values import column
-from ...option_verdict import OptionVerdict
-from ...quantities import FOOT_FORCE, FORCE, MOMENT
-from ...remainder import growth_sentence, measured_rpm, remainder_band
-from ...shown_speeds import many_speeds
-from ...tables import Table
-from ..baseline.tables import not_measured
-from ..comparison.tables import comparison
+from ..blocks import Block, Text
+from ..column_values import column
+from ..option_verdict import OptionVerdict, option_verdicts
+from ..quantities import FOOT_FORCE, FORCE, MOMENT
+from ..remainder import growth_sentence, measured_rpm, remainder_band
+from ..shown_speeds import many_speeds
+from ..tables import Table
+from . import Section
+from .baseline import not_measured
+from .comparison.tables import comparison
 
 _HALF: Final = 0.5
 """Share of the modelled energy in the total from which on the level is not called measured."""
@@ -32,10 +35,10 @@ _HALF: Final = 0.5
 
 def reasons(results: xr.Dataset) -> list[str]:
     """Return forces and level without an option, and what limits the effect of the options."""
-    if has_sources(results):
-        return [_as_it_is(results)]
-    texts = [_as_it_is(results), _remainder(results), not_sampled_sentence(results)]
-    return [text for text in texts if text]
+    texts = [_as_it_is(results)]
+    if not has_sources(results):
+        texts += [_remainder(results), not_sampled_sentence(results)]
+    return [*filter(None, texts)]
 
 
 def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:
@@ -57,9 +60,12 @@ def _as_it_is(results: xr.Dataset) -> str:
         if many_speeds(results)
         else _shaken_by_speed(results, reference)
     )
+    force_n = float(reference["force_2x_n"].max())
+    twice = "0 N" if force_n < rounding.FORCE_FLOOR else FORCE.write(force_n)
+    body = "block on its springs" if "block_velocity_order" in results else "housing"
     return (
-        f"Without a balancer the moving parts excite the {_body(results)} at 1× with {shaken}. "
-        f"The largest 2× force is {_twice(float(reference['force_2x_n'].max()))}, the largest 1× "
+        f"Without a balancer the moving parts excite the {body} at 1× with {shaken}. "
+        f"The largest 2× force is {twice}, the largest 1× "
         f"foot force {FOOT_FORCE.write(float(reference['foot_force_1x_n'].max()))}. At "
         f"{reference['receiver'].item()} the 1× line is "
         f"{rounding.span(reference['level_1x_dba'].values, rounding.level)} dB(A)."
@@ -89,21 +95,16 @@ def _shaken_over_the_speeds(results: xr.Dataset, reference: xr.Dataset) -> str:
     )
 
 
-def _body(results: xr.Dataset) -> str:
-    return "block on its springs" if "block_velocity_order" in results else "housing"
-
-
-def _twice(force_n: float) -> str:
-    return "0 N" if force_n < rounding.FORCE_FLOOR else FORCE.write(force_n)
-
-
 def _remainder(results: xr.Dataset) -> str:
     """Why the total hardly follows the line; that there is none where nothing is published."""
     if overall_noise(results) is None and measured_rpm(results) is None:
         return growth_sentence(results)
     receiver = catalogue_receiver(results)
     modelled = float(column(results, "level_modelled_dba").sel(receiver=receiver).max())
-    gap = _total_dba(results) - modelled
+    speed = measured_rpm(results)
+    at = at_catalogue(results, speed=speed)
+    total = quoted_dba(results) if speed is None else float(results["level_total"].sel(at).round(1))
+    gap = total - modelled
     carried = (
         f"all shaft orders together reach at most {rounding.level(modelled)} dB(A) at {receiver}, "
         f"whatever the option: {rounding.fixed(gap)} dB below the level of the machine"
@@ -111,28 +112,23 @@ def _remainder(results: xr.Dataset) -> str:
         else f"the shaft orders reach {rounding.level(modelled)} dB(A) at {receiver} with some "
         "option, above the level of the machine"
     )
-    speed = measured_rpm(results)
     if speed is not None:
         rest = remainder_band(results, speed).middle_text(rounding.fixed)
-        how = (
-            "most of it assumed in bands that were not measured"
-            if not_measured(results) > _HALF
-            else "as measured"
-        )
-        return (
-            f"In the model {carried}. The rest, {how}, {rest} dB(A) at {speed:g} rpm, comes "
-            f"from sources that balancing does not touch."
-        )
+        assumed = not_measured(results) > _HALF
+        how = "most of it assumed in bands that were not measured" if assumed else "as measured"
+        what, growth = f"The rest, {how}, {rest}", ""
+    else:
+        speed, growth = quoted_speed(results), f" {growth_sentence(results)}"
+        what = f"The rest, {rounding.fixed(results['level_unmodelled'].item())}"
     return (
-        f"In the model {carried}. The rest, {rounding.fixed(results['level_unmodelled'].item())} "
-        f"dB(A) at {quoted_speed(results):g} rpm, comes from sources that balancing "
-        f"does not touch. {growth_sentence(results)}"
+        f"In the model {carried}. {what} dB(A) at {speed:g} rpm, comes from sources that "
+        f"balancing does not touch.{growth}"
     )
 
 
-def _total_dba(results: xr.Dataset) -> float:
-    """Return the measured level, else the published one, else the modelled one, dB(A)."""
-    speed = measured_rpm(results)
-    if speed is None:
-        return quoted_dba(results)
-    return float(results["level_total"].sel(at_catalogue(results, speed=speed)).round(1))
+def _blocks(results: xr.Dataset) -> list[Block]:
+    table = options_table(option_verdicts(results))
+    return [*map(Text, reasons(results)), *([table] if table else [])]
+
+
+register(Section("reasons", "Forces and options", _blocks, position=15.0))

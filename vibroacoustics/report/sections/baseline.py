@@ -1,53 +1,52 @@
-"""What the report says of a measured baseline, and of what it cannot tell."""
+"""The measured baseline: what options make of it, and what it cannot tell."""
 
-from collections.abc import Iterator
 from pathlib import PurePath
 from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 
-from ....base import rounding
-from ....base.decibel import power_of_level
-from ....base.units import shaft_frequency_hz
-from ....base.vocabulary import REFERENCE_OPTION
-from ....base.weighting import a_weighting
-from ....results.estimates import prior_ensemble
-from ....results.stored_study import options, parameters, speeds
-from ...bands import percent
-from ...shown_speeds import few_speeds
-from ...tables import Table
+from ...base import rounding
+from ...base.decibel import power_of_level
+from ...base.registry import register
+from ...base.units import shaft_frequency_hz
+from ...base.vocabulary import REFERENCE_OPTION
+from ...base.weighting import a_weighting
+from ...results.estimates import prior_ensemble
+from ...results.stored_study import balancers, parameters, speeds
+from ..bands import percent
+from ..blocks import Block, Bullets, Pictures, Text
+from ..figures.sources import baseline_third_octaves
+from ..shown_speeds import chosen_speeds, few_speeds
+from ..tables import Table
+from . import Section
 
 _TOLERANCE: Final = 0.02
 """By which a speed may lie outside those that were measured."""
 
 
-def baseline_of(results: xr.Dataset) -> dict[str, Any] | None:
+def baseline_of(results: xr.Dataset) -> dict[str, Any]:
     """Parameters of the measured baseline; none where there is none."""
-    return (parameters(results).get("measured") or {}).get("baseline")
+    return (parameters(results).get("measured") or {}).get("baseline") or {}
 
 
 def microphones(results: xr.Dataset) -> list[str]:
     """Those with a baseline, each once."""
-    baseline = baseline_of(results) or {}
+    baseline = baseline_of(results)
     every = [*baseline.get("third_octaves", ()), *baseline.get("orders", ())]
     return list(dict.fromkeys(one["microphone"] for one in every))
 
 
 def summary(results: xr.Dataset) -> str:
     """Where the baseline comes from and what is done with it."""
-    baseline = baseline_of(results) or {}
+    files = ", ".join(PurePath(name).name for name in baseline_of(results)["file"])
     return (
         f"The sound of the machine without a balancer was measured at "
-        f"{', '.join(microphones(results))} ({_files(baseline)}). There total level, orders and "
+        f"{', '.join(microphones(results))} ({files}). There total level, orders and "
         "their changes are those measured, less what is modelled without a balancer, plus what is "
         "modelled with the option, band by band and order by order; they take the place of the "
         "catalogue level."
     )
-
-
-def _files(baseline: dict[str, Any]) -> str:
-    return ", ".join(PurePath(name).name for name in baseline["file"])
 
 
 def limits(results: xr.Dataset) -> tuple[str, ...]:
@@ -58,7 +57,7 @@ def limits(results: xr.Dataset) -> tuple[str, ...]:
 
 
 def _of_bands(results: xr.Dataset) -> str:
-    rows = (baseline_of(results) or {}).get("third_octaves", ())
+    rows = baseline_of(results).get("third_octaves", ())
     if not rows:
         return (
             "Third octaves were not measured: beside the orders the remainder of the catalogue "
@@ -93,7 +92,7 @@ def _of_orders(results: xr.Dataset) -> str:
     first = f"Orders {orders} were measured"
     if by_phase == known:
         return f"{first}, all with a phase that counts: they change as complex peaks."
-    if (baseline_of(results) or {}).get("tacho_angle_rad") is None:
+    if baseline_of(results).get("tacho_angle_rad") is None:
         return (
             f"{first}. The crank angle of the tacho's pulse is not given (tacho_angle_deg): they "
             "change as energies, and whether an option's tone adds to the rest or takes off it is "
@@ -109,13 +108,9 @@ def _of_speeds(results: xr.Dataset) -> str:
     """Speeds of the study that were measured, lie between, or outside."""
     sentences = []
     for name in microphones(results):
-        between, outside = [], []
-        for speed in speeds(results):
-            positions = [_position(known, speed) for known in _measured_rpm(results, name)]
-            if "outside" in positions:
-                outside.append(f"{speed:g}")
-            elif "between" in positions:
-                between.append(f"{speed:g}")
+        at = {f"{speed:g}": _position(results, name, speed) for speed in speeds(results)}
+        between = [speed for speed, position in at.items() if position == "between"]
+        outside = [speed for speed, position in at.items() if position == "outside"]
         if between:
             sentences.append(
                 f"At {name} levels at {', '.join(between)} rpm lie between measured speeds: on "
@@ -131,22 +126,18 @@ def _of_speeds(results: xr.Dataset) -> str:
     return " ".join(sentences)
 
 
-def _measured_rpm(results: xr.Dataset, name: str) -> Iterator[list[float]]:
-    baseline = baseline_of(results) or {}
+def _position(results: xr.Dataset, name: str, speed: float) -> str:
+    """Third octaves or orders: `outside` of the measured speeds, else `between`, or `measured`."""
+    between = False
     for kind in ("third_octaves", "orders"):
-        known = [one["speed_rpm"] for one in baseline.get(kind, ()) if one["microphone"] == name]
-        if known:
-            yield known
-
-
-def _position(known: list[float], speed: float) -> str:
-    """`measured` within the tolerance of a measured speed, else `between` or `outside`."""
-    if min(abs(one / speed - 1.0) for one in known) <= _TOLERANCE / 4.0:
-        return "measured"
-    within = min(known) * (1.0 - _TOLERANCE) <= speed <= max(known) * (1.0 + _TOLERANCE)
-    if not within:
-        return "outside"
-    return "between" if min(known) < speed < max(known) else "measured"
+        rows = baseline_of(results).get(kind, ())
+        rpm = [each["speed_rpm"] for each in rows if each["microphone"] == name]
+        if not rpm or min(abs(each / speed - 1.0) for each in rpm) <= _TOLERANCE / 4.0:
+            continue
+        if not min(rpm) * (1.0 - _TOLERANCE) <= speed <= max(rpm) * (1.0 + _TOLERANCE):
+            return "outside"
+        between |= min(rpm) < speed < max(rpm)
+    return "between" if between else "measured"
 
 
 def _of_model(results: xr.Dataset) -> str:
@@ -170,7 +161,7 @@ def _of_model(results: xr.Dataset) -> str:
 
 
 def _of_others(results: xr.Dataset) -> str:
-    names = [str(name) for name in results["receiver"].values]
+    names = map(str, results["receiver"].values)
     others = [name for name in names if name not in microphones(results)]
     if not others:
         return ""
@@ -180,7 +171,7 @@ def _of_others(results: xr.Dataset) -> str:
 def _of_samples(results: xr.Dataset) -> str:
     if prior_ensemble(results) is None:
         return ""
-    tolerance = (baseline_of(results) or {}).get("tolerance_db", 0.0)
+    tolerance = baseline_of(results).get("tolerance_db", 0.0)
     return (
         f"Samples are weighed by what was measured, sure to ± {tolerance:g} dB: by the A-weighted "
         "level in the measured bands and orders at the lowest, a middle and the highest speed at "
@@ -212,7 +203,7 @@ def _order_table(here: xr.Dataset, name: str, speed: float) -> Table:
     level = here["baseline_order_level"]
     measured = level.sel(option=REFERENCE_OPTION).values
     loudest = np.sort(np.argsort(-np.nan_to_num(measured, nan=-np.inf))[:MOST_ORDERS])
-    changed = [option for option in options(here) if option != REFERENCE_OPTION]
+    changed = balancers(here)
     rows = tuple(
         (
             f"{order:g}",
@@ -227,3 +218,21 @@ def _order_table(here: xr.Dataset, name: str, speed: float) -> Table:
     head = ("Order", "Hz", "phase", "measured", "modelled, % of energy", *changed)
     caption = f"Measured orders at {name}, {speed:g} rpm, and with each option, dB re 20 µPa"
     return Table(caption, head, rows, frozenset({2}))
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    drawn = results["baseline_band_level"].notnull().any()
+    return [
+        Text(summary(results)),
+        Bullets(limits(results)),
+        *chosen_speeds(results, "results.nc"),
+        *order_tables(results),
+        *([Pictures((baseline_third_octaves(results),))] if drawn else []),
+    ]
+
+
+def _applies(results: xr.Dataset) -> bool:
+    return "baseline_share" in results and bool(baseline_of(results))
+
+
+register(Section("baseline", "Measured baseline", _blocks, _applies, 25.0))
