@@ -10,7 +10,6 @@ import pytest
 from support import MACHINE_FILE, PIPELINES, ROOT
 from thousandfold import Mistake, mistakes, outcome, written_files, wrong_file
 
-from vibroacoustics.machine.usual import of_mounts
 from vibroacoustics.mechanisms.tabulated.forces import Forces
 from vibroacoustics.study.loading import load_machine, load_study_or_machine
 
@@ -89,7 +88,7 @@ def test_forces_of_a_table_are_judged_by_mass_and_speed(
 def test_mounts_are_judged_by_their_natural_frequency() -> None:
     """Against a mass on springs: the ends of the range give 2 and 60 Hz."""
     machine = load_machine(MACHINE_FILE)
-    usual = next(one for one in of_mounts(machine) if "vertical" in one.field)
+    usual = {one.field: one for one in machine.usual()}["mounts.vertical_stiffness_n_per_m"]
     for stiffness, hertz in ((usual.lowest, 2.0), (usual.highest, 60.0)):
         found = np.sqrt(4.0 * stiffness / machine.housing.mass_kg) / (2.0 * np.pi)
         assert found == pytest.approx(hertz)

@@ -31,7 +31,7 @@ from .remainder import OF_THE_REMAINDER, OverallNoise, Remainder
 from .shell import Shell
 from .speed_growth import Growth
 from .suspension import BLOCK, Suspension
-from .usual import Usual, of_density, of_mounts
+from .usual import Scale, Usual, of_density, of_mounts
 
 PART_MASS = Field(gt=0.0, le=100.0)
 
@@ -134,8 +134,19 @@ class Machine(KindOfParameters):
 
     def usual(self) -> Iterable[Usual]:
         """Ranges that other values set, beside those of `usual.toml`; outside it is doubted."""
-        yield of_density(self)
-        yield from of_mounts(self)
+        scale = self.scale
+        yield of_density(scale)
+        feet = () if self.feet is None else tuple(self.feet.by_name)
+        for table in ("mounts", *(f"feet.{name}" for name in feet)):
+            yield from of_mounts(table, scale.mass_kg, len(feet) or 4)
+        if scale.block_kg:
+            yield from of_mounts("suspension.springs", scale.block_kg, 4)
+
+    @property
+    def scale(self) -> Scale:
+        """Shell and masses with which sizes are compared."""
+        block = 0.0 if self.suspension is None else self.suspension.block.mass_kg
+        return Scale(self.shell, self.housing.mass_kg + block, block)
 
     def doubts(self) -> Iterable[str]:
         """What is hardly right otherwise, with the dotted name of the value, a line each."""

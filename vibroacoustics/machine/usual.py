@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from math import pi
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
-if TYPE_CHECKING:
-    from .machine import Machine
+from .shell import Shell
 
 DENSITY_KG_PER_M3: Final = (500.0, 20e3)
 """Density of a machine in its shell, from sheet around air to solid lead and more."""
@@ -41,77 +40,96 @@ class Usual:
         return value == 0.0 or self.lowest <= abs(value) <= self.highest
 
 
-def usual_of(machine: "Machine", field: str, unit: str) -> Usual | None:
+@dataclass(frozen=True)
+class Scale:
+    """What sizes of parts are compared with.
+
+    Attributes
+    ----------
+    shell : of the machine
+    mass_kg : of shell and block
+    block_kg : of the block on springs in the shell; zero without one
+    """
+
+    shell: Shell
+    mass_kg: float
+    block_kg: float
+
+    @property
+    def volume_m3(self) -> float:
+        """Volume of the shell as a cylinder."""
+        return pi * self.shell.radius_m**2 * self.shell.height_m
+
+    @property
+    def by_name(self) -> dict[str, float]:
+        """Values that rules name, and 1 for rules that name none."""
+        size = max(self.shell.outer_diameter_m, self.shell.height_m)
+        return {
+            "": 1.0,
+            "size": size,
+            "mass": self.mass_kg,
+            "volume": self.volume_m3,
+            "inertia": self.mass_kg * size**2,
+        }
+
+
+def usual_of(scale: Scale, field: str, unit: str) -> Usual | None:
     """Range of a value by its name and unit; none where no rule fits.
 
     Parameters
     ----------
-    machine : sizes and masses are relative to its own
+    scale : of the machine
     field : dotted, from the machine, in SI
     unit : suffix of the SI key
     """
-    size = max(machine.shell.outer_diameter_m, machine.shell.height_m)
-    mass = mass_kg(machine)
-    scale = {"": 1.0, "size": size, "mass": mass, "volume": volume_m3(machine),
-             "inertia": mass * size**2}  # fmt: skip
     for rule in _rules():
         if rule["unit"] == unit and re.fullmatch(rule.get("names", ".*"), field):
-            scale_name = rule.get("of", "")
-            lowest = rule["lowest"] * scale[scale_name]
-            highest = rule["highest"] * scale[rule.get("of_highest", scale_name)]
+            name = rule.get("of", "")
+            lowest = rule["lowest"] * scale.by_name[name]
+            highest = rule["highest"] * scale.by_name[rule.get("of_highest", name)]
             return Usual(field, lowest, highest, rule["why"])
     return None
 
 
-def mass_kg(machine: "Machine") -> float:
-    """Mass of shell and block."""
-    block = machine.suspension.block.mass_kg if machine.suspension is not None else 0.0
-    return machine.housing.mass_kg + block
+def of_density(scale: Scale) -> Usual:
+    """Mass of the machine without its block, by the volume of its shell."""
+    lowest, highest = (
+        max(density * scale.volume_m3 - scale.block_kg, 0.1 * scale.block_kg)
+        for density in DENSITY_KG_PER_M3
+    )
+    why = f"0.5 to 20 g/cm³ for the {1e3 * scale.volume_m3:.3g} litres of the shell"
+    return Usual("housing.mass_kg", lowest, highest, why)
 
 
-def volume_m3(machine: "Machine") -> float:
-    """Volume of the shell as a cylinder."""
-    return pi * machine.shell.radius_m**2 * machine.shell.height_m
+def of_mounts(table: str, mass_kg: float, number: int) -> Iterator[Usual]:
+    """Stiffness of mounts or springs, by the mass that they carry.
+
+    Parameters
+    ----------
+    table : of the mounts
+    mass_kg : that all of them carry
+    number : of mounts
+    """
+    lowest, highest = ((2.0 * pi * hertz) ** 2 * mass_kg / number for hertz in MOUNTED_HZ)
+    why = f"a natural frequency of 2 to 60 Hz with {mass_kg:.3g} kg on {number}"
+    for way in ("lateral", "vertical"):
+        yield Usual(f"{table}.{way}_stiffness_n_per_m", lowest, highest, why)
 
 
-def of_density(machine: "Machine") -> Usual:
-    """Mass of the machine, by the volume of its shell."""
-    volume, block = volume_m3(machine), mass_kg(machine) - machine.housing.mass_kg
-    lowest, highest = (density * volume - block for density in DENSITY_KG_PER_M3)
-    least = 0.1 * block
-    why = f"0.5 to 20 g/cm³ for the {1e3 * volume:.3g} litres of the shell"
-    return Usual("housing.mass_kg", max(lowest, least), max(highest, least), why)
-
-
-def of_mounts(machine: "Machine") -> Iterator[Usual]:
-    """Stiffness of mounts and springs, by the mass that they carry."""
-    feet = () if machine.feet is None else tuple(machine.feet.by_name)
-    tables = ("mounts", *(f"feet.{name}" for name in feet))
-    carried = [(table, mass_kg(machine), len(feet) or 4) for table in tables]
-    if machine.suspension is not None:
-        carried.append(("suspension.springs", machine.suspension.block.mass_kg, 4))
-    for table, mass, number in carried:
-        lowest, highest = ((2.0 * pi * hertz) ** 2 * mass / number for hertz in MOUNTED_HZ)
-        why = f"a natural frequency of 2 to 60 Hz with {mass:.3g} kg on {number}"
-        for way in ("lateral", "vertical"):
-            yield Usual(f"{table}.{way}_stiffness_n_per_m", lowest, highest, why)
-
-
-def doubt_of_forces(machine: "Machine", force_n: float, speed_rad_per_s: float) -> str:
+def doubt_of_forces(mass_kg: float, force_n: float, speed_rad_per_s: float) -> str:
     """What is doubtful in a force at order 1: how far it moves the machine; empty where nothing.
 
     Parameters
     ----------
-    machine : which the force shakes
+    mass_kg : of the machine
     force_n : peak
     speed_rad_per_s : of the shaft
     """
-    mass = mass_kg(machine)
-    motion = force_n / (mass * speed_rad_per_s**2)
+    motion = force_n / (mass_kg * speed_rad_per_s**2)
     if motion <= FREE_MOTION_M:
         return ""
     return (
-        f"order 1 of {force_n:.3g} N would move {mass:.3g} kg without mounts by "
+        f"order 1 of {force_n:.3g} N would move {mass_kg:.3g} kg without mounts by "
         f"{1e3 * motion:.3g} mm; usual is at most {1e3 * FREE_MOTION_M:g} mm; are they in mN?"
     )
 

@@ -74,7 +74,8 @@ class TabulatedMachine(Machine):
         speed_rpm = max(self.forces.speed_rpm)
         first = self.forces.at(speed_rpm).sum(axis=0)[:3, 1]
         force = float(np.linalg.norm(first))
-        if words := doubt_of_forces(self, force, 2.0 * np.pi * shaft_frequency_hz(speed_rpm)):
+        speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
+        if words := doubt_of_forces(self.scale.mass_kg, force, speed):
             yield f"forces.file = {self.forces.file}: {words}"
 
     @property
