@@ -39,6 +39,16 @@ speed_rpm = [90000.0]
 """)
 va.load_study("fast.toml")
 ''',
+    "PlatformError": """
+# As under `ulimit -v` with less than a command needs.
+from vibroacoustics.base.posix import check_memory, resource
+limits = resource.getrlimit(resource.RLIMIT_AS)
+resource.setrlimit(resource.RLIMIT_AS, (10**12, limits[1]))
+try:
+    check_memory(2 * 10**12)
+finally:
+    resource.setrlimit(resource.RLIMIT_AS, limits)
+""",
     "SchemaError": """
 results = xr.Dataset({"loudness": ("speed", [4.0])})
 va.check(results)

@@ -44,6 +44,7 @@ order = 1
 """
 
 
+@pytest.mark.filterwarnings("ignore:.*usual is")  # a weight of nearly nothing
 def test_best_counterweight_is_that_of_least_squares() -> None:
     """Pressure at each microphone is linear in the two components of mass times radius."""
     study = study_with(LEFT + WEIGHT.format(mass=50.0, angle=0.0) + SEARCH)

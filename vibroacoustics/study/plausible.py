@@ -37,13 +37,13 @@ def warn_of_doubts(machine: Machine, of_machine: Reader, of_study: Reader | None
 
 def _doubts(machine: Machine, reader: Reader, tables: tuple[str, ...]) -> Iterator[str]:
     scale = machine.scale
-    own = {usual.field: usual for usual in machine.usual()}
+    by_field = {usual.field: usual for usual in machine.usual()}
     for keys, (key, number) in reader.file_keys.items():
         unit = split_key(key)[1]
         if keys[0] not in tables or unit is None or not is_number(number):
             continue
         field = ".".join(keys)
-        usual = own.get(field) or usual_of(scale, field, unit.si_suffix)
+        usual = by_field.get(field) or usual_of(scale, field, unit.si_suffix)
         if usual and field not in machine.unread and not usual.holds(unit.factor * number):
             lowest, highest = (f"{end / unit.factor:.3g}" for end in (usual.lowest, usual.highest))
             value = f"{reader.file_and_key((*keys[:-1], key))} = {number:g} {unit.symbol}".rstrip()

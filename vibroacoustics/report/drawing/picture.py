@@ -120,8 +120,8 @@ def _receivers_m(results: xr.Dataset, floor_z_m: float) -> dict[str, Array]:
     stand = parameters(results)["receivers"]
     placed = {name: stand[name] for name in map(str, results["receiver"].values)}
     return {
-        name: np.array([place["x_m"], place["y_m"], floor_z_m + place["height_m"]])
-        for name, place in placed.items()
+        name: np.array([point["x_m"], point["y_m"], floor_z_m + point["height_m"]])
+        for name, point in placed.items()
     }
 
 

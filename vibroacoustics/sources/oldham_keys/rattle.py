@@ -144,20 +144,7 @@ def steady_key_forces(
         raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be from 100 to 60000 rpm")
     if revolutions < 1:
         raise ParameterError(f"revolutions = {revolutions}: must be at least 1")
-    coupling = Coupling(
-        angular_speed=2.0 * np.pi * shaft_frequency_hz(speed_rpm),
-        stroke=stroke_m,
-        mass=ring_mass_kg,
-        ring_inertia=keys.ring_inertia_kg_m2,
-        scroll_inertia=keys.scroll_inertia_kg_m2,
-        radius=keys.radius_m,
-        clearance=keys.clearance_m,
-        face=key_face(keys, ring_mass_kg),
-        friction=keys.friction_ratio,
-        sticking_speed=STICKING_SPEED_M_PER_S,
-        moment=_periodic_spline("moment_n_m", moment_n_m),
-        ring_force=_periodic_spline("ring_force_n", ring_force_n),
-    )
+    coupling = _coupling(keys, ring_mass_kg, stroke_m, speed_rpm, moment_n_m, ring_force_n)
     period = 1.0 / shaft_frequency_hz(speed_rpm)
     samples = 2 ** int(np.ceil(np.log2(SAMPLE_RATE_HZ * period)))
     turns = _turns(SETTLING_REVOLUTIONS + revolutions, samples, period / samples, coupling)
@@ -204,6 +191,30 @@ def _repeats(before: tuple[Array, ...], after: tuple[Array, ...]) -> bool:
     return all(
         np.abs(new - old).max() <= REPEATED * np.abs(new).max()
         for old, new in zip(before, after, strict=True)
+    )
+
+
+def _coupling(
+    keys: OldhamKeys,
+    ring_mass_kg: float,
+    stroke_m: float,
+    speed_rpm: float,
+    moment_n_m: Array,
+    ring_force_n: Array,
+) -> Coupling:
+    return Coupling(
+        angular_speed=2.0 * np.pi * shaft_frequency_hz(speed_rpm),
+        stroke=stroke_m,
+        mass=ring_mass_kg,
+        ring_inertia=keys.ring_inertia_kg_m2,
+        scroll_inertia=keys.scroll_inertia_kg_m2,
+        radius=keys.radius_m,
+        clearance=keys.clearance_m,
+        face=key_face(keys, ring_mass_kg),
+        friction=keys.friction_ratio,
+        sticking_speed=STICKING_SPEED_M_PER_S,
+        moment=_periodic_spline("moment_n_m", moment_n_m),
+        ring_force=_periodic_spline("ring_force_n", ring_force_n),
     )
 
 
