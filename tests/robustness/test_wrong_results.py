@@ -17,7 +17,13 @@ from support import TINY, append_hash, assert_refused, command_here, made_up_rad
 from vibroacoustics import pipeline, report
 from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.base.hashing import sha256
-from vibroacoustics.base.vocabulary import LOW, REFERENCE_OPTION, SUFFIXES
+from vibroacoustics.base.vocabulary import (
+    COORDINATES,
+    LOW,
+    REFERENCE_OPTION,
+    SUFFIXES,
+    VARIABLES,
+)
 from vibroacoustics.commands import outputs
 from vibroacoustics.report.drawing import machine as drawn
 from vibroacoustics.results import hashed
@@ -25,7 +31,6 @@ from vibroacoustics.results.complete import check_run
 from vibroacoustics.results.run_attributes import Parameters, Words
 from vibroacoustics.results.run_variables import (
     COORDINATES_OF,
-    EMPTY_WHERE_NONE,
     needed_variables,
 )
 from vibroacoustics.results.storage import write_results
@@ -37,8 +42,11 @@ RUNS: Final = {
 }
 ATTRIBUTES: Final = {"parameters": Parameters, "words": Words}
 GONE: Final = object()
-EMPTY: Final = EMPTY_WHERE_NONE | {
-    f"{name}{suffix}" for name in EMPTY_WHERE_NONE for suffix in SUFFIXES.values()
+EMPTY: Final = {
+    name
+    for registry in (VARIABLES, COORDINATES)
+    for name, labelled in registry.items()
+    if labelled.missing
 }
 POSITIVE: Final = {
     "mass_kg", "level_dba", "outer_diameter_m", "height_m", "length_m", "width_m", "diameter_m",
@@ -223,7 +231,7 @@ def test_all_that_may_be_so_holds_one_value(name: str, value: float, tmp_path: P
     """Together; numbers of orders and labels of dimensions stay."""
     results = run(name)
     for key, variable in run(name).data_vars.items():
-        if np.isfinite(value) or key in EMPTY_WHERE_NONE:
+        if np.isfinite(value) or key in EMPTY:
             results = filled(results, str(key), np.full((), value, variable.dtype))
     refused_or_made(results, tmp_path)
 

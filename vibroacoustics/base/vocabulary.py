@@ -1,7 +1,7 @@
 """The vocabulary: dimensions, unit and long name of every variable that leaves a stage."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Final, TypeVar
 
 import numpy as np
@@ -27,6 +27,25 @@ _SUFFIX_WORDS: Final = {
 }  # fmt: skip
 
 
+LARGEST: Final = 1e30
+"""Greatest value, whose squares are summed."""
+LARGEST_LEVEL_DB: Final = 1e3
+"""Greatest level, whose power is summed."""
+BOUNDS: Final = {
+    "dB": (-LARGEST_LEVEL_DB, LARGEST_LEVEL_DB),
+    "Hz": (0.0, 1e9),
+    "rpm": (-1e6, 1e6),
+    "m": (-1e6, 1e6),
+    "kg": (-1e9, 1e9),
+    "sone": (0.0, 1e6),
+    "acum": (0.0, 1e3),
+}
+"""Physical bounds by unit, of variables that name none; other units have the greatest value."""
+YES_OR_NO: Final = (0.0, 1.0)
+"""Bounds of variables that may hold truth values."""
+_ROUNDING: Final = 1e-9
+
+
 @dataclass(frozen=True)
 class _Labelled:
     """What variables and coordinates have in common.
@@ -37,12 +56,16 @@ class _Labelled:
     dims : names of its dimensions, each a coordinate
     units : ASCII; empty for text, and where the unit goes with the value
     long_name : plain words, ASCII, as not every reader of netCDF knows others
+    missing : whether a value may be no number, where nothing is known
+    bounds : least and greatest value; by default those of the unit
     """
 
     name: str
     dims: tuple[str, ...]
     units: str
     long_name: str
+    missing: bool = field(default=False, kw_only=True)
+    bounds: tuple[float, float] | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         if not (isinstance(self.dims, tuple) and all(isinstance(dim, str) for dim in self.dims)):
@@ -50,6 +73,33 @@ class _Labelled:
         for text in (self.units, self.long_name):
             if not (isinstance(text, str) and text.isascii()):
                 raise SchemaError(f"{self.name}: {text!r}: must be text in ASCII")
+
+    @property
+    def is_text(self) -> bool:
+        """Whether a coordinate holds words: it has neither unit nor bounds."""
+        return not self.units and self.bounds is None
+
+    def check_numbers(self, array: xr.DataArray) -> None:
+        """Refuse what are no numbers within the bounds; of phasors each part is.
+
+        Raises
+        ------
+        SchemaError
+            Names the variable and its bounds.
+        """
+        kinds = "iufcb" if self.bounds == YES_OR_NO else "iufc"
+        if array.dtype.kind not in kinds:
+            raise SchemaError(f"{array.name} holds no numbers")
+        lowest, highest = self.bounds or BOUNDS.get(self.units, (-LARGEST, LARGEST))
+        slack = _ROUNDING * max(abs(lowest), abs(highest))
+        values = array.values if array.dtype.kind == "c" else array.values.astype(float)
+        for part in (values.real, values.imag) if np.iscomplexobj(values) else (values,):
+            within = (lowest - slack <= part) & (part <= highest + slack)
+            if not (within | np.isnan(part) if self.missing else within).all():
+                raise SchemaError(
+                    f"{array.name} holds no number, or one beyond {lowest:g} to {highest:g} "
+                    f"{self.units}".rstrip()
+                )
 
 
 @dataclass(frozen=True)
@@ -84,7 +134,8 @@ class Variable(_Labelled):
         return [
             Variable(
                 f"{self.name}{suffix}", self.dims, self.units,
-                f"{self.long_name}; {_SUFFIX_WORDS[part]}",
+                f"{self.long_name}; {_SUFFIX_WORDS[part]}", missing=self.missing,
+                bounds=self.bounds,
             )
             for part, suffix in SUFFIXES.items()
         ]  # fmt: skip

@@ -17,6 +17,7 @@ from ..results.complete import check_run
 from ..results.files import LOCK_NAME, STAGING_NAME, write, write_together
 from ..results.files import naming as writing
 from ..results.provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
+from ..results.run_variables import check_known
 from .outcome import Outcome
 from .printing import Printer
 
@@ -112,6 +113,10 @@ def _open_of_this_version(path: str | Path) -> tuple[xr.Dataset, str]:
             f"{path}: schema_version = {version}: is no result of this version, {allowed}; make it "
             f"again: vibroacoustics {again}"
         )
+    try:
+        check_known(results)
+    except SchemaError as error:
+        raise StorageError(f"{path}: {error}; make it again") from None
     return results, digest
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from .run_variables import LARGEST, LARGEST_LEVEL_DB
+from ..base.vocabulary import LARGEST, LARGEST_LEVEL_DB
 
 Level = Annotated[float, Field(ge=-LARGEST_LEVEL_DB, le=LARGEST_LEVEL_DB)]
 Number = Annotated[float, Field(ge=-LARGEST, le=LARGEST)]

@@ -14,7 +14,6 @@ from ..base.vocabulary import (
     COORDINATES,
     REFERENCE_OPTION,
     RIGID_BODY_DOFS,
-    SUFFIXES,
     VARIABLES,
     WEIGHTINGS,
     check,
@@ -25,7 +24,6 @@ _RULES: Final = tomllib.loads(
 )
 """Which variables a run has, and with what; the file explains each table."""
 COORDINATES_OF: Final[dict[str, list[str]]] = _RULES["coordinates_of"]
-EMPTY_WHERE_NONE: Final = frozenset(_RULES["empty_where_none"])
 ADDED_MASS: Final = "added_mass_kg"
 """Figure that every option has."""
 ANY_WEIGHTS: Final = "any"
@@ -46,10 +44,6 @@ AMONG: Final = {"path_speed": "speed", "path_order": "order"}
 """Dimensions whose values are some of those of another."""
 IN_ORDER: Final = ("axis", "dof")
 """Dimensions that hold nothing else, in this order."""
-LARGEST: Final = 1e30
-"""Of any value, whose squares are summed."""
-LARGEST_LEVEL_DB: Final = 1e3
-"""Whose power is summed."""
 HIGHEST_COLUMN: Final = 2
 """Highest order that has a column in the comparison."""
 
@@ -62,16 +56,30 @@ def check_variables(results: xr.Dataset) -> None:
     SchemaError
         Names the variable or the coordinate.
     """
-    strangers = [name for name in results.data_vars if name not in VARIABLES]
-    strangers += [name for name in results.coords if name not in COORDINATES]
-    known = results.drop_vars(strangers)
+    known = check_known(results)
     check(known, needed_variables(known))
-    for coordinate in known.coords.values():
-        _check_coordinate(coordinate)
     for variable in known.data_vars.values():
         _check_dimensions(known, variable)
-        check_numbers(variable)
     _check_labels(known)
+
+
+def check_known(results: xr.Dataset) -> xr.Dataset:
+    """Return the part of any results that the vocabulary knows; its values can be right.
+
+    Raises
+    ------
+    SchemaError
+        Names the variable or the coordinate: other dimensions, unit or type; a value that is
+        missing and must not be, or beyond its bounds; a label twice.
+    """
+    strangers = [name for name in results.data_vars if name not in VARIABLES]
+    strangers += [name for name in results.coords if name not in COORDINATES]
+    known = check(results.drop_vars(strangers))
+    for coordinate in known.coords.values():
+        _check_coordinate(coordinate)
+    for name, variable in known.data_vars.items():
+        VARIABLES[str(name)].check_numbers(variable)
+    return known
 
 
 def needed_variables(results: xr.Dataset) -> tuple[str, ...]:
@@ -86,12 +94,10 @@ def _check_coordinate(array: xr.DataArray) -> None:
     known = COORDINATES[str(array.name)]
     if array.dims != known.dims:
         raise SchemaError(f"coordinate {array.name}: dims are {array.dims}, must be {known.dims}")
-    if array.dtype.kind not in ("iuf" if known.units else "U"):
-        raise SchemaError(
-            f"coordinate {array.name} holds no {'numbers' if known.units else 'text'}"
-        )
-    if known.units:
-        check_numbers(array)
+    if known.is_text and array.dtype.kind != "U":
+        raise SchemaError(f"coordinate {array.name} holds no text")
+    if not known.is_text:
+        known.check_numbers(array)
     if array.dims == (array.name,) and np.unique(array.values).size < array.size:
         raise SchemaError(f"coordinate {array.name} holds a label twice")
 
@@ -104,33 +110,6 @@ def _check_dimensions(results: xr.Dataset, array: xr.DataArray) -> None:
     for attribute in _RULES["attributes_of"].get(name, ()):
         if not isinstance(array.attrs.get(attribute), str):
             raise SchemaError(f"{name}: attribute {attribute} is missing or no text")
-
-
-def check_numbers(array: xr.DataArray) -> None:
-    """Refuse a variable without finite numbers, but for those that may be empty by design.
-
-    Raises
-    ------
-    SchemaError
-        Names the variable.
-    """
-    if array.dtype.kind not in "iufc":
-        raise SchemaError(f"{array.name} holds no numbers")
-    if _without_suffix(str(array.name)) not in EMPTY_WHERE_NONE:
-        _check_finite(array)
-
-
-def _without_suffix(name: str) -> str:
-    """Name of the variable that has a statistic under this name."""
-    for suffix in SUFFIXES.values():
-        name = name.removesuffix(suffix)
-    return name
-
-
-def _check_finite(array: xr.DataArray) -> None:
-    largest = LARGEST_LEVEL_DB if array.attrs.get("units") == "dB" else LARGEST
-    if not (np.abs(array.values) <= largest).all():  # one that is no number is not less
-        raise SchemaError(f"{array.name} holds no number, or one beyond {largest:g}")
 
 
 def _check_labels(results: xr.Dataset) -> None:
@@ -150,6 +129,7 @@ def _check_labels(results: xr.Dataset) -> None:
         )
     if not results["mode_shape"].any(("body", "dof")).all():
         raise SchemaError("mode_shape: in a mode nothing moves")
-    _check_finite(results["reported_figure"].sel(figure=ADDED_MASS).rename(ADDED_MASS))
+    if not np.isfinite(results["reported_figure"].sel(figure=ADDED_MASS)).all():
+        raise SchemaError(f"{ADDED_MASS}: holds no number")
     if "sample_weight" in results and not (results["sample_weight"].values[0] > 0.0).any():
         raise SchemaError("sample_weight: no sample counts")

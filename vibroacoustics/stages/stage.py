@@ -12,7 +12,6 @@ from ..base.registry import Registry
 from ..base.vocabulary import VARIABLES, check
 from ..radiation.cost import Cost, about
 from ..results.estimates import estimated
-from ..results.run_variables import check_numbers
 from ..study.study import Study
 from .chain import Chain, is_among
 
@@ -229,8 +228,8 @@ def _advanced(chain: Chain, stage: Stage) -> Chain:
 
 def _check_variables(given: xr.Dataset) -> None:
     """Refuse what a stage of a plug-in may not give: other dims or units, no finite numbers."""
-    for array in check(given).data_vars.values():
-        check_numbers(array)
+    for name, array in check(given).data_vars.items():
+        VARIABLES[str(name)].check_numbers(array)
 
 
 def timed(chain: Chain, stage: Stage, speeds: int = 1) -> Trial:
