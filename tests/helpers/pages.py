@@ -4,7 +4,7 @@ import xarray as xr
 
 from vibroacoustics.report.analysis import Analysis
 from vibroacoustics.report.blocks import Part
-from vibroacoustics.report.sections.comparison.tables import terminal_blocks
+from vibroacoustics.report.sections.comparison import terminal_blocks
 
 
 def page_of(*parts: Part) -> Analysis:

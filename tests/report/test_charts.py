@@ -24,8 +24,7 @@ from vibroacoustics.report.charts.marks import (
     Span,
     named_axis,
 )
-from vibroacoustics.report.charts.picture import picture
-from vibroacoustics.report.charts.svg import svg
+from vibroacoustics.report.charts.svg import picture, svg
 from vibroacoustics.report.charts.svg_marks import PALETTE, _resampled
 
 X = np.array([1.0, 10.0, 100.0])

@@ -5,7 +5,7 @@ import xarray as xr
 from test_report_sources import with_sources
 
 from vibroacoustics.base.vocabulary import stamp
-from vibroacoustics.report.sections.sources.tables import alternatives_table, spectrum_sentence
+from vibroacoustics.report.sections.sources.content import alternatives_table, spectrum_sentence
 
 PARTS = ["gas", "keys", "motor", "moving_parts", "unmodelled"]
 SHARE = {

@@ -15,10 +15,9 @@ from test_report import make_results
 
 from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.report import render
-from vibroacoustics.report.bands import Band
 from vibroacoustics.report.blocks import Beside, Details, Intervals, Lights, Text
-from vibroacoustics.report.drawing import machine_picture
 from vibroacoustics.report.drawing.machine import feet_m, loads, outline, turn
+from vibroacoustics.report.drawing.picture import machine_picture
 from vibroacoustics.report.drawing.view import bar, fitted
 from vibroacoustics.report.quantities import FOOT_FORCE, FORCE, LINE, TOTAL
 from vibroacoustics.report.sections import SECTIONS
@@ -26,6 +25,7 @@ from vibroacoustics.report.sections.verdict import words as first_screen
 from vibroacoustics.report.sections.verdict.content import light, lights
 from vibroacoustics.report.sections.verdict.words import sentences
 from vibroacoustics.report.shifts import Shift
+from vibroacoustics.results.bands import Band
 from vibroacoustics.results.complete import check_run
 from vibroacoustics.study.scoring import Measurable
 

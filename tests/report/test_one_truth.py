@@ -12,10 +12,10 @@ from vibroacoustics import report
 from vibroacoustics.base import rounding
 from vibroacoustics.base.ellipse import semi_major_axis
 from vibroacoustics.base.vocabulary import HIGH, LOW, NOMINAL, SUFFIXES, VARIABLES
-from vibroacoustics.report.bands import band
 from vibroacoustics.report.columns import COLUMNS
-from vibroacoustics.report.sections.comparison.tables import comparison_table
+from vibroacoustics.report.sections.comparison import comparison_table
 from vibroacoustics.report.sections.verdict import words as first_screen
+from vibroacoustics.results.bands import band
 from vibroacoustics.results.estimates import estimate
 from vibroacoustics.results.figure_limit import FigureLimit
 from vibroacoustics.results.figure_limits import Compared, check_figures

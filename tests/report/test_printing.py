@@ -19,7 +19,7 @@ from support import assert_refused, command_here, tiny_run
 from vibroacoustics.commands import printing
 from vibroacoustics.commands.outputs import write_report
 from vibroacoustics.report.blocks import Beside, Block, Details, Lights, Part, Text
-from vibroacoustics.report.paper import for_paper
+from vibroacoustics.report.html import for_paper
 from vibroacoustics.report.study import analysis_of_study
 from vibroacoustics.report.tables import Table
 

@@ -34,7 +34,7 @@ from vibroacoustics.report import render
 from vibroacoustics.report.figures.scores import contributions
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.sections.assumptions import records_table
-from vibroacoustics.report.sections.comparison.tables import (
+from vibroacoustics.report.sections.comparison import (
     comparison,
     comparison_data,
     comparison_table,

@@ -10,7 +10,7 @@ from test_report_sources import PUBLISHED_DBA, energy, with_parameters, with_sou
 
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.report import render
-from vibroacoustics.report.sections.evidence.tables import agreement_sentence, evidence_table
+from vibroacoustics.report.sections.evidence import agreement_sentence, evidence_table
 from vibroacoustics.results.validation import (
     AGREES,
     DIFFERS,

@@ -10,7 +10,7 @@ from support import tiny_run
 
 from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.sections.paths.tables import (
+from vibroacoustics.report.sections.paths import (
     leading,
     leading_sentence,
     orders_table,

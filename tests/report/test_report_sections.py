@@ -15,7 +15,7 @@ from vibroacoustics.commands.outputs import REPORT_FILES
 from vibroacoustics.report import blocks, render
 from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.charts.marks import Axis, Chart, Line, Panel
-from vibroacoustics.report.charts.picture import Picture, picture
+from vibroacoustics.report.charts.svg import Picture, picture
 from vibroacoustics.report.columns import COLUMNS
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.shown_speeds import few_speeds, few_speeds_words

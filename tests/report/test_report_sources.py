@@ -14,15 +14,15 @@ from test_report import PUBLISHED_DBA, make_results
 
 from vibroacoustics.base.vocabulary import DERIVED_SUPPLY, GIVEN_SUPPLY, WEIGHTINGS, check, stamp
 from vibroacoustics.report import render
-from vibroacoustics.report.bands import Band, percent
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
 from vibroacoustics.report.sections.assumptions import not_modelled, remainder_sentence
 from vibroacoustics.report.sections.scores import too_close_words
-from vibroacoustics.report.sections.sources.tables import source_table
+from vibroacoustics.report.sections.sources.content import source_table
 from vibroacoustics.report.sections.sources.words import certainty_sentences, samples_sentence
-from vibroacoustics.report.sections.unknowns.words import held_sentence, sampled_sentences
+from vibroacoustics.report.sections.unknowns import held_sentence, sampled_sentences
 from vibroacoustics.report.sections.verdict.words import sentences
 from vibroacoustics.report.tables import escape_markdown
+from vibroacoustics.results.bands import Band, percent
 from vibroacoustics.sources.cases import MovingParts
 from vibroacoustics.sources.gas import ScrollGasForces
 from vibroacoustics.sources.keys import OldhamKeyForces

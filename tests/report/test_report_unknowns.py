@@ -9,13 +9,13 @@ from test_report_sources import with_sources
 from vibroacoustics.base import rounding
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.sections.unknowns.tables import (
+from vibroacoustics.report.sections.unknowns import (
     NOT_RESOLVED,
+    file_unit,
     measure_next_sentence,
     resolved_sentence,
     unknowns_table,
 )
-from vibroacoustics.report.sections.unknowns.words import file_unit
 
 NAMES = ["variation.mobility_change_db", "gas.polytropic_index", "mounts.pitch_m"]
 KNOWLEDGE = ["before", "flat", "near"]

@@ -10,7 +10,7 @@ from selenium.webdriver import Chrome
 from selenium.webdriver.common.by import By
 from sources_study import SOURCES_STUDY, run_made_up
 
-from vibroacoustics.report.sections.unknowns.words import file_unit
+from vibroacoustics.report.sections.unknowns import file_unit
 from vibroacoustics.results.estimates import estimate
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.uncertainty.slider_variables import HOOD

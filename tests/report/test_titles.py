@@ -10,7 +10,7 @@ from support import ROOT, TINY, assert_refused, command_here, made_up_radiation
 import vibroacoustics as va
 from vibroacoustics.report.charts.marks import Line
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.sections.comparison.tables import comparison_data
+from vibroacoustics.report.sections.comparison import comparison_data
 from vibroacoustics.report.sections.scores import criteria_table, scores_data
 from vibroacoustics.report.study import analysis_of_study
 from vibroacoustics.report.tables import to_csv

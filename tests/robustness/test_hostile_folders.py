@@ -30,7 +30,7 @@ from vibroacoustics.design.store.chunks import opened_store
 from vibroacoustics.pipeline.study import run as run_study
 from vibroacoustics.report.analysis import Analysis
 from vibroacoustics.report.blocks import Part, Pictures
-from vibroacoustics.report.charts.picture import Picture
+from vibroacoustics.report.charts.svg import Picture
 from vibroacoustics.results import cache, manifest, storage
 
 LONGEST_S: Final = 100.0

@@ -13,7 +13,7 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..report.analysis import Analysis
 from ..report.file_names import file_name
-from ..report.responses import analysis_of_impulse_responses
+from ..report.radiation_tables import analysis_of_impulse_responses
 from ..results import files
 from ..sound.files import FORMATS, at_gain, calibration_tone, wav_bytes
 from ..sound.gain import full_scale_of, next_full_scale

@@ -47,7 +47,7 @@ class Printer(NamedTuple):
 
     def printed(self, page: bytes) -> bytes:
         """One page."""
-        from ..report.paper import for_paper
+        from ..report.html import for_paper
 
         with TemporaryDirectory(prefix="vibroacoustics_", ignore_cleanup_errors=True) as folder:
             source, target = Path(folder) / "page.html", Path(folder) / "page.pdf"
@@ -91,7 +91,7 @@ def printer(wanted: bool, paper: str | None, brief: bool = False) -> Printer | N
     ParameterError
         There is no such paper, or no browser that prints.
     """
-    from ..report.paper import PAPERS
+    from ..report.html import PAPERS
 
     if not wanted:
         for option, is_given in (("--paper", paper is not None), ("--brief", brief)):

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ..report.sections.unknowns.words import file_unit, named
+from ..report.sections.unknowns import file_unit, named
 from ..results.stored_study import options
 from ..uncertainty.slider_variables import HOOD
 from .numbers import FEW_BITS, NOISE_BITS, Numbers

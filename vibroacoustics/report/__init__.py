@@ -21,9 +21,8 @@ from .left_out import with_lines
 from .limit_tables import broken_lines
 from .measured_power import analysis_of_sound_power
 from .measurements import analysis_of_blocked_forces, analysis_of_prediction
-from .radiation_tables import analysis_of_radiation
+from .radiation_tables import analysis_of_impulse_responses, analysis_of_radiation
 from .recordings import analysis_of_map, analysis_of_orders, analysis_of_tracks
-from .responses import analysis_of_impulse_responses
 from .sections import SECTIONS
 from .study import analysis_of_study
 

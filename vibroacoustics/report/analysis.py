@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..results.number import Number
 from .blocks import Block, Bullets, Part, Text, charts, pictures, tables
-from .charts.picture import picture_file
+from .charts.svg import picture_file
 from .html import html
 from .markdown import markdown
 from .tables import DataTable, Table, to_ascii, to_csv, to_text

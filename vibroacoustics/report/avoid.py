@@ -8,6 +8,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results.bands import energy_share, percent
 from ..results.over_speed.avoid import (
     BINS,
     LEVEL,
@@ -18,7 +19,6 @@ from ..results.over_speed.avoid import (
     Range,
 )
 from ..results.stored_study import catalogue_receiver, options
-from .bands import energy_share, percent
 from .tables import DataTable, Table, columns_of
 
 MOST_ROWS: Final = 20

@@ -16,7 +16,7 @@ from typing import Annotated, Literal, NamedTuple, TypeAlias
 from pydantic import Field, TypeAdapter
 
 from .charts.marks import Chart
-from .charts.picture import Picture, picture
+from .charts.svg import Picture, picture
 from .tables import Table
 
 

@@ -11,7 +11,7 @@ from .analysis import Analysis
 from .blocks import Bullets, Part, Pictures, Text
 from .figures.sources import sheet_chart
 from .file_names import file_name
-from .sections.tones.tables import excess_words
+from .sections.tones import excess_words
 from .tables import Table, columns_of, known
 
 Row = tuple[str, str, str, str | float, str]

@@ -1,16 +1,17 @@
-"""The report as one self-contained HTML page."""
+"""The report as one self-contained HTML page, also for paper."""
 
 import base64
 import hashlib
 import re
 from collections.abc import Sequence
 from importlib import resources
+from typing import Final
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from .blocks import Part, Text, drawn
-from .charts.picture import Picture
+from .charts.svg import Picture
 from .live.assets import live_script, live_style, packed, unpacking_script
 
 
@@ -92,3 +93,26 @@ def _breakable(text: str) -> Markup:
 def _data_address(picture: Picture) -> str:
     kind = {"png": "png", "svg": "svg+xml"}[picture.ending]
     return f"data:image/{kind};base64,{base64.b64encode(picture.content).decode()}"
+
+
+PAPERS: Final = {"a4": "A4", "letter": "letter"}
+"""Names of the sheets as the style writes them."""
+_STYLE: Final = re.compile("<style>(.*?)</style>", re.DOTALL)
+_DETAILS: Final = re.compile(r'<details(?=>| class="part">)')
+_INNERMOST: Final = re.compile(r"<details\b(?:(?!<details\b).)*?</details>", re.DOTALL)
+
+
+def for_paper(page: bytes, paper: str, brief: bool = False) -> bytes:
+    """Return the HTML page for paper, a name of PAPERS; brief: without what is folded.
+
+    The page's policy allows its new style.
+    """
+    text = page.decode()
+    found_style = _STYLE.search(text)
+    if found_style is not None:
+        style = found_style[1]
+        sized = style.replace("size: A4", f"size: {PAPERS[paper]}")
+        text = text.replace(style, sized, 1).replace(content_hash(style), content_hash(sized), 1)
+    while brief and _INNERMOST.search(text):
+        text = _INNERMOST.sub("", text)
+    return _DETAILS.sub("<details open", text).encode()

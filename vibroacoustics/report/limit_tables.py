@@ -9,9 +9,9 @@ import xarray as xr
 from ..base import rounding
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_amplitude
+from ..results.bands import percent
 from ..results.figure_limits import CheckedFigure
 from ..results.order_limits import NOT_CHECKED
-from .bands import percent
 from .blocks import Block, Bullets, Text
 from .tables import DataTable, Record, Table, amplitude, columns_of, data_table, known, records
 
@@ -190,12 +190,8 @@ def figure_limits_table(figures: Sequence[CheckedFigure]) -> Table:
         for value, limit in [_numbers(row)]
     ]
     head = ("Figure", "rpm", "Value", "Limit", "Unit", "Margin", "Probability that it holds", "")
-    return Table(
-        "Limits of totals, bands, criteria and lowest values",
-        head,
-        tuple(rows),
-        frozenset({0, 4, 7}),
-    )
+    caption = "Limits of totals, bands, criteria and lowest values"
+    return Table(caption, head, tuple(rows), frozenset({0, 4, 7}))
 
 
 def figure_limits_data(figures: Sequence[CheckedFigure]) -> DataTable:

@@ -18,7 +18,7 @@ from .blocks import (
     drawn,
     pictures,
 )
-from .charts.picture import picture_file
+from .charts.svg import picture_file
 from .tables import Table, escape_markdown, to_markdown
 
 

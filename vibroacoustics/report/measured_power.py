@@ -7,10 +7,10 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from ..base import rounding
+from ..results.bands import fixed
 from ..results.number import number
 from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 from .analysis import Analysis, origin
-from .bands import fixed
 from .blocks import Bullets, Part, Pictures
 from .figures.sources import power_chart
 from .tables import Cell, DataTable, Table, known

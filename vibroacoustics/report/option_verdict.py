@@ -10,7 +10,7 @@ from ..base import rounding
 from ..base.remembered import remembered
 from ..results.stored_study import balancers, has_sources, other_receivers, words
 from .quantities import JUDGED, LINE
-from .sections.sources.changes import key_impacts
+from .sections.sources.words import key_impacts
 from .shifts import Shift, shift
 
 BETTER: Final = "better"

@@ -6,8 +6,6 @@ from typing import Final
 from ..base import rounding
 
 NO_BREAK: Final = "\u00a0"
-
-
 HEARD_DB: Final = 1.0
 """A change of the total below about 1 dB is not heard, even side by side."""
 

@@ -1,5 +1,6 @@
-"""Analysis of a housing's radiation: levels at unit velocity, their error, sound power."""
+"""Analyses of a housing's radiation at unit velocity, and of impulse responses of a room."""
 
+from collections.abc import Mapping, Sequence
 from itertools import product
 from typing import Final
 
@@ -11,11 +12,11 @@ from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
 from .analysis import Analysis, origin
 from .blocks import Block, Part, Pictures, Text
-from .charts.picture import Picture, picture
+from .charts.svg import Picture, picture
 from .figures.directivity import directivity
 from .figures.maps import names, silent_dofs, transfer_vectors, unit_level_db, unit_level_map
 from .kwave_words import kwave_line
-from .tables import Table
+from .tables import Table, columns_of, records, table_of
 
 TABLE_FREQUENCIES_HZ: Final = (50.0, 100.0, 250.0, 500.0, 1000.0, 2000.0)
 _CORRECTIONS: Final = ("background", "environment")
@@ -95,3 +96,41 @@ def radiation_figures(radiated: xr.Dataset) -> list[Picture]:
         "directivity_transfer_vector": directivity,
     }
     return [picture(make(radiated)) for name, make in makers.items() if name in radiated]
+
+
+def analysis_of_impulse_responses(
+    responses: xr.DataArray, full_scale: float, sounds: Mapping[tuple[str, str], str]
+) -> Analysis:
+    """Return the largest value of each response, and its file.
+
+    Parameters
+    ----------
+    responses : of `impulse_responses`
+    full_scale : value at full scale
+    sounds : name of the file by microphone and motion
+    """
+    rows: list[Sequence[str | float]] = [
+        (name, dof, float(np.abs(responses.sel(listener=name, dof=dof)).max()), file)
+        for (name, dof), file in sounds.items()
+    ]
+    data = columns_of(("microphone", "motion", "largest", "file"), rows)
+    table = table_of(
+        "Largest value of each response, Pa/(m/s²) or Pa/(rad/s²)",
+        records(data),
+        (
+            ("Microphone", "microphone", str),
+            ("Motion", "motion", str),
+            ("Largest", "largest", rounding.three_digits),
+            ("File", "file", str),
+        ),
+        frozenset({0, 1, 3}),
+    )
+    gain = Text(f"Full scale of all files: {full_scale:g}.")
+    return Analysis(
+        "impulse_responses",
+        about="Sound pressure in the room after an impulse of the housing's acceleration.",
+        parts=(Part("responses", "Responses", (table, gain)),),
+        shown=(table, gain),
+        tables={"impulse_responses.csv": data},
+        **origin(responses.to_dataset(name="impulse_response"), "Room"),
+    )

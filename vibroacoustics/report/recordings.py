@@ -9,18 +9,14 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..results.bands import fixed
 from ..results.number import number
 from ..results.over_speed.avoid import recorded_speeds_to_avoid
 from ..results.over_speed.level_curves import is_run_up, recorded_curves
 from .analysis import Analysis, origin
 from .avoid import RECORDED_RULE, recorded_avoid_table
-from .bands import fixed
 from .blocks import Block, Bullets, Part, Pictures, Text
-from .figures.channel_orders import (
-    recorded_order_charts,
-    speed_map_charts,
-    tracked_order_charts,
-)
+from .figures.channel_orders import recorded_order_charts, speed_map_charts, tracked_order_charts
 from .limit_tables import limits_data, limits_words, order_limits_table
 from .tables import (
     Cell,

@@ -8,8 +8,8 @@ import xarray as xr
 from ..base import rounding
 from ..base.decibel import level_of_power
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results.bands import Band, band
 from ..results.stored_study import at_catalogue, overall_noise, parameters, quoted_speed, speeds
-from .bands import Band, band
 
 _GROWTH = "remainder.speed_growth_db"
 NO_LEVEL: Final = (

@@ -13,11 +13,11 @@ from ..base.arrays import Array
 from ..base.decibel import amplitude_of_level
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results.bands import FINEST_RATIO, Band, band, hull, written
 from ..results.estimates import Estimate, effective_samples, estimate, is_sampled
 from ..results.stored_study import catalogue_receiver, parameters, speeds
 from ..study.scoring import Measurable
-from .bands import FINEST_RATIO, Band, band, hull, written
-from .column_values import column
+from .columns import column
 from .quantities import Quantity
 
 _ALL: Final = 0.995

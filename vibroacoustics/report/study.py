@@ -17,7 +17,7 @@ from .kept_sections import sections_of
 from .kwave_words import kwave_line
 from .left_out import with_lines
 from .sections import SECTIONS
-from .sections.comparison.tables import terminal_blocks
+from .sections.comparison import terminal_blocks
 from .sections.verdict.words import sentences
 from .shown_speeds import over_speed
 from .tables import DataTable

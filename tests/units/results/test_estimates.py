@@ -7,7 +7,7 @@ import xarray as xr
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
-from vibroacoustics.report.bands import FINEST_DB, Band, written
+from vibroacoustics.results.bands import FINEST_DB, Band, written
 from vibroacoustics.results.estimates import (
     Estimate,
     effective_number,

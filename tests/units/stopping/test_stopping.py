@@ -18,7 +18,7 @@ from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.mechanisms.oldham_scroll.revolution import scroll_parts
 from vibroacoustics.report import render
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.sections.stopping.tables import forces_table, sentences
+from vibroacoustics.report.sections.stopping import forces_table, sentences
 from vibroacoustics.stopping.equation import inertia_over_angle
 from vibroacoustics.stopping.labelled import stopping_variables
 from vibroacoustics.stopping.orders import MAP_REVOLUTIONS

@@ -11,7 +11,7 @@ from support import CRANK_ANGLE, PIPELINES, machine_parts
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.machine.frame import BEARING_HOUSING, ORBITING_SCROLL
 from vibroacoustics.machine.stopping import CheckValve, Stopping, TurningBack
-from vibroacoustics.report.sections.stopping.tables import sentences
+from vibroacoustics.report.sections.stopping import sentences
 from vibroacoustics.stopping.coasting import (
     AfterStop,
     closing_force_n,

@@ -1,9 +1,12 @@
-"""A chart as SVG: sharp at every size, its words are text, and it needs nothing from elsewhere."""
+"""A chart as SVG, sharp at every size, with nothing from elsewhere; finished pictures of a page."""
 
-from typing import Final
+from typing import Final, Literal, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
+from pydantic import Base64Bytes
 
+from ..file_names import file_name
 from .frame import Frame, frame_of
 from .layout import NOTHING_TO_DRAW, ROW, Box, Key, layout, lines, margins, styled
 from .marks import Chart, Image, Panel
@@ -117,3 +120,29 @@ def _polar_grid(frame: Frame) -> list[str]:
 def _key(key: Key, shape: str) -> str:
     name = words(key.x + 32.0, key.y + 12.0, key.name)
     return f'<g transform="translate({key.x:.1f} {key.y + 8.0:.1f})">{shape}</g>{name}'
+
+
+class Picture(NamedTuple):
+    """A finished figure: its file, the text in its place, what is below it, and its width."""
+
+    name: str
+    alt: str
+    caption: str
+    content: Base64Bytes
+    ending: Literal["png", "svg"] = "png"
+    wide: bool = False
+
+
+def picture_file(drawn: Picture) -> str:
+    """Return the name of the file of a picture."""
+    return f"{file_name(drawn.name)}.{drawn.ending}"
+
+
+_DRAWN: Final[WeakKeyDictionary[Chart, Picture]] = WeakKeyDictionary()
+
+
+def picture(chart: Chart) -> Picture:
+    """Return the picture of a chart, which is drawn once."""
+    if chart not in _DRAWN:
+        _DRAWN[chart] = Picture(chart.name, chart.alt, chart.caption, svg(chart), "svg", chart.wide)
+    return _DRAWN[chart]

@@ -12,6 +12,7 @@ import xarray as xr
 
 from ...base import rounding
 from ...base.registry import LAST, Registry
+from ...base.remembered import remembered
 
 Values = Callable[[xr.Dataset], xr.DataArray]
 Write = Callable[[float, xr.Dataset], str]
@@ -68,3 +69,9 @@ class Column:
 COLUMNS: Final[Registry[Column]] = Registry(
     "column", Column, "name", "report.columns", "vibroacoustics.columns"
 )
+
+
+@remembered
+def column(results: xr.Dataset, name: str) -> xr.DataArray:
+    """One column over option, speed and, for levels, receiver; the unit is in its name."""
+    return COLUMNS[name].values(results).reset_coords(drop=True)

@@ -5,6 +5,7 @@ from typing import Final
 
 import xarray as xr
 
+from ...results.bands import percent
 from ...results.figure_limits import CheckedFigure, Compared
 from ...results.mean_of_runs import runs_of
 from ...results.validation import (
@@ -16,7 +17,6 @@ from ...results.validation import (
     Validation,
 )
 from ..analysis import Analysis
-from ..bands import percent
 from ..blocks import Block, Bullets, Details, Part, Pictures, Text
 from ..charts.marks import Chart
 from ..figures.campbell import campbell
@@ -31,7 +31,7 @@ from ..limit_tables import (
     limits_words,
     order_limits_table,
 )
-from ..sections.evidence.tables import validation_table
+from ..sections.evidence import validation_table
 from ..shown_speeds import FEWEST_OVER_SPEED, over_speed
 from ..tables import Table
 from .orders import (

@@ -12,7 +12,7 @@ from ...results.number import Number
 from ...results.stored_study import parameters
 from ..analysis import Analysis, origin
 from ..blocks import Block, Bullets, Details, Part, Pictures, Text
-from ..sections.unknowns.tables import NOT_RESOLVED, share_words
+from ..sections.unknowns import NOT_RESOLVED, share_words
 from ..tables import Cell, DataTable, Table
 from .evaluated import (
     Evaluated,

@@ -12,7 +12,7 @@ from ...base.ellipse import semi_major_axis
 from ...base.rounding import FORCE_FLOOR
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results.stored_study import parameters
-from ..charts.picture import Picture
+from ..charts.svg import Picture
 from ..quantities import FOOT_FORCE, FORCE, MOMENT
 from . import svg
 from .machine import Loads, Outline, feet_m, loads, outline, rectangle
@@ -118,10 +118,11 @@ def _wall(view: View, axis: int, at_m: float) -> str:
 
 def _receivers_m(results: xr.Dataset, floor_z_m: float) -> dict[str, Array]:
     stand = parameters(results)["receivers"]
-    placed = {name: stand[name] for name in map(str, results["receiver"].values)}
     return {
-        name: np.array([point["x_m"], point["y_m"], floor_z_m + point["height_m"]])
-        for name, point in placed.items()
+        name: np.array(
+            [stand[name]["x_m"], stand[name]["y_m"], floor_z_m + stand[name]["height_m"]]
+        )
+        for name in map(str, results["receiver"].values)
     }
 
 

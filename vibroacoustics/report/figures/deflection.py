@@ -9,7 +9,7 @@ import xarray as xr
 from ...base import rounding
 from ...base.arrays import Array, ComplexArray
 from ..charts.layout import COLOURS
-from ..charts.picture import Picture
+from ..charts.svg import Picture
 from ..charts.svg_parts import opening, path, words
 
 FRAMES: Final = 16

@@ -8,6 +8,7 @@ import xarray as xr
 
 from ...base.rounding import LEVEL_FLOOR_DB
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.bands import INTERVAL
 from ...results.estimates import has_samples
 from ...results.over_speed.avoid import LEVEL, Range, recorded_speeds_to_avoid, speeds_to_avoid
 from ...results.over_speed.level_curves import (
@@ -19,7 +20,6 @@ from ...results.over_speed.level_curves import (
 )
 from ...results.stored_study import catalogue_receiver
 from ...results.titles import chosen, titled
-from ..bands import INTERVAL
 from ..charts.axes import stacked
 from ..charts.layout import shortened, wrapped
 from ..charts.marks import Axis, Chart, Line, Mark, Panel, Span

@@ -1,16 +1,69 @@
 """Bars of the leading paths of sound, and of the forces into the feet."""
 
+from typing import Final
+
 import numpy as np
 import xarray as xr
 
+from ...base import rounding
+from ...base.arrays import Array
+from ...base.remembered import remembered
 from ...base.vocabulary import REFERENCE_OPTION
-from ...results.stored_study import catalogue_receiver
+from ...results.labels import DOF_WORDS
+from ...results.stored_study import catalogue_receiver, quoted_speed, source_name
 from ...results.titles import chosen
 from ..charts.layout import COLOURS, wrapped
 from ..charts.marks import Axis, Bars, Chart, Panel, named_axis
 from ..charts.needs import needs
 from ..file_names import numbered
-from ..sections.paths.tables import at_path_speed, foot_forces, leading, path_speed, path_words
+
+LEADING: Final = 10
+"""Paths that are shown."""
+PARTS_OF_PATH: Final = ("path_source", "path_port", "path_direction")
+_KINDS: Final = {"f": "force along", "m": "moment about"}
+
+
+def path_speed(results: xr.Dataset) -> float:
+    """Speed at which paths are shown: of the published level, or the nearest to it."""
+    speeds = results["path_speed"].values
+    return float(speeds[np.argmin(np.abs(speeds - quoted_speed(results)))])
+
+
+@remembered
+def at_path_speed(results: xr.Dataset, receiver: str, option: str = REFERENCE_OPTION) -> xr.Dataset:
+    """Paths to a microphone at the speed that is shown."""
+    names = [name for name in results.data_vars if "path_speed" in results.variables[name].dims]
+    return results[names].sel(path_speed=path_speed(results), option=option, receiver=receiver)
+
+
+def path_words(results: xr.Dataset, row: int) -> tuple[str, str]:
+    """Source of a path, and where it acts in which direction, in plain words."""
+    source, port, direction = (str(results.variables[name].values[row]) for name in PARTS_OF_PATH)
+    kind = _KINDS.get(direction[0]) if len(direction) == 2 else None
+    words = DOF_WORDS.get(direction) or (f"{kind} {direction[1]}" if kind else direction)
+    return source_name(results, source), f"{port.replace('_', ' ')} {words}"
+
+
+def leading(share: Array, count: int = LEADING) -> list[int]:
+    """Rows of the paths with the largest shares, of whatever sign; of those above nothing."""
+    order = np.argsort(-np.abs(share), kind="stable")[:count]
+    return [int(row) for row in order if abs(share[row]) >= 0.0005]
+
+
+def foot_orders(results: xr.Dataset, speed: float) -> list[int]:
+    """Those of the first two orders at which a foot is pressed."""
+    forces = abs(_forces(results, speed, [1, 2]).sum("source")).max(("foot", "axis"))
+    return [int(one) for one in forces["order"].values[forces.values > rounding.FORCE_FLOOR]]
+
+
+def foot_forces(results: xr.Dataset, speed: float) -> xr.DataArray:
+    """Complex peaks without a balancer, over source, foot, axis and order, N."""
+    return _forces(results, speed, foot_orders(results, speed))
+
+
+def _forces(results: xr.Dataset, speed: float, orders: list[int]) -> xr.DataArray:
+    at = {"speed": speed, "option": REFERENCE_OPTION, "order": orders}
+    return results["foot_force_order"].sel(at)
 
 
 @needs("path_share")

@@ -15,7 +15,7 @@ from ..charts.marks import Axis, Chart, Line, Panel, Points, Segments, Span, fre
 from ..charts.needs import needs
 from ..file_names import file_name
 from ..kwave_words import computed_by_kwave, kwave_to_hz
-from ..sections.comparison.tables import comparison
+from ..sections.comparison import comparison
 from ..shown_speeds import few_speeds, many_speeds
 
 

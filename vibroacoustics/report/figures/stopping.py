@@ -11,10 +11,16 @@ from ..charts.axes import level_image
 from ..charts.layout import shortened
 from ..charts.marks import Axis, Chart, Panel, lines
 from ..charts.needs import needs
-from ..sections.stopping.tables import force_and_moments
 from ..shown_speeds import few_speeds
 
 LEVEL_RANGE_DB: Final = 40.0
+
+
+def force_and_moments(results: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+    """Resultant force, tilting moment and size of the roll moment, (speed, stopping_time)."""
+    force, moment = results["stopping_force"], results["stopping_moment"]
+    tilting = moment.sel(axis=["x", "y"]).reduce(np.linalg.norm, "axis")
+    return force.reduce(np.linalg.norm, "axis"), tilting, abs(moment.sel(axis="z", drop=True))
 
 
 @needs("stopping_force", from_="`run` of a study with operation.stopping")

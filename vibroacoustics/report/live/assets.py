@@ -41,10 +41,6 @@ def packed(content: bytes) -> str:
 
     Four bytes, the highest first, are five digits of base 85; fewer at the end are one digit more
     than bytes.
-
-    Parameters
-    ----------
-    content : any bytes
     """
     deflated = zlib.compress(content, 9)
     missing = -len(deflated) % 4

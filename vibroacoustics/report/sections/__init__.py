@@ -1,6 +1,6 @@
-"""Sections of the report, each in a folder or a file: blocks of the page, tables beside it.
+"""Sections of the report: blocks of the page, tables beside it.
 
-A file, or `content.py` of a folder, registers the section; `tables.py` makes tables and sentences.
+A file, or `content.py` of a folder, registers the section.
 """
 
 from collections.abc import Callable, Mapping, Sequence

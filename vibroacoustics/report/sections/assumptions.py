@@ -7,6 +7,7 @@ import xarray as xr
 from ...base import rounding
 from ...base.decibel import level_of_power, power_of_level
 from ...base.registry import register
+from ...results.bands import INTERVAL, band
 from ...results.estimates import has_samples
 from ...results.stored_study import (
     assumed_level,
@@ -17,12 +18,11 @@ from ...results.stored_study import (
     quoted_dba,
     words,
 )
-from ..bands import INTERVAL, band
 from ..blocks import Block, Bullets, Heading, Text
 from ..remainder import growth_sentence
 from ..tables import DataTable, Table, columns_of
 from . import Section, text
-from .unknowns.words import dotted, in_si
+from .unknowns import dotted, in_si
 
 SHOWN: Final = 5
 """Inputs on the page."""

@@ -12,9 +12,9 @@ from ...base.registry import register
 from ...base.units import shaft_frequency_hz
 from ...base.vocabulary import REFERENCE_OPTION
 from ...base.weighting import a_weighting
+from ...results.bands import percent
 from ...results.estimates import prior_ensemble
 from ...results.stored_study import balancers, parameters, speeds
-from ..bands import percent
 from ..blocks import Block, Bullets, Pictures, Text
 from ..figures.sources import baseline_third_octaves
 from ..shown_speeds import chosen_speeds, few_speeds

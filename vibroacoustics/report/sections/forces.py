@@ -1,4 +1,4 @@
-"""Force over a revolution, and the figures that the options report."""
+"""Force over a revolution, what the options report, and force, foot force and level by order."""
 
 import numpy as np
 import xarray as xr
@@ -7,8 +7,9 @@ from ...base.registry import register
 from ...results import labels
 from ...results.stored_study import words
 from ..blocks import Block, Pictures, Text
-from ..drawing import section_picture
-from ..figures.orders import force_over_revolution
+from ..drawing.picture import section_picture
+from ..figures.orders import foot_force_orders, force_orders, force_over_revolution, level_orders
+from ..shown_speeds import chosen_speeds
 from ..tables import DataTable, columns_of, data_table
 from . import Section
 
@@ -39,3 +40,14 @@ def _blocks(results: xr.Dataset) -> list[Block]:
 
 
 register(Section("forces", "Force over a revolution", _blocks, position=50.0, tables=figures_data))
+
+
+def _orders(results: xr.Dataset) -> list[Block]:
+    return [
+        Text(f"{words(results)['orders']} A missing marker means a value too small to draw."),
+        *chosen_speeds(results, "results.nc"),
+        Pictures((force_orders(results), foot_force_orders(results), level_orders(results))),
+    ]
+
+
+register(Section("orders", "Orders", _orders, position=40.0))

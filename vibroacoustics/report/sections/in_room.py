@@ -8,15 +8,15 @@ import xarray as xr
 from ...base import rounding
 from ...base.registry import register
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.bands import band
 from ...results.estimates import estimate
 from ...results.stored_study import balancers, nearest_speed, options, overall_noise
-from ..bands import band
 from ..blocks import Block, Details, Pictures, Text
 from ..figures.in_room import room_map, room_seam
 from ..tables import DataTable, Table, long_table
 from . import Section, hold
 from .structure_borne import carrier, ranged
-from .tones.tables import NO_LOUDNESS
+from .tones import NO_LOUDNESS
 
 SONE_HEAD: Final = "Loudness, sone (diffuse field)"
 SEAM_DB: Final = 2.0

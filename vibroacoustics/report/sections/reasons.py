@@ -19,7 +19,7 @@ from ...results.stored_study import (
     speeds,
 )
 from ..blocks import Block, Text
-from ..column_values import column
+from ..columns import column
 from ..option_verdict import OptionVerdict, option_verdicts
 from ..quantities import FOOT_FORCE, FORCE, MOMENT
 from ..remainder import growth_sentence, measured_rpm, remainder_band
@@ -27,7 +27,7 @@ from ..shown_speeds import many_speeds
 from ..tables import Table
 from . import Section
 from .baseline import not_measured
-from .comparison.tables import comparison
+from .comparison import comparison
 
 _HALF: Final = 0.5
 """Share of the modelled energy in the total from which on the level is not called measured."""

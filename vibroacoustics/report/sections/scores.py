@@ -10,11 +10,11 @@ from ...base import rounding
 from ...base.registry import register
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results import labels
+from ...results.bands import percent
 from ...results.estimates import has_samples
 from ...results.run_variables import ANY_WEIGHTS, OF_THE_STUDY
 from ...results.stored_study import has_sources, options, parameters
 from ...results.utility import utilities
-from ..bands import percent
 from ..blocks import Block, Pictures, Text
 from ..figures.scores import rank_acceptability
 from ..figures.scores import scores as score_bars

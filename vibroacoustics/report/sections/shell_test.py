@@ -10,6 +10,7 @@ from ...base import rounding
 from ...base.arrays import Array
 from ...base.quantiles import weighted_quantiles
 from ...base.registry import register
+from ...results.bands import INTERVAL, written
 from ...results.estimates import (
     QUANTILES,
     effective_number,
@@ -19,11 +20,10 @@ from ...results.estimates import (
 )
 from ...results.labels import unit
 from ...results.stored_study import catalogue_receiver
-from ..bands import INTERVAL, written
 from ..blocks import Block, Text
 from ..tables import Table
 from . import Section, hold
-from .unknowns.words import named, with_unit
+from .unknowns import named, with_unit
 
 NARROWED: Final = 0.8
 """Values whose band is narrowed to less than this part are listed."""

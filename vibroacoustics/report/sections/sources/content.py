@@ -1,19 +1,141 @@
 """Dominant sources of sound, and what the options do to them."""
 
 from collections.abc import Callable
+from typing import Final
 
 import xarray as xr
 
+from ....base import rounding
 from ....base.registry import register
+from ....base.vocabulary import SUFFIXES
+from ....results.bands import FINEST_DB, INTERVAL, Band, band, written
+from ....results.estimates import estimate, has_samples, is_sampled
 from ....results.sample_words import prior_words
-from ....results.stored_study import has_sources
+from ....results.stored_study import (
+    at_catalogue,
+    catalogue_receiver,
+    has_sources,
+    nearest_speed,
+    overall_noise,
+    source_name,
+)
 from ...blocks import Block, Bullets, Heading, Pictures, Text
 from ...charts.marks import Chart
 from ...figures.sources import changing_options, option_third_octaves, source_third_octaves
 from ...figures.stacked import stacked_lines, stacked_third_octaves
+from ...remainder import remainder_band
+from ...tables import DataTable, Table, data_table
 from .. import Section
-from .tables import alternatives_table, source_table, sources_data, spectrum_sentence
-from .words import certainty_sentences
+from .words import UNMODELLED, certainty_sentences, ranked, source_share, unmodelled_share
+
+
+def sources_data(results: xr.Dataset) -> dict[str, DataTable]:
+    """Return a row per option, speed, microphone and source."""
+    columns = {
+        "option": results["option"],
+        "speed_rpm": results["speed"],
+        "receiver": results["receiver"],
+        "source": results["sound_source"],
+    }
+    for variable, stem, unit in (
+        ("source_level", "level", "_dba"), ("source_share", "share_of_energy", ""),
+    ):  # fmt: skip
+        columns[f"{stem}{unit}"] = results[variable]
+        if is_sampled(results, variable):
+            for suffix in SUFFIXES.values():
+                columns[f"{stem}{suffix}{unit}"] = results[f"{variable}{suffix}"]
+    dims = ("option", "speed", "receiver", "sound_source")
+    return {"sources.csv": data_table(dims, columns)}
+
+
+def source_table(results: xr.Dataset) -> Table:
+    """Return level and share of each source without a balancer at the published speed."""
+    speed = nearest_speed(results)
+    at = at_catalogue(results, speed=speed)
+    rows = []
+    for source in ranked(results, speed):
+        level = band(results, "source_level", **at, sound_source=source)
+        share = source_share(results, source, speed).in_percent()
+        name = source_name(results, source).capitalize()
+        rows.append((name, level.middle_and_ends(rounding.level), share))
+    modelled = band(results, "level_modelled", **at).middle_and_ends(rounding.level)
+    rows.append(("All modelled sources", modelled, rounding.NOTHING))
+    if overall_noise(results) is not None:
+        unmodelled = remainder_band(results, speed).middle_and_ends(rounding.level)
+        share = unmodelled_share(results, speed).in_percent()
+        total = band(results, "level_total", **at).middle_and_ends(rounding.level)
+        rows += [("Unmodelled noise", unmodelled, share), ("Machine", total, "100 %")]
+    of_level, of_share = ("", "")
+    if has_samples(results):
+        of_level, of_share = f", median ({INTERVAL})", f", mean ({INTERVAL})"
+    head = ("Source", f"Level alone, dB(A){of_level}", f"Share of the energy{of_share}")
+    caption = (
+        f"{speed:g} rpm, without a balancer, microphone {catalogue_receiver(results)}; "
+        "levels do not add up"
+    )
+    return Table(caption, head, tuple(rows))
+
+
+LEAST: Final = 0.01
+"""Smaller shares are in uncertainty.csv."""
+_WORDS = {"level alone": "published level alone", "other prior": "second prior"}
+
+
+def alternatives_table(results: xr.Dataset) -> Table | None:
+    """Return level and shares with all data, and with alternatives; None without alternatives."""
+    if "alternative" not in results:
+        return None
+    speed, alternatives = nearest_speed(results), list(map(str, results["alternative"].values))
+    total = band(results, "level_total", **at_catalogue(results, speed=speed))
+    levels = [total, *(_level(results, name) for name in alternatives)]
+    texts = (level.middle_and_ends(rounding.level) for level in levels)
+    rows = [("Level of the machine, dB(A)", *texts)]
+    largest = results["alternative_share"].max("alternative")
+    for part in map(str, results["energy_part"].where(largest >= LEAST, drop=True).values):
+        here, name = unmodelled_share(results, speed), UNMODELLED
+        if part in results["sound_source"].values:
+            here, name = source_share(results, part, speed), source_name(results, part)
+        shares = [here, *(_share(results, alternative, part) for alternative in alternatives)]
+        rows.append((f"Share of {name}", *(share.in_percent() for share in shares)))
+    effective = ", ".join(
+        f"{_effective(results, name):.0f} with {_WORDS[name]}" for name in alternatives
+    )
+    head = ("", "all data, first prior", *(_WORDS[name] for name in alternatives))
+    caption = f"Less evidence or another prior (shares from 1 %); effective sample size {effective}"
+    return Table(caption, head, tuple(rows))
+
+
+def spectrum_sentence(results: xr.Dataset) -> str:
+    """Return how far the published spectral share changes shares; empty without one."""
+    if "alternative" not in results or "level alone" not in results["alternative"].values:
+        return ""
+    speed, sources = nearest_speed(results), list(map(str, results["sound_source"].values))
+
+    def change(source: str) -> float:
+        alone = _share(results, "level alone", source).middle
+        return abs(source_share(results, source, speed).middle - alone)
+
+    source = max(sources, key=change)
+    name = source_name(results, source)
+    return (
+        f"With the published spectral share {name} make "
+        f"{source_share(results, source, speed).in_percent()} of the energy, with the level alone "
+        f"{_share(results, 'level alone', source).in_percent()}."
+    )
+
+
+def _share(results: xr.Dataset, alternative: str, part: str) -> Band:
+    known = estimate(results, "alternative_share", alternative=alternative, energy_part=part)
+    return written(known, _effective(results, alternative))
+
+
+def _level(results: xr.Dataset, alternative: str) -> Band:
+    known = estimate(results, "alternative_level", alternative=alternative)
+    return written(known, _effective(results, alternative), FINEST_DB)
+
+
+def _effective(results: xr.Dataset, alternative: str) -> float:
+    return float(results["alternative_effective"].sel(alternative=alternative))
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:

@@ -1,26 +1,30 @@
-"""Dominant sources of the level, in sentences made from its numbers."""
+"""Dominant sources of the level, and impacts of keys, in sentences made from numbers."""
 
 from typing import Final
 
+import numpy as np
 import xarray as xr
 
 from ....base import rounding
+from ....base.arrays import Array
+from ....base.remembered import remembered
 from ....base.vocabulary import DERIVED_SUPPLY, REFERENCE_OPTION
+from ....results.bands import Band, band, percent
 from ....results.estimates import has_samples, prior_ensemble, sample_numbers
 from ....results.stored_study import (
     at_catalogue,
     first_order_hz,
     nearest_speed,
     operating_points,
+    options,
     overall_noise,
     parameters,
     quoted_dba,
     source_name,
     speeds,
 )
-from ...bands import Band, band, percent
 from ...shown_speeds import many_speeds
-from ..unknowns.words import sampled_sentences
+from ..unknowns import sampled_sentences
 
 LINE_FIGURE: Final = "foot_force_2x_line_n"
 UNMODELLED: Final = "unmodelled noise"
@@ -145,3 +149,31 @@ def _derived_supply(results: xr.Dataset) -> str:
     if results["supply_frequency"].attrs["source"] != DERIVED_SUPPLY:
         return ""
     return "The supply's frequency is derived from speed and slip under the mean load. "
+
+
+def key_impacts(results: xr.Dataset, option: str) -> list[str]:
+    """Impacts of keys per revolution and the largest force on a key, where there are impacts."""
+    texts = []
+    for prefix, whose in (("key", "Keys of the ring"), ("twin_key", "Keys of the second ring")):
+        count = key_figure(results, option, f"{prefix}_impacts_per_revolution")
+        force = key_figure(results, option, f"{prefix}_force_peak_n")
+        if np.nanmax(count, initial=0.0) > 0.0:
+            often = rounding.span(count, rounding.fixed)
+            most = rounding.significant(float(np.nanmax(force)))
+            texts.append(f"{whose}: {often} impacts per revolution, up to {most} N on a key.")
+    return texts
+
+
+def key_figure(results: xr.Dataset, option: str, name: str) -> Array:
+    """A figure of the sources at every speed; NaN where the option has none."""
+    nothing = np.full(len(speeds(results)), np.nan)
+    return np.asarray(_figures(results)[option].get(name, nothing))
+
+
+@remembered
+def _figures(results: xr.Dataset) -> dict[str, dict[str, Array]]:
+    """Figures of the sources at every speed, by option and name."""
+    figures = results["reported_figure"].transpose("option", "figure", "speed")
+    names = figures["figure"].values.tolist()
+    of_options = zip(options(results), figures.values, strict=True)
+    return {option: dict(zip(names, rows, strict=True)) for option, rows in of_options}

@@ -12,7 +12,7 @@ from ....results.left_out import lines_of
 from ....results.stored_study import balancers, catalogue_receiver, other_receivers, parameters
 from ....results.version_2 import RAISED
 from ...blocks import Beside, Block, Bullets, Details, Light, LightRow, Lights, Pictures, Text
-from ...drawing import machine_picture
+from ...drawing.picture import machine_picture
 from ...option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
 from ...quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
 from ...shifts import Shift, extent, measurable, shift

@@ -12,6 +12,7 @@ import xarray as xr
 
 from ....base import rounding
 from ....base.vocabulary import REFERENCE_OPTION
+from ....results.bands import Band, band
 from ....results.estimates import QUANTILES, has_samples
 from ....results.stored_study import (
     assumed_level,
@@ -25,12 +26,11 @@ from ....results.stored_study import (
     source_name,
     speeds,
 )
-from ...bands import Band, band
 from ...blocks import Interval, Intervals, IntervalWord
 from ...quantities import FOOT_FORCE, NO_BREAK, TOTAL
 from ...shifts import Shift, measurable, shift
 from ..sources.words import UNMODELLED, ranked, source_share, unmodelled_share
-from ..unknowns.tables import most_valuable
+from ..unknowns import most_valuable
 
 _HALF: Final = 0.5
 """Share of the energy above which a source makes most of it."""

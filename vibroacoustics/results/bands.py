@@ -8,10 +8,10 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.decibel import power_of_level
-from ..results import number as numbers
-from ..results.estimates import Estimate, effective_samples, estimate, is_sampled
-from ..results.number import Number
-from ..results.stored_study import catalogue_receiver
+from . import number as numbers
+from .estimates import Estimate, effective_samples, estimate, is_sampled
+from .number import Number
+from .stored_study import catalogue_receiver
 
 Units = tuple[float, float, float]
 """Powers of ten to which lower end, value and upper end are written; 0 of nominal values."""
@@ -65,12 +65,12 @@ def fixed(value: Estimate) -> str:
     return rounding.fixed(value.value)
 
 
-def band(results: xr.Dataset, name: str, **at: Any) -> Band:
+def band(results: xr.Dataset, name: str, **labels: Any) -> Band:
     """Return the value of a variable with its interval.
 
     A-weighted and at the microphone of the published level where no other labels are given.
     """
-    selection = {"weighting": "A", "receiver": catalogue_receiver(results), **at}
+    selection = {"weighting": "A", "receiver": catalogue_receiver(results), **labels}
     value = estimate(results, name, **selection)
     if not is_sampled(results, name):
         return Band(*value)
@@ -79,14 +79,14 @@ def band(results: xr.Dataset, name: str, **at: Any) -> Band:
 
 
 def number(
-    results: xr.Dataset, name: str, write: Callable[[float], str], unit: str = "", **at: Any
+    results: xr.Dataset, name: str, write: Callable[[float], str], unit: str = "", **labels: Any
 ) -> Number:
     """Return the value of a variable as a number; its text has the interval in brackets.
 
     The unit is that of the vocabulary where none is given; labels are those of `band`.
     """
-    selection = {"weighting": "A", "receiver": catalogue_receiver(results), **at}
-    text = band(results, name, **at).middle_and_ends(write)
+    selection = {"weighting": "A", "receiver": catalogue_receiver(results), **labels}
+    text = band(results, name, **labels).middle_and_ends(write)
     return numbers.number(results, name, lambda _: text, unit, **selection)
 
 

@@ -1,15 +1,17 @@
-"""The comparison of the options: one value per option, speed and microphone."""
+"""Every option beside every other: forces, levels and their changes, by speed and microphone."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
 
 import xarray as xr
 
-from ....base import rounding
-from ....base.remembered import remembered
-from ....base.vocabulary import REFERENCE_OPTION
-from ....results.estimates import has_samples
-from ....results.stored_study import (
+from ...base import rounding
+from ...base.registry import register
+from ...base.remembered import remembered
+from ...base.vocabulary import REFERENCE_OPTION
+from ...results.bands import INTERVAL, number
+from ...results.estimates import has_samples
+from ...results.stored_study import (
     balancers,
     catalogue_receiver,
     first_order_hz,
@@ -18,16 +20,16 @@ from ....results.stored_study import (
     overall_noise,
     speeds,
 )
-from ...bands import INTERVAL, number
-from ...blocks import Block, Text
-from ...columns import Column
-from ...kept_columns import columns_of
-from ...quantities import TOTAL
-from ...remainder import total_sentence
-from ...shifts import shift
-from ...shown_speeds import few_speeds, few_speeds_words
-from ...tables import Cell, DataTable, Table, data_table
-from ..verdict.words import word
+from ..blocks import Block, Text
+from ..columns import Column
+from ..kept_columns import columns_of
+from ..quantities import TOTAL
+from ..remainder import total_sentence
+from ..shifts import shift
+from ..shown_speeds import few_speeds, few_speeds_words
+from ..tables import Cell, DataTable, Table, data_table
+from . import Section
+from .verdict.words import word
 
 _DIMENSIONS = ("option", "speed", "receiver")
 _UNITS = {"dba": "dB(A)", "dbc": "dB(C)"}
@@ -122,3 +124,25 @@ def level_words(results: xr.Dataset) -> dict[str, str]:
     """Return what every option does to the level, in the word of the first screen."""
     changed = {name: word(shift(results, TOTAL, name)) for name in balancers(results)}
     return {REFERENCE_OPTION: rounding.NOTHING, **changed}
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    return [
+        Text(
+            "1× is once per shaft revolution. Forces and moments (about the centre of mass) are "
+            "peak values, the foot force is the largest over the feet. Levels are in dB re 20 µPa. "
+            f"{total_sentence(results)} {bands_sentence(results)} Δ is the change against none.",
+            "note",
+            (("assumptions", "assumptions"),),
+        ),
+        *(Text(line, "note") for line in columns_of(results).left_out),
+        comparison_table(results),
+        Text("Other microphones, speeds and columns are in comparison.csv.", "note"),
+    ]
+
+
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    return {"comparison.csv": comparison_data(results)}
+
+
+register(Section("comparison", "Comparison", _blocks, position=20.0, tables=_data))

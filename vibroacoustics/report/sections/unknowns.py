@@ -1,23 +1,101 @@
-"""Unknowns that the level depends on: their values, their shares, which one to measure."""
+"""Unknowns that the level depends on: which were sampled, their shares, what to measure next."""
 
-from typing import Final
+from collections.abc import Mapping
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 
-from ....base import rounding
-from ....base.arrays import Array
-from ....results.estimates import (
+from ...base import rounding
+from ...base.arrays import Array
+from ...base.registry import register
+from ...base.units import split_key
+from ...results import labels
+from ...results.bands import INTERVAL, percent, written
+from ...results.estimates import (
     effective_number,
     has_samples,
     prior_ensemble,
     sample_numbers,
     weighted_estimate,
 )
-from ....results.stored_study import catalogue_receiver, overall_noise
-from ...bands import INTERVAL, percent, written
-from ...tables import Table
-from .words import file_unit, named, with_unit
+from ...results.stored_study import catalogue_receiver, overall_noise, parameters
+from ..blocks import Block, Text
+from ..tables import DataTable, Table, long_table
+from . import Section, hold, text
+
+_TABLES: Final = {"variation": "path through the shell", "structure": "shell"}
+"""Plain words for tables; others go by their name."""
+
+
+def sampled_sentences(results: xr.Dataset) -> list[str]:
+    """Number of values that are sampled and that are not, and the error of projected modes."""
+    ranges = parameters(results)["ranges"]
+    count = f"{len(ranges)} values are" if len(ranges) > 1 else "One value is"
+    texts = [f"{count} sampled by Latin hypercube.", held_sentence(results), _projection(results)]
+    return [*filter(None, texts)]
+
+
+def held_sentence(results: xr.Dataset) -> str:
+    """Number of values that have a range and are not sampled."""
+    held = parameters(results).get("held_ranges", ())
+    if not held:
+        return ""
+    count = f"{len(held)} values with a range are" if len(held) > 1 else "One value with a range is"
+    return f"{count} not sampled; inputs.csv gives ranges and reasons."
+
+
+def named(name: str) -> str:
+    """Plain words for a sampled value by its dotted name, without its unit."""
+    table, _, field = name.rpartition(".")
+    first, *parts = table.split(".")
+    where = " ".join([_TABLES.get(first, first), *parts]).replace("_", " ")
+    return f"{where} {labels.name(field).lower()}"
+
+
+def with_unit(words: str, symbol: str) -> str:
+    """Words for a value with its unit, if it has one."""
+    return f"{words}, {symbol}" if symbol else words
+
+
+def in_si(field: str) -> str:
+    """Return the dotted name of a value in SI by its name in a file."""
+    table, _, key = field.rpartition(".")
+    stem, unit = split_key(key)
+    return field if unit is None else f"{table}.{stem}_{unit.si_suffix}"
+
+
+def file_unit(results: xr.Dataset, name: str) -> tuple[str, float]:
+    """Symbol and factor to SI of the unit in which a file gives a sampled value; else SI."""
+    for record in parameters(results).get("records", ()):
+        unit = split_key(str(record["field"]).rpartition(".")[2])[1]
+        if unit is not None and in_si(str(record["field"])) == name:
+            return unit.symbol, unit.factor
+    return labels.unit(name.rpartition(".")[2]), 1.0
+
+
+def dotted(item: Mapping[str, Any]) -> str:
+    """Return the dotted name of a range."""
+    return f"{item['table']}.{item['field']}"
+
+
+def _projection(results: xr.Dataset) -> str:
+    """How far natural frequencies by projection are off."""
+    if "projection_error" not in results:
+        return ""
+    errors = results["projection_error"]
+    texts = [
+        f"{named(str(name))} {percent(float(error))}"
+        for name, error in zip(errors["uncertain_parameter"].values, errors.values, strict=True)
+        if np.isfinite(error)
+    ]
+    if not texts:
+        return ""
+    return (
+        "Wall and material change the modes by projection; largest error of a natural frequency: "
+        f"{', '.join(texts)}."
+    )
+
 
 NOT_RESOLVED: Final = "not resolved"
 SMALLEST_DB: Final = 0.1
@@ -155,3 +233,29 @@ def _knowledge(results: xr.Dataset, name: str) -> str:
     if name != BEFORE:
         return f"with the published data, prior {name}"
     return "with the hammer test" if "shell_weight" in results else "by the ranges alone"
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    table = unknowns_table(results)
+    return [
+        *text(measure_next_sentence(results), "strong"),
+        Text(resolved_sentence(results)),
+        *([table] if table else []),
+        Text(
+            "A share is the expected loss of variance once the parameter is known, with its 80 % "
+            "bootstrap interval. It is resolved where this interval is above what chance gives. "
+            "All shares are in uncertainty.csv.",
+            "note",
+        ),
+    ]
+
+
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    """Shares of all parameters, values of measurements, levels with less evidence."""
+    stems = ("level_share", "parameter_information", "perfect_information", "alternative_",
+             "projection_error")  # fmt: skip
+    names = [name for name in map(str, results.data_vars) if name.startswith(stems)]
+    return {"uncertainty.csv": long_table(results, names)}
+
+
+register(Section("unknowns", "Sensitivity", _blocks, hold("level_share"), 35.0, tables=_data))

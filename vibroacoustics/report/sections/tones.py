@@ -1,4 +1,4 @@
-"""Tables of prominent tones, loudness and sharpness."""
+"""Prominent tones, loudness and sharpness of every option."""
 
 import math
 from itertools import product
@@ -6,12 +6,15 @@ from typing import Final
 
 import xarray as xr
 
-from ....base import rounding
-from ....results.estimates import Estimate, estimate, is_sampled
-from ....results.prominent_tones import ProminentTone, listed_tones, nearest_tone
-from ....results.stored_study import catalogue_receiver, nearest_speed, options, speeds
-from ...shown_speeds import few_speeds
-from ...tables import DataTable, Table, columns_of
+from ...base import rounding
+from ...base.registry import register
+from ...results.estimates import Estimate, estimate, is_sampled
+from ...results.prominent_tones import ProminentTone, listed_tones, nearest_tone
+from ...results.stored_study import catalogue_receiver, nearest_speed, options, speeds
+from ..blocks import Block, Text
+from ..shown_speeds import few_speeds
+from ..tables import DataTable, Table, columns_of
+from . import Section, hold
 
 MOST_NAMES: Final = 3
 HEAD: Final = ("Option", "Prominent tones", "Tone", "Hz", "dB", "excess, dB")
@@ -105,3 +108,21 @@ def _loudness(results: xr.Dataset, microphone: str, speed: float) -> dict[str, t
     loud = map(rounding.three_digits, here["loudness"].values.tolist())
     sharp = [rounding.fixed(s, 2) if math.isfinite(s) else "" for s in here["sharpness"].values]
     return dict(zip(options(results), zip(loud, sharp, strict=True), strict=True))
+
+
+_HOW = (
+    "A tone is listed if it is audible and prominent (ECMA-418-1){samples}. The excess is the "
+    "larger one over the criteria of tone-to-noise and prominence ratio. The noise is that of the "
+    "sources and the unmodelled noise. {loudness} Other speeds and microphones are in tones.csv."
+)
+_LOUDNESS = "Loudness: ISO 532-1 (sone); sharpness: DIN 45692 (acum)."
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    samples = " in more than half of the samples" if is_sampled(results, "tone_excess") else ""
+    loudness = _LOUDNESS if "loudness" in results else NO_LOUDNESS
+    return [tone_table(results), Text(_HOW.format(samples=samples, loudness=loudness), "note")]
+
+
+_applies = hold("pressure_line", "noise_band_level", "tone_excess")
+register(Section("tones", "Tones and loudness", _blocks, _applies, 38.0, tables=tone_data))

@@ -1,22 +1,33 @@
-"""Transfer paths: sources, where they act and in which direction, in words and tables."""
+"""Transfer paths from sources to microphones, in words and tables; forces into the feet."""
 
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
-from ....base import rounding
-from ....base.arrays import Array, ComplexArray
-from ....base.decibel import amplitude_of_level, power_of_level, sound_pressure_level
-from ....base.remembered import remembered
-from ....base.vocabulary import REFERENCE_OPTION
-from ....results.labels import DOF_WORDS
-from ....results.stored_study import a_weighted, at_catalogue, quoted_speed, source_name
-from ...bands import percent
-from ...tables import DataTable, Table, data_table, phase_deg
+from ...base import rounding
+from ...base.arrays import Array, ComplexArray
+from ...base.decibel import amplitude_of_level, power_of_level, sound_pressure_level
+from ...base.registry import register
+from ...base.vocabulary import REFERENCE_OPTION
+from ...results.bands import percent
+from ...results.labels import DOF_WORDS
+from ...results.stored_study import a_weighted, at_catalogue, catalogue_receiver
+from ..blocks import Block, Heading, Pictures, Text
+from ..figures.paths import (
+    PARTS_OF_PATH,
+    at_path_speed,
+    foot_bars,
+    foot_forces,
+    foot_orders,
+    leading,
+    path_shares,
+    path_speed,
+    path_words,
+)
+from ..tables import DataTable, Table, data_table, phase_deg
+from . import Section
 
-LEADING: Final = 10
-"""Paths that are shown."""
 _RELATIONS: Final = (
     (0.5, "works with it"),
     (0.1, "partly with it"),
@@ -27,8 +38,6 @@ _RELATIONS: Final = (
 """Words from a cosine on."""
 LEAST: Final = 0.005
 """Smaller shares are omitted in sentences."""
-_NAMED: Final = ("path_source", "path_port", "path_direction")
-_KINDS: Final = {"f": "force along", "m": "moment about"}
 
 
 def has_paths(results: xr.Dataset) -> bool:
@@ -40,33 +49,6 @@ def has_motions(results: xr.Dataset) -> bool:
     """Return whether motions differ from paths: several sources, or modes of the shell."""
     sources = set(results["path_source"].values.tolist())
     return len(sources) > 1 or results.sizes["radiating_motion"] > len(DOF_WORDS)
-
-
-def path_speed(results: xr.Dataset) -> float:
-    """Speed at which paths are shown: of the published level, or the nearest to it."""
-    speeds = results["path_speed"].values
-    return float(speeds[np.argmin(np.abs(speeds - quoted_speed(results)))])
-
-
-@remembered
-def at_path_speed(results: xr.Dataset, receiver: str, option: str = REFERENCE_OPTION) -> xr.Dataset:
-    """Paths to a microphone at the speed that is shown."""
-    names = [name for name in results.data_vars if "path_speed" in results.variables[name].dims]
-    return results[names].sel(path_speed=path_speed(results), option=option, receiver=receiver)
-
-
-def path_words(results: xr.Dataset, row: int) -> tuple[str, str]:
-    """Source of a path, and where it acts in which direction, in plain words."""
-    source, port, direction = (str(results.variables[name].values[row]) for name in _NAMED)
-    kind = _KINDS.get(direction[0]) if len(direction) == 2 else None
-    words = DOF_WORDS.get(direction) or (f"{kind} {direction[1]}" if kind else direction)
-    return source_name(results, source), f"{port.replace('_', ' ')} {words}"
-
-
-def leading(share: Array, count: int = LEADING) -> list[int]:
-    """Rows of the paths with the largest shares, of whatever sign; of those above nothing."""
-    order = np.argsort(-np.abs(share), kind="stable")[:count]
-    return [int(row) for row in order if abs(share[row]) >= 0.0005]
 
 
 def relation(share: float, alone_db: float, total_db: float) -> str:
@@ -153,7 +135,7 @@ def orders_table(results: xr.Dataset, receiver: str) -> Table:
 def path_data(results: xr.Dataset) -> dict[str, DataTable]:
     """Return paths of all options; bands, orders, motions without a balancer; forces into feet."""
     here = results.sel(option=REFERENCE_OPTION, path_speed=path_speed(results))
-    named = {name: here[name] for name in _NAMED}
+    named = {name: here[name] for name in PARTS_OF_PATH}
     pressure = here["path_pressure"].transpose("receiver", "path_order", "path")
     total = pressure.sum("path")
     size = abs(total) ** 2
@@ -222,7 +204,10 @@ def paths_data(results: xr.Dataset) -> DataTable:
     total = level.sel(path_speed=results["path_speed"])
     heads = ("option", "speed_rpm", "receiver", "source", "port", "direction")
     columns = {
-        **{head: results[name] for head, name in zip(heads, (*dims[:3], *_NAMED), strict=True)},
+        **{
+            head: results[name]
+            for head, name in zip(heads, (*dims[:3], *PARTS_OF_PATH), strict=True)
+        },
         "level_dba": results["path_level"],
         "share_of_modelled_energy": share,
         "share_so_far": _so_far(share, share),
@@ -231,17 +216,32 @@ def paths_data(results: xr.Dataset) -> DataTable:
     return data_table(dims, columns)
 
 
-def foot_orders(results: xr.Dataset, speed: float) -> list[int]:
-    """Those of the first two orders at which a foot is pressed."""
-    forces = abs(_forces(results, speed, [1, 2]).sum("source")).max(("foot", "axis"))
-    return [int(one) for one in forces["order"].values[forces.values > rounding.FORCE_FLOOR]]
+def _blocks(results: xr.Dataset) -> list[Block]:
+    receiver, speed = catalogue_receiver(results), path_speed(results)
+    blocks: list[Block] = [
+        Text(leading_sentence(results, receiver), "strong"),
+        Text(
+            "A path is a source, the part it acts on and a direction. Lines of one frequency add "
+            "as phasors, so shares can be negative and add up to 100 %. With samples, paths are "
+            "those of the representative sample.",
+            "note",
+        ),
+        paths_table(results, receiver),
+        Pictures((path_shares(results, receiver),)),
+        orders_table(results, receiver),
+        Text(
+            "Other microphones and options are in paths.csv, bands and orders in path_bands.csv "
+            f"and path_orders.csv{', motions in path_motions.csv' * has_motions(results)}.",
+            "note",
+        ),
+    ]
+    if foot_orders(results, speed):
+        blocks += [
+            Heading("Forces into the feet"),
+            Pictures((foot_bars(results, speed),)),
+            Text("Values by source are in feet.csv.", "note"),
+        ]
+    return blocks
 
 
-def foot_forces(results: xr.Dataset, speed: float) -> xr.DataArray:
-    """Complex peaks without a balancer, over source, foot, axis and order, N."""
-    return _forces(results, speed, foot_orders(results, speed))
-
-
-def _forces(results: xr.Dataset, speed: float, orders: list[int]) -> xr.DataArray:
-    at = {"speed": speed, "option": REFERENCE_OPTION, "order": orders}
-    return results["foot_force_order"].sel(at)
+register(Section("paths", "Transfer paths", _blocks, has_paths, 32.0, tables=path_data))

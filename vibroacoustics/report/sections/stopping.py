@@ -5,24 +5,22 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ....base import rounding
-from ....base.arrays import Array
-from ....base.vocabulary import REFERENCE_OPTION
-from ....results.stored_study import parameters, speeds
-from ...tables import DataTable, Table, long_table
-from ..sources.words import LINE_FIGURE
+from ...base import rounding
+from ...base.arrays import Array
+from ...base.registry import register
+from ...base.vocabulary import REFERENCE_OPTION
+from ...results.stored_study import parameters, speeds
+from ..blocks import Block, Pictures, Text
+from ..figures.stopping import force_and_moments, stopping, stopping_order_map
+from ..shown_speeds import chosen_speeds, few_speeds
+from ..tables import DataTable, Table, long_table
+from . import Section, hold
+from .sources.words import LINE_FIGURE
 
 
 def sentences(results: xr.Dataset) -> tuple[str, ...]:
     """What the stop does, its order map, and what is left out."""
     return (_finding(results), *_turned_back(results), _map_sentence(results), _limits(results))
-
-
-def force_and_moments(results: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
-    """Resultant force, tilting moment and size of the roll moment, (speed, stopping_time)."""
-    force, moment = results["stopping_force"], results["stopping_moment"]
-    tilting = moment.sel(axis=["x", "y"]).reduce(np.linalg.norm, "axis")
-    return force.reduce(np.linalg.norm, "axis"), tilting, abs(moment.sel(axis="z", drop=True))
 
 
 def _greatest(over_time: xr.DataArray) -> tuple[Array, Array]:
@@ -142,3 +140,19 @@ def stopping_data(results: xr.Dataset) -> dict[str, DataTable]:
              "stopping_brake_force", "stopping_foot_force", "stopping_fast_maximum_level",
              "stopping_peak_level")  # fmt: skip
     return {"stopping.csv": long_table(results, names)}
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    shown = few_speeds(results)
+    maps = [stopping_order_map(shown)] if "stopping_order_map" in shown else []
+    return [
+        *(Text(sentence) for sentence in sentences(results)),
+        *chosen_speeds(results, "results.nc"),
+        forces_table(shown),
+        Text("Levels at all microphones are in stopping.csv.", "note"),
+        Pictures((stopping(shown), *maps)),
+    ]
+
+
+_applies = hold("stopping_force")
+register(Section("stopping", "Stopping", _blocks, _applies, 80.0, tables=stopping_data))
