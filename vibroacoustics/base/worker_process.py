@@ -95,7 +95,9 @@ class WorkerProcess:
         self._process.kill()
         self._process.join()
         code = self._process.exitcode or 0
-        self.reason = signal.Signals(-code).name if code < 0 else f"exit code {code}"
+        names = {number.value: number.name for number in signal.Signals}
+        kind = "signal" if code < 0 else "exit code"
+        self.reason = names.get(-code, f"{kind} {abs(code)}")
         self._process.close()
 
 

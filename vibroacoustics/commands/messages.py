@@ -11,6 +11,7 @@ from typing import Any, Final, TextIO
 
 from ..base.errors import StorageError, VibroacousticsError
 from ..base.folder import Folder, opened_folder
+from ..base.visible import visible
 
 _MAXIMUM_BYTES: Final = 1_000_000_000
 
@@ -65,18 +66,23 @@ def note(line: str) -> None:
 
 def lines_of(error: VibroacousticsError) -> list[str]:
     """An error as it is printed."""
-    return [f"error: {' '.join(line.split())}" for line in str(error).splitlines()]
+    return [f"error: {' '.join(line.split())}" for line in visible(str(error)).splitlines()]
 
 
 def warn(lines: Iterable[str]) -> None:
     """Print each as a warning."""
     for line in lines:
-        words = " ".join(line.split())
+        words = visible(" ".join(line.split()))
         warned = _WARNED.get()
         if warned is not None:
             warned.append(words)
         note(f"warning: {words}")
         print(f"warning: {words}", file=sys.stderr, flush=True)
+
+
+def has_warned() -> bool:
+    """Whether this command has printed a warning."""
+    return bool(_WARNED.get())
 
 
 def inform(line: str) -> None:

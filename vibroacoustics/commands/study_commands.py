@@ -149,7 +149,8 @@ def check_command(
             tables = {"cost": columns([each._asdict() for each in cost.costs])}
         else:
             lines, tables = list(machine_lines(checked)), {}
-    what = "nothing else is wrong" if left_out else "nothing is wrong"
+    warned = left_out or messages.has_warned()
+    what = "nothing else is wrong" if warned else "nothing is wrong"
     return Outcome("\n".join([*lines, f"{file}: {what}"]), tables=tables)
 
 

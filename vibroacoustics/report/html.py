@@ -10,6 +10,7 @@ from typing import Final
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
+from ..base.visible import visible
 from .blocks import Part, Text, drawn
 from .charts.svg import Picture
 from .live.assets import live_script, live_style, packed, unpacking_script
@@ -37,7 +38,7 @@ def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = ""
     if any(block.block == "live" for part in parts for block in part.blocks):
         style, unpacking, script = style + live_style(), unpacking_script(), live_script()
     template = environment.get_template("report.html.j2")
-    return template.render(
+    page = template.render(
         title=title,
         about=about,
         parts=parts,
@@ -47,7 +48,8 @@ def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = ""
         packed=packed(script.encode()),
         policy=_policy(style, unpacking, script),
         results_sha256=results_sha256,
-    ).encode()
+    )
+    return visible(page).encode()
 
 
 def _policy(style: str, *scripts: str) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.csv_text import csv_bytes
+from ..base.visible import visible
 from ..results.number import Number
 
 Cell: TypeAlias = str | Number
@@ -136,6 +137,7 @@ def to_text(table: Table) -> str:
 
 def escape_markdown(text: str) -> str:
     """Text on one line that Markdown shows as it is."""
+    text = visible(text)
     for character in "\\`*_[]|":
         text = text.replace(character, f"\\{character}")
     return text.replace("<", "&lt;").replace("\n", " ")
@@ -147,4 +149,4 @@ def _pipes(cells: Iterable[Cell]) -> str:
 
 def to_ascii(text: str) -> str:
     """Return text with ASCII in place of the signs of numbers."""
-    return text.translate(_IN_ASCII)
+    return visible(text).translate(_IN_ASCII)

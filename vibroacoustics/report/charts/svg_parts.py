@@ -1,11 +1,11 @@
 """Parts of a drawing in SVG: words, paths, markers, heads of arrows."""
 
-from html import escape
 from typing import Final
 
 import numpy as np
 
 from ...base.arrays import Array
+from ...base.visible import escape
 from .layout import Box
 
 INK: Final = "#1b1f24"

@@ -1,12 +1,12 @@
 """Parts of a drawing in SVG: text without fonts or styles from elsewhere."""
 
 from collections.abc import Sequence
-from html import escape
 from typing import Any, Final
 
 import numpy as np
 
 from ...base.arrays import Array
+from ...base.visible import escape
 
 INK: Final = "#1b1f24"
 SOFT: Final = "#57606a"
