@@ -23,6 +23,7 @@ from vibroacoustics.base.vocabulary import (
     REFERENCE_OPTION,
     SUFFIXES,
     VARIABLES,
+    YES_OR_NO,
 )
 from vibroacoustics.commands import outputs
 from vibroacoustics.report.drawing import machine as drawn
@@ -48,6 +49,8 @@ EMPTY: Final = {
     for name, labelled in registry.items()
     if labelled.missing
 }
+TRUTHS: Final = {name for name, one in VARIABLES.items() if one.bounds == YES_OR_NO}
+"""Whose values are 0 to 1: `True` is one."""
 POSITIVE: Final = {
     "mass_kg", "level_dba", "outer_diameter_m", "height_m", "length_m", "width_m", "diameter_m",
     "distance_m",
@@ -208,7 +211,8 @@ def test_a_variable_or_coordinate_holds_other_things(name: str, step: int) -> No
         if variable.dtype.kind == "U":
             wrong.append(filled(results, str(key), 1.0))
         else:
-            wrong += [filled(results, str(key), "x"), filled(results, str(key), True)]
+            wrong.append(filled(results, str(key), "x"))
+            wrong += [filled(results, str(key), True)] * (key not in TRUTHS)
             wrong += [filled(results, str(key), np.inf)] * (key not in EMPTY)
             spoilt = variable.values.astype(complex if variable.dtype.kind == "c" else float)
             spoilt.flat[-1] = np.nan
