@@ -5,7 +5,7 @@ from html.parser import HTMLParser
 
 import pytest
 from sources_study import sources_run
-from support import PIPELINES, made_up_radiation
+from support import PIPELINES
 
 import vibroacoustics as va
 from vibroacoustics.report import render
@@ -74,6 +74,6 @@ def test_every_file_that_the_page_names_is_beside_it(files):
 @pytest.mark.long
 def test_the_report_of_the_main_job_is_short():
     study = va.load_study(PIPELINES / "copeland_sources.toml")
-    words = words_of(render(va.run(study, radiation=made_up_radiation))["report.html"])
+    words = words_of(render(va.run(study))["report.html"])
     assert len(words.visible) <= MOST_VISIBLE
     assert len(words.unfolded) <= MOST_UNFOLDED
