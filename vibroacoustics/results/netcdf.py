@@ -44,11 +44,11 @@ def write_netcdf(results: xr.Dataset, path: Path) -> None:
                 format="NETCDF4",
                 encoding=_encoding(part),
             )
-    except RuntimeError as error:  # "NetCDF: HDF error" is all that it says of a full disk
+    except (RuntimeError, OSError) as error:  # of a full disk: "HDF error", "Permission denied"
         raise _why_not_written(path, error) from None
 
 
-def _why_not_written(path: Path, error: RuntimeError) -> OSError:
+def _why_not_written(path: Path, error: RuntimeError | OSError) -> OSError:
     """What the system says when more is written to a file that netCDF could not write."""
     try:
         with path.open("ab") as file:
@@ -57,7 +57,7 @@ def _why_not_written(path: Path, error: RuntimeError) -> OSError:
             os.fsync(file.fileno())
     except OSError as reason:
         return reason
-    return OSError(errno.EIO, str(error))
+    return error if isinstance(error, OSError) else OSError(errno.EIO, str(error))
 
 
 def _encoding(part: xr.Dataset) -> dict[Hashable, dict[str, Any]]:
