@@ -97,9 +97,10 @@ def open_orders(path: str | Path) -> xr.Dataset:
     Raises
     ------
     StorageError
-        The file cannot be read, or holds another version of the vocabulary.
+        The file cannot be read, or holds another version of the vocabulary or an incomplete run.
     """
-    return _open_of_this_version(path)[0]
+    results, _ = _open_of_this_version(path)
+    return results if "channel_order" in results else open_run(path)[0]
 
 
 def _open_of_this_version(path: str | Path) -> tuple[xr.Dataset, str]:

@@ -164,6 +164,8 @@ def _with_baseline(case: xr.Dataset, total: Array) -> Array:
 
 def _energies(level: xr.DataArray) -> Array:
     """Energies of levels in the bands of the sheet, (band, microphone), re 20 µPa."""
+    if not np.isin(_BAND_HZ, level["noise_band"]).all():
+        raise ParameterError("noise_band: third octaves of the sheet are missing in the results")
     ordered = level.sel(noise_band=_BAND_HZ).transpose("noise_band", "receiver").values
     return np.where(ordered > _SILENT_DB, power_of_level(ordered), 0.0)
 
