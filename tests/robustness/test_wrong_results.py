@@ -400,6 +400,7 @@ def test_a_hashed_file_that_netcdf_cannot_read(places: int, tmp_path: Path) -> N
 
 
 @pytest.mark.long
+@pytest.mark.filterwarnings("ignore:.*usual is")  # a ring of nearly nothing
 def test_forces_that_all_vanish(tmp_path: Path) -> None:
     study = load_study(TINY).replace({"machine.oldham.mass_kg": 1e-30})
     results = pipeline.run(study, radiation=made_up_radiation)

@@ -73,6 +73,7 @@ def test_radiation_alone(tmp_path: Path) -> None:
     assert "iso3744-hemisphere-10, S = 6.28 m²" in outcome.stdout
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
         "transfer_vectors.nc",
+        "transfer_vectors.html",
         "files.json",
         "transfer_vectors.svg",
         "map.svg",
