@@ -22,11 +22,16 @@ class Part(BaseModel):
     model_config = ConfigDict(strict=True, allow_inf_nan=False)
 
 
+class SpectralShare(Part):
+    below_hz: Positive
+
+
 class Noise(Part):
     level_dba: Level
     speed_rpm: Number
     distance_m: Number
     deviation_db: Number = 2.0
+    spectral_share: SpectralShare | None = None
 
 
 class Remainder(Part):
