@@ -193,9 +193,10 @@ def test_radiation_command(radiated, monkeypatch, tmp_path):
     study = str(PIPELINES / "copeland_thesis.toml")
     outcome = CliRunner().invoke(cli.app, ["radiation", study, "--out", str(tmp_path / "out")])
     assert outcome.exit_code == 0, outcome.output
-    assert f"transfer vectors: {tmp_path / 'out' / 'transfer_vectors.nc'}" in outcome.output
+    assert f"results: {tmp_path / 'out' / 'transfer_vectors.nc'}" in outcome.output
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
         "transfer_vectors.nc",
+        "transfer_vectors.html",
         "files.json",
         "transfer_vectors.svg",
         "map.svg",

@@ -227,5 +227,6 @@ def test_report_takes_a_plugin_that_the_run_did_not_have(
     storage.write_results(results, tmp_path / "results.nc")
     (tmp_path / "prices.py").write_text(SECTION)
     words = ["report", tmp_path / "results.nc", "--plugin", tmp_path / "prices.py"]
-    command_here(*words).check_returncode()
+    outcome = command_here(*words)
+    assert outcome.returncode == 0, outcome.stderr
     assert "What it costs" in (tmp_path / "report.html").read_text()

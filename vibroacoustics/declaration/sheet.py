@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.errors import ParameterError, SchemaError
+from ..base.hashing import sha256
 from ..results.data_sheet import DataSheet
 from ..results.stored_study import parameters, words
 from .facts import mounting, not_available, operating
@@ -83,7 +84,7 @@ def data_sheet(
         not_available=not_available(len(chosen)),
         created_utc=results.attrs["created_utc"],
         software_version=results.attrs["software_version"],
-        parameters_sha256=results.attrs["parameters_sha256"],
+        parameters_sha256=sha256(results.attrs["parameters"].encode()),
     )
 
 

@@ -90,7 +90,8 @@ class Moving:
 
 def moving_of(results: xr.Dataset) -> Moving | None:
     """What can move; none where the page's model is not that of the run."""
-    if (parameters(results).get("measured") or {}).get("sound"):
+    measured = (parameters(results).get("measured") or {}).get("sound")
+    if measured or "distance" not in results["transfer_vector"].coords:
         return None
     machines = machines_of(results)
     if machines is None:

@@ -60,7 +60,7 @@ def read_attribute(results: xr.Dataset, name: str, kind: Any) -> Any:
 
 def _check_hash(results: xr.Dataset) -> None:
     digest = sha256(results.attrs["parameters"].encode())
-    if results.attrs.get("parameters_sha256") != digest:
+    if results.attrs.get("parameters_sha256", digest) != digest:
         raise SchemaError("attribute parameters does not fit its hash, parameters_sha256")
 
 
