@@ -30,6 +30,7 @@ also of a machine alone, from `load_machine(path)`.
 `Node`s; `export_functions(functions, path)` writes them as UFF or CSV.
 `analyse_orders(recording, settings)` finds orders and levels; settings are an `OrderAnalysis`.
 `track_orders(recording, ...)` follows orders over time (Vold-Kalman).
+`replay(recording, results, ...)` changes its orders as an option of a study does, a `Replay`.
 `sound_power(recordings, surface, ...)` gives a machine's sound power from the microphones around
 it (ISO 3744), on a `MeasurementSurface`.
 `speed_frequency_map(recording, ...)` gives spectra over speed and frequency (Campbell).

@@ -54,6 +54,8 @@ from .measured.prediction import predict as predict
 from .measured.recorded_orders import analyse_orders as analyse_orders
 from .measured.recorded_orders import speed_frequency_map as speed_frequency_map
 from .measured.recorded_orders import track_orders as track_orders
+from .measured.replay import Replay as Replay
+from .measured.replay import replay as replay
 from .measured.sound_power import sound_power as sound_power
 from .mechanics.added import Added as Added
 from .mechanics.added import FurtherRing as FurtherRing

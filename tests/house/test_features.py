@@ -83,6 +83,8 @@ FEATURES = {
     "sound power of recorded microphones, in Python": "va.sound_power",
     "hemisphere and box of microphones": "va.MeasurementSurface",
     "absorption area of a room": "va.levels.reverberant_absorption_area_m2",
+    "an option played in a recording": "command replay",
+    "an option played in a recording, in Python": "va.replay",
     "change of mounts from measurements": "command predict",
     "change of mounts from measurements, in Python": "va.predict",
     "blocked forces": "command blocked-forces",

@@ -17,6 +17,7 @@ from . import (  # noqa: F401 - each registers its commands
     messages,
     prediction_commands,
     recording_commands,
+    replay_commands,
     results_commands,
     study_commands,
 )

@@ -23,6 +23,7 @@ from .measured_power import analysis_of_sound_power
 from .measurements import analysis_of_blocked_forces, analysis_of_prediction
 from .radiation_tables import analysis_of_impulse_responses, analysis_of_radiation
 from .recordings import analysis_of_map, analysis_of_orders, analysis_of_tracks
+from .replay import analysis_of_replay
 from .sections import SECTIONS
 from .study import analysis_of_study
 
@@ -39,6 +40,7 @@ __all__ = [
     "analysis_of_orders",
     "analysis_of_prediction",
     "analysis_of_radiation",
+    "analysis_of_replay",
     "analysis_of_sound_power",
     "analysis_of_study",
     "analysis_of_tracks",

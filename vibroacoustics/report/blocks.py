@@ -189,6 +189,27 @@ class Intervals:
     block: Literal["intervals"] = field(default="intervals", kw_only=True, repr=False)
 
 
+class Sound(NamedTuple):
+    """A sound that the page plays.
+
+    Attributes
+    ----------
+    name : of what
+    file : beside the page
+    """
+
+    name: str
+    file: str
+
+
+@dataclass(frozen=True)
+class Sounds:
+    """Sounds to compare, one below the other; their files are beside the page."""
+
+    sounds: tuple[Sound, ...]
+    block: Literal["sounds"] = field(default="sounds", kw_only=True, repr=False)
+
+
 @dataclass(frozen=True)
 class Beside:
     """A narrow block and a wide one, side by side where there is room."""
@@ -216,6 +237,7 @@ Block: TypeAlias = Annotated[
     | Pictures
     | Lights
     | Intervals
+    | Sounds
     | Beside
     | Live
     | Details,

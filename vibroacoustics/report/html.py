@@ -46,18 +46,27 @@ def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = ""
         style=style,
         unpacking=unpacking,
         packed=packed(script.encode()),
-        policy=_policy(style, unpacking, script),
+        policy=_policy(style, unpacking, script, plays=_plays(parts)),
         results_sha256=results_sha256,
     )
     return visible(page).encode()
 
 
-def _policy(style: str, *scripts: str) -> str:
-    """What a browser may do with the page: show its style and figures, run its scripts alone."""
+def _plays(parts: Sequence[Part]) -> bool:
+    """Whether a page has sounds."""
+    return any(block.block == "sounds" for part in parts for block in part.blocks)
+
+
+def _policy(style: str, *scripts: str, plays: bool = False) -> str:
+    """What a browser may do with the page: show its style and figures, run its scripts alone.
+
+    Sounds are played from the folder of the page.
+    """
     hashes = " ".join(f"'{content_hash(script)}'" for script in scripts if script)
     run = f"script-src {hashes}; " if hashes else ""
+    play = "media-src 'self'; " if plays else ""
     return (
-        f"default-src 'none'; img-src data:; style-src '{content_hash(style)}'; {run}"
+        f"default-src 'none'; img-src data:; style-src '{content_hash(style)}'; {run}{play}"
         "base-uri 'none'; form-action 'none'"
     )
 

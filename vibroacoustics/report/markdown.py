@@ -1,6 +1,7 @@
 """Pages as Markdown; figures are files beside them."""
 
 from collections.abc import Sequence
+from urllib.parse import quote
 
 from .blocks import (
     Beside,
@@ -14,6 +15,7 @@ from .blocks import (
     Live,
     Part,
     Pictures,
+    Sounds,
     Text,
     drawn,
     pictures,
@@ -55,6 +57,10 @@ def _block(block: Block, folder: str) -> str:
             text = ""
         case Lights() | Intervals():
             text = f"{to_markdown(_chart_table(block))}\n\n{block.note}"
+        case Sounds():
+            text = "\n".join(
+                f"- [{escape_markdown(sound.name)}]({quote(sound.file)})" for sound in block.sounds
+            )
         case Beside():
             text = f"{_block(block.narrow, folder)}\n\n{_block(block.wide, folder)}"
         case Details():

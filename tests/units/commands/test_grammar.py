@@ -57,12 +57,16 @@ CASES = {
     "tones": ("recording.csv",),
     "export": ("recording.csv",),
     "sound-power": ("recording.csv", "--hemisphere", "1"),
+    "replay": (
+        "recording.csv", *SPEED, "--results", "results.nc", "--option", "counterweight-half",
+        "--pair", "front=front_1m",
+    ),
     "predict": ("bench.toml",),
     "blocked-forces": ("in_situ/in_situ.toml",),
     "cache": (),
     "doctor": (),
     "schema": (),
-}
+}  # fmt: skip
 """Arguments of each command; a name with an ending is a file of `inputs`."""
 PRINTS_ONLY = {"check", "cache", "doctor"}
 """Commands that write no file; all others have `--out`."""

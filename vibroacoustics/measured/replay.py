@@ -1,0 +1,351 @@
+"""A recording with an option of a study in place: its orders changed, the residual its own."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..base.arrays import Array, ComplexArray
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import level_of_power, power_of_level
+from ..base.errors import ParameterError
+from ..base.hashing import canonical_json
+from ..base.progress import Progress, no_progress
+from ..base.vocabulary import WEIGHTINGS, check, label_coordinates, stamped
+from ..base.weighting import WEIGHTING
+from ..orders.crank_motion import CrankMotion
+from ..orders.ratio_over_speed import ratio_over_speed
+from ..orders.recorded_speed import recorded_speed
+from ..orders.separated import LEAST_DISTANCE, changed_signal, separated_orders
+from ..orders.vold_kalman_equations import Track
+from ..recordings import LabelledBlocks
+from ..results import provenance
+from ..study.order_analysis import SpeedSource
+from .option_ratios import OptionRatios, OrderRatio, changed_noise_bands, check_names, option_ratios
+
+UNIT: Final = "Pa"
+"""Unit of the responses at microphones."""
+_LEAST_BANDWIDTH_HZ: Final = 1.0
+_BELOW_NOISE: Final = "below the recording's noise"
+
+
+class Replay(NamedTuple):
+    """A recording before and after.
+
+    Attributes
+    ----------
+    summary : levels of orders and of the whole; attribute `unchanged`: reasons by channel and line
+    before, after : sound pressure where the speed is known, Pa, shape (channel, time)
+    sample_rate_hz : of both
+
+    Examples
+    --------
+    >>> import xarray as xr
+    >>> sound = np.zeros((1, 4))
+    >>> replayed = va.Replay(xr.Dataset(), sound, 0.5 * sound, 8000.0)
+    >>> replayed.after.shape
+    (1, 4)
+    """
+
+    summary: xr.Dataset
+    before: Array
+    after: Array
+    sample_rate_hz: float
+
+
+class _Line(NamedTuple):
+    """Mean squares of an order, Pa².
+
+    Attributes
+    ----------
+    name : in the study
+    before : of the order, without noise
+    noise : within the bandwidth
+    after : of the changed order
+    low, high : ends of the interval of `after`
+    wider : these ends less `after`, shape (end, weighting)
+    has_interval : whether the study has an interval
+    """
+
+    name: str
+    before: float
+    noise: float
+    after: float
+    low: float
+    high: float
+    wider: Array
+    has_interval: bool
+
+
+def replay(
+    recording: xr.Dataset,
+    results: xr.Dataset,
+    option: str,
+    pairs: Mapping[str, str],
+    speed: SpeedSource,
+    bandwidth_hz: float | None = None,
+    orders_only: bool = False,
+    progress: Progress = no_progress,
+) -> Replay:
+    """Change the orders of a recording as an option of a study changes them.
+
+    Every order that study and recording have is separated (`separated_orders`) and multiplied by
+    the complex ratio with over without the option, of one sample, interpolated over the speed. All
+    else in the recording stays.
+
+    Parameters
+    ----------
+    recording : from `read_recording` or `label_recording`
+    results : of a run
+    option : name in the results
+    pairs : microphone of the study by channel of the recording
+    speed : where the recording's speed comes from
+    bandwidth_hz : full width at -3 dB of what belongs to an order at most; None for √s where the
+        highest changed order rises by s Hz/s, 1 Hz at least
+    orders_only : whether an option that changes the noise is accepted
+    progress : called with the advance
+
+    Raises
+    ------
+    ParameterError
+        A name is unknown, units differ, the study lacks speeds, the option changes the noise, or
+        the bandwidth does not fit.
+
+    Examples
+    --------
+    >>> results = va.open_results("results.nc")
+    >>> option = str(results["option"].values[1])
+    >>> speed = float(results["speed"].values[0])
+    >>> time = np.arange(20480) / 4096.0
+    >>> tone = 0.1 * np.cos(2.0 * np.pi * speed / 60.0 * time)
+    >>> recording = va.label_recording([tone], 4096.0, ["microphone"], ["Pa"])
+    >>> replayed = va.replay(
+    ...     recording, results, option, {"microphone": "front_1m"}, va.NominalSpeed(speed))
+    >>> replayed.after.shape
+    (1, 20480)
+    """
+    with provenance.naming(recording.attrs):
+        _check(recording, results, option, pairs, orders_only)
+        rate_hz = float(recording.attrs["sample_rate_hz"])
+        of_shaft = recorded_speed(LabelledBlocks(recording), speed)
+        signals = [_samples(recording, channel) for channel in pairs]
+        part = _known_part(of_shaft.motion, rate_hz, signals[0].size)
+        before, after, lines, reasons = [], [], [], {}
+        for number, (channel, receiver) in enumerate(pairs.items()):
+            progress("replay", number, len(pairs))
+            ratios = option_ratios(results, option, receiver, *_speeds(of_shaft.motion))
+            width = _bandwidth(of_shaft.motion, ratios.orders, bandwidth_hz)
+            changed = _changed(signals[number], rate_hz, of_shaft.motion, ratios, width)
+            before.append(signals[number][part])
+            after.append(changed[0][part])
+            lines.append(changed[1])
+            reasons[channel] = {**ratios.unchanged, **changed[2]}
+        about = {
+            **provenance.of_recording(recording.attrs, "replay"),
+            **of_shaft.attributes(),
+            "option": option,
+            "pairs": canonical_json(dict(pairs)),
+            "unchanged": canonical_json(reasons),
+            "noise_changes": int(bool(_noise_changes(results, option, pairs))),
+            "highest_order": float(np.nanmax(results["line_order"].values)),
+            "bandwidth_hz": width,
+            "replayed_from_s": part.start / rate_hz,
+            "replayed_to_s": part.stop / rate_hz,
+        }
+        sounds = (np.array(before), np.array(after))
+        summary = _summary(list(pairs), *sounds, rate_hz, lines)
+        return Replay(summary.assign_attrs(about), *sounds, rate_hz)
+
+
+def _check(
+    recording: xr.Dataset,
+    results: xr.Dataset,
+    option: str,
+    pairs: Mapping[str, str],
+    orders_only: bool,
+) -> None:
+    """Refuse unknown names, other units, and options that change the noise."""
+    units = dict(zip(recording["channel"].values, recording["channel_unit"].values, strict=True))
+    if not pairs:
+        raise ParameterError("pair: none given; give --pair CHANNEL=RESPONSE")
+    for channel, receiver in pairs.items():
+        if channel not in units:
+            names = ", ".join(map(str, units))
+            raise ParameterError(f"pair: no channel {channel!r}; there are {names}")
+        check_names(results, option, receiver)
+        if units[channel] != UNIT:
+            raise ParameterError(
+                f"pair {channel}={receiver}: channel {channel} is in {units[channel]}, the "
+                f"response in {UNIT}: the units must agree"
+            )
+    bands = _noise_changes(results, option, pairs)
+    if bands and not orders_only:
+        raise ParameterError(
+            f"option = {option}: changes the noise too, in {len(bands)} third octaves from "
+            f"{min(bands):g} to {max(bands):g} Hz, which a replay does not; give --orders-only to "
+            "change the orders alone"
+        )
+
+
+def _noise_changes(results: xr.Dataset, option: str, pairs: Mapping[str, str]) -> set[float]:
+    """Third octaves in which the noise changes at any of the microphones, Hz."""
+    every = (changed_noise_bands(results, option, receiver) for receiver in pairs.values())
+    return {band for bands in every for band in bands}
+
+
+def _samples(recording: xr.Dataset, channel: str) -> Array:
+    return np.asarray(recording["signal"].sel(channel=channel).values, dtype=float)
+
+
+def _known_part(motion: CrankMotion, rate_hz: float, samples: int) -> slice:
+    """Samples at which the speed is known."""
+    first = max(0, int(np.ceil(motion.start_s * rate_hz - 1e-6)))
+    return slice(first, min(samples, int(np.floor(motion.end_s * rate_hz + 1e-6)) + 1))
+
+
+def _speeds(motion: CrankMotion) -> tuple[float, float]:
+    """Lowest and highest speed, rpm."""
+    speed = 60.0 * motion.frequency_hz(_times(motion))
+    return float(np.min(speed)), float(np.max(speed))
+
+
+def _times(motion: CrankMotion) -> Array:
+    return np.asarray(np.linspace(motion.start_s, motion.end_s, 2000))
+
+
+def _bandwidth(
+    motion: CrankMotion, orders: Sequence[OrderRatio], bandwidth_hz: float | None
+) -> float:
+    """Bandwidth of the orders, Hz.
+
+    Raises
+    ------
+    ParameterError
+        It is larger than the distance of the orders allows.
+    """
+    numbers = np.array([0.0, *sorted(each.order for each in orders)], dtype=float)
+    time = _times(motion)
+    distance_hz = np.min(np.diff(numbers), initial=1.0) * np.min(motion.frequency_hz(time))
+    most = float(distance_hz / LEAST_DISTANCE)
+    if bandwidth_hz is None:
+        rise = np.abs(np.gradient(motion.frequency_hz(time), time)) * numbers[-1]
+        return min(max(_LEAST_BANDWIDTH_HZ, float(np.sqrt(np.max(rise)))), most)
+    if not 0.0 < bandwidth_hz <= most:
+        raise ParameterError(
+            f"bandwidth = {bandwidth_hz:g} Hz: must be above 0 and up to {most:.3g} Hz, 1/"
+            f"{LEAST_DISTANCE:g} of the distance of neighbouring orders at the lowest speed"
+        )
+    return bandwidth_hz
+
+
+def _changed(
+    signal: Array, rate_hz: float, motion: CrankMotion, ratios: OptionRatios, bandwidth_hz: float
+) -> tuple[Array, list[_Line], dict[str, str]]:
+    """Changed signal, mean squares of its orders, and why further lines stay."""
+    time = _times(motion)
+    rpm = 60.0 * motion.frequency_hz(time)
+    highest_hz = 0.5 * rate_hz - 4.0 * bandwidth_hz
+    limit = highest_hz / (np.max(rpm) / 60.0)
+    stays = {
+        each.line: "above half the sample rate" for each in ratios.orders if each.order > limit
+    }
+    kept = sorted((each for each in ratios.orders if each.order <= limit), key=_number)
+    if not kept:
+        return signal, [], stays
+    separated = separated_orders(
+        signal, rate_hz, [Track(motion, each.order) for each in kept], bandwidth_hz
+    )
+    hertz = motion.frequency_hz(separated.time_s)
+    every = np.array([each.ratio for each in kept])
+    audible = separated.order_square >= separated.noise_square
+    ratio = ratio_over_speed(ratios.speed_rpm, every, 60.0 * hertz)
+    ratio = np.where(audible[:, None], ratio, 1.0)
+    lines = [
+        _line(each, separated.envelope[row], ratio[row], each.order * hertz, ratios.speed_rpm)
+        ._replace(noise=float(separated.noise_square[row]))
+        for row, each in enumerate(kept)
+    ]  # fmt: skip
+    stays |= {line.name: _BELOW_NOISE for line in lines if line.before < line.noise}
+    return changed_signal(signal, rate_hz, separated, ratio), lines, stays
+
+
+def _number(order: OrderRatio) -> float:
+    return order.order
+
+
+def _line(
+    order: OrderRatio, envelope: ComplexArray, ratio: ComplexArray, hertz: Array, speed_rpm: Array
+) -> _Line:
+    """Mean squares of an order after the change, and of the ends of its interval."""
+    before = 0.5 * np.abs(envelope) ** 2
+    square = before * np.abs(ratio) ** 2
+    rpm = 60.0 * hertz / order.order
+    ends = [
+        square if factor is None else square * np.interp(rpm, speed_rpm, factor) ** 2
+        for factor in (order.low, order.high)
+    ]
+    gains = np.array([power_of_level(WEIGHTING[name](hertz)) for name in WEIGHTINGS])
+    wider = np.array([np.mean(gains * (end - square), axis=-1) for end in ends])
+    after, low, high = (float(np.mean(each)) for each in (square, *ends))
+    of_order = float(np.mean(before))
+    return _Line(order.line, of_order, 0.0, after, low, high, wider, order.low is not None)
+
+
+def _summary(
+    channels: list[str], before: Array, after: Array, rate_hz: float, lines: list[list[_Line]]
+) -> xr.Dataset:
+    """Levels of orders and of all sound."""
+    names = list(dict.fromkeys(line.name for of_channel in lines for line in of_channel))
+    variables: dict[str, Any] = {
+        name: np.full((len(channels), len(names)), np.nan)
+        for name in (
+            "recorded_line_level", "recorded_line_noise_level", "replayed_line_level",
+            "replayed_line_change", "replayed_line_change_low", "replayed_line_change_high",
+        )
+    }  # fmt: skip
+    for row, of_channel in enumerate(lines):
+        for line in of_channel:
+            for name, value in _levels(line).items():
+                variables[name][row, names.index(line.name)] = value
+    labelled = stamped(variables, {"channel": channels, "line": names})
+    old, new = (np.array([_squares(each, rate_hz) for each in x]) for x in (before, after))
+    wider = np.array([sum((line.wider for line in each), np.zeros((2, 3))) for each in lines])
+    totals = {
+        "recorded_total_level": _level(old),
+        "replayed_total_level": _level(new),
+        "replayed_total_level_low": _level(new + wider[:, 0]),
+        "replayed_total_level_high": _level(new + wider[:, 1]),
+    }
+    labelled = labelled.merge(stamped(totals, {"channel": channels, "weighting": list(WEIGHTINGS)}))
+    return check(label_coordinates(labelled))
+
+
+def _levels(line: _Line) -> dict[str, float]:
+    """Levels of a line that is audible; of another one, level and noise alone."""
+    levels = {
+        "recorded_line_level": float(_level(line.before)),
+        "recorded_line_noise_level": float(_level(line.noise)),
+    }
+    if line.before < line.noise:
+        return levels
+    change = line.after / line.before
+    levels["replayed_line_change"] = float(level_of_power(change))
+    levels["replayed_line_level"] = float(_level(line.after))
+    if line.has_interval:
+        levels["replayed_line_change_low"] = float(level_of_power(line.low / line.before))
+        levels["replayed_line_change_high"] = float(level_of_power(line.high / line.before))
+    return levels
+
+
+def _level(square_pa2: Array | float) -> Array:
+    ratio: Array = np.asarray(square_pa2, dtype=float) / REFERENCE_PRESSURE_PA**2
+    return np.asarray(level_of_power(ratio))
+
+
+def _squares(signal: Array, rate_hz: float) -> Array:
+    """Mean square by weighting over the whole signal, Pa², from one transform."""
+    hertz = np.asarray(np.fft.rfftfreq(signal.size, 1.0 / rate_hz)[1:], dtype=float)
+    square = 2.0 * np.abs(np.fft.rfft(signal)[1:]) ** 2 / signal.size**2
+    gains = np.array([power_of_level(WEIGHTING[name](hertz)) for name in WEIGHTINGS])
+    return np.asarray(gains @ square)
