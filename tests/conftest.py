@@ -11,12 +11,12 @@ from kept_results import FOLDER
 from reading_here import read_here
 from support import PIPELINES
 
-from vibroacoustics.recordings import blocks, modes, reading
+from vibroacoustics.recordings import asked, blocks, modes
 from vibroacoustics.recordings.child_process import read_in_child
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 
-READING = (blocks, modes, reading)
+READING = (asked, blocks, modes)
 LONGEST_FIRST = (
     "test_doctests.py", "test_wrong_results.py", "test_cli.py", "test_sources_in_chain.py",
     "test_small_things.py", "test_bad_recordings.py", "test_bad_studies.py", "test_samples.py",

@@ -22,6 +22,8 @@ also of a machine alone, from `load_machine(path)`.
 
 **Recordings.**
 `read_recording(path)` reads a recording of any format.
+`read_calibrator(path)` gives the factor of a microphone from the recording of a calibrator, a
+`CalibratorReading`.
 `open_recording(path)` opens one of any length, to be read in blocks.
 `label_recording(...)` labels samples as one.
 `export_recording(recording, path)` writes it as CSV, WAV or netCDF.

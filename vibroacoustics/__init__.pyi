@@ -87,10 +87,12 @@ from .pipeline import radiate as radiate
 from .pipeline import run as run
 from .radiation import rooms as rooms
 from .radiation.given import given_radiation as given_radiation
+from .recordings import CalibratorReading as CalibratorReading
 from .recordings import MeasuredFunction as MeasuredFunction
 from .recordings import Node as Node
 from .recordings import label_recording as label_recording
 from .recordings import open_recording as open_recording
+from .recordings import read_calibrator as read_calibrator
 from .recordings import read_functions as read_functions
 from .recordings import read_modes as read_modes
 from .recordings import read_recording as read_recording

@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from nptdms import ChannelObject, TdmsWriter
 from support import ROOT
+from trade_files import lvm, mf4, simcenter, xlsx
 
 from vibroacoustics.base.errors import ParameterError, StorageError, VibroacousticsError
 from vibroacoustics.recordings import label_recording, wav_bytes
@@ -256,6 +257,9 @@ CLAIMS = {
     "10 GB, in one piece.h5": lambda path: hdf5_claiming(path, (TEN_GB,)),
     "1 GB, none stored.h5": lambda path: hdf5_claiming(path, (2**27,), chunks=(2**20,)),
     "too wide.h5": lambda path: hdf5_claiming(path, (2**30, 2**30), chunks=(1024, 1024)),
+    "10 GB.lvm": lambda path: write(
+        path, lvm(path).read_text().replace("Samples\t300\t300", f"Samples\t{TEN_GB}\t{TEN_GB}")
+    ),
     "a line of 64 MB.csv": lambda path: write(path, b"1" * 2**26),
     "a line of 64 MB below.csv": lambda path: write(
         path, b"time [s],a [Pa]\n" + b"0,1\n" * 300 + b"1," * 2**25
@@ -389,6 +393,12 @@ GOOD = {
     "own.nc": lambda path: storage.write_results(RECORDING, path),
     "classic.nc": classic_netcdf,
     "a.tdms": tdms,
+    "a.lvm": lvm,
+    "with times.lvm": lambda path: lvm(path, ",", "One"),
+    "a.xlsx": xlsx,
+    "testlab.mat": simcenter,
+    "a.mf4": lambda path: mf4(path, is_slow=False),
+    "packed.mf4": lambda path: mf4(path, compression=2, is_slow=False),
     "a.uff": lambda path: write(
         path, patched(b"\n".join(_motor_lines(50)), b"    181504", b"       300")
     ),
@@ -433,6 +443,8 @@ def answers(paths: list[Path]) -> list[dict]:
 @pytest.mark.parametrize("name", GOOD)
 def test_truncated_and_damaged(tmp_path, name):
     """A truncated file is refused or read whole; one with some bytes changed is refused or read."""
+    if name.endswith(".mf4"):
+        pytest.importorskip("asammdf")
     good = tmp_path / name
     GOOD[name](good)
     content = good.read_bytes()
@@ -454,7 +466,9 @@ def test_truncated_and_damaged(tmp_path, name):
             at_end = ["sha256", *(["units", "calibration"] if path.suffix == ".wav" else [])]
             assert without(header, at_end) == without(first, at_end)
         if "error" in header:
-            assert header["error"] in ("StorageError", "TooLargeError", "ParameterError", "crash")
+            assert header["error"] in (
+                "StorageError", "TooLargeError", "ParameterError", "MissingError", "crash"
+            )  # fmt: skip
             assert header["message"]
 
 
@@ -479,6 +493,27 @@ def test_any_text_as_table(tmp_path_factory, text, is_below):
     head = "time [s],a [Pa]\n0,1\n" if is_below else ""
     path = tmp_path_factory.getbasetemp() / "any.csv"
     answered(write(path, head + text))
+
+
+LVM_LINES = st.lists(
+    st.sampled_from([
+        "Channels\t2", "Channels\t-1", "Samples\t3\t3", "Samples\t99999999999\t99999999999",
+        "Delta_X\t0.001\t0.001", "Delta_X\t0\t0", "Delta_X\tnan", "Delta_X\t1e-999\t1e999",
+        "X0\t1,5\t", "X0\tx", "Date\t2026/02/31\t", "Time\t25:99", "Separator\tComma",
+        "Decimal_Separator\t,", "X_Columns\tMulti", "X_Columns\tNo", "***End_of_Header***",
+        "X_Value\ta\tb\tComment", "\t1\t2", "0.001\t1.0\t2.0", "", "\t", "X_Dimension\tTime",
+    ]) | st.text(alphabet="0123456789.,;\t-+eEX_ab*", max_size=30),
+    max_size=24,
+)  # fmt: skip
+
+
+@settings(max_examples=400, deadline=None)
+@given(rows=LVM_LINES, is_whole=st.booleans())
+def test_any_lines_as_labview_file(tmp_path_factory, rows, is_whole):
+    head = "LabVIEW Measurement\t\n" + "Separator\tTab\n***End_of_Header***\n" * is_whole
+    segment = "Channels\t2\nSamples\t2\t2\nDelta_X\t0.1\t0.1\n" * is_whole
+    path = tmp_path_factory.getbasetemp() / "any.lvm"
+    answered(write(path, head + segment + "\n".join(rows)))
 
 
 CHUNKS = st.tuples(

@@ -29,6 +29,7 @@ def read_files(
             reading,
             unit=_of_file(reading.unit, file.stem, stems),
             calibration=_of_file(reading.calibration, file.stem, stems),
+            calibrator=_of_file(reading.calibrator, file.stem, stems),
         ).at_once(file, plugins)
         for file in files
     ]

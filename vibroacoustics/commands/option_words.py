@@ -24,6 +24,7 @@ _ARGUMENTS: Final = {
     "speed_rpm": "--rpm",
     "orders": "--orders",
     "poles": "--poles",
+    "is_fit": "--fit",
     "absorption_area_m2": "--absorption-area",
     "radius_m": "--hemisphere",
     "length_m": "--box, length",
@@ -33,9 +34,9 @@ _ARGUMENTS: Final = {
 }
 """Arguments, as messages write them with ` =` behind or `give` before, and the options."""
 _PARTS: Final = {"highest": "tacholess"}
-_GIVEN: Final = {"units": "--unit", "calibration": "--calibration"}
+_GIVEN: Final = {"units": "--unit", "calibration": "--calibration", "names": "--name"}
 _PAIR: Final = re.compile(r"(units|calibration)=\{'([^']*)': '?([^'}]*)'?\}")
-_UNKNOWN_CHANNEL: Final = re.compile(r"\b(units|calibration): no channel")
+_UNKNOWN_CHANNEL: Final = re.compile(r"\b(units|calibration|names): no channel")
 _ARGUMENT: Final = re.compile(
     rf"\b({'|'.join(_ARGUMENTS)}) = |(?<=give )({'|'.join(_ARGUMENTS)})\b"
 )

@@ -12,7 +12,14 @@ from ..base.progress import Progress
 from .command import command
 from .options import FileOut, LimitsFile, Plugins, Printing, Recording
 from .outcome import Outcome
-from .reading import Reading, SampleRate, SpeedOptions
+from .reading import (
+    Calibrator,
+    CalibratorFrequency,
+    CalibratorLevel,
+    Reading,
+    SampleRate,
+    SpeedOptions,
+)
 
 RENAMED: Final = {"--speed": "--speed-channel"}
 Orders = Annotated[str, "Shaft orders, with commas."]
@@ -29,6 +36,11 @@ def orders_command(
     resolution: Annotated[float, "Coarsest resolution, orders."] = 0.25,
     speed_step: Annotated[float, "Step between operating points of a run-up, rpm."] = 100.0,
     with_map: Annotated[bool, typer.Option("--map", help="Keep and draw the order map.")] = False,
+    fit: Annotated[
+        bool,
+        "Fit all multiples of the orders' spacing to the whole recording at once: for a few "
+        "revolutions and half orders.",
+    ] = False,
     bands: Annotated[str, "Third octaves: sums of lines, or filters of IEC 61260-1."] = "sums",
     reading: Reading,
     out: FileOut = None,
@@ -45,13 +57,14 @@ def orders_command(
     from . import arguments
 
     settings = OrderAnalysis(
-        speed.source(),
+        reading.source(speed, recording_file, plugin),
         arguments.order_numbers(orders),
         maximum_order,
         resolution,
         speed_step,
         with_map,
         arguments.chosen("--bands", bands, BAND_METHODS),
+        fit,
     )
     target = printing.target(out or Path("reports") / recording_file.stem)
     allowed = read_limits(limits) if limits else ()
@@ -79,7 +92,8 @@ def track_command(
     from ..measured.recorded_orders import track_orders
     from .arguments import order_numbers
 
-    source, numbers = speed.source(), order_numbers(orders)
+    source = reading.source(speed, recording_file, plugin)
+    numbers = order_numbers(orders)
     target = printing.target(out or Path("reports") / recording_file.stem)
     recording = reading.at_once(recording_file, plugin)
     tracked = track_orders(recording, source, numbers, bandwidth, poles)
@@ -102,7 +116,7 @@ def map_command(
     from .. import report
     from ..measured.recorded_orders import speed_frequency_map
 
-    source = speed.source()
+    source = reading.source(speed, recording_file, plugin)
     target = printing.target(out or Path("reports") / recording_file.stem)
     recording = reading.at_once(recording_file, plugin)
     mapped = speed_frequency_map(recording, source, resolution, maximum_frequency)
@@ -171,6 +185,9 @@ def sound_power_command(
     calibration: Annotated[
         list[str] | None, "CHANNEL=FACTOR or FILE:CHANNEL=FACTOR: unit per unit stored in the file."
     ] = None,
+    calibrator: Calibrator = None,
+    calibrator_level: CalibratorLevel = 94.0,
+    calibrator_frequency: CalibratorFrequency = 1000.0,
     sample_rate: SampleRate = None,
     out: Annotated[
         Path | None, "Folder of the results; default: reports/NAME OF THE FIRST."
@@ -188,7 +205,14 @@ def sound_power_command(
     surface = microphones.surface_of(hemisphere, box)
     absorption = microphones.absorption_of(absorption_area, reverberation_time, volume)
     target = printing.target(out or Path("reports") / files[0].stem)
-    reading = Reading(unit, calibration, sample_rate=sample_rate)
+    reading = Reading(
+        unit,
+        calibration,
+        sample_rate=sample_rate,
+        calibrator=calibrator,
+        calibrator_level=calibrator_level,
+        calibrator_frequency=calibrator_frequency,
+    )
     given = ([*files, *quiet], reading, plugin)
     running, still = (microphones.read_files(each, *given) for each in (files, quiet))
     measured = sound_power(running, surface, still, absorption)

@@ -48,6 +48,7 @@ class MeasuredPower:
     margin_db : above the background; not a number where none was recorded
     background_db, environment_db : K1 and K2
     power_db : sound power level re 1 pW; not a number where nothing was measured
+    has_environment : whether K2 is that of a stated room
     """
 
     mean_db: Array
@@ -55,6 +56,7 @@ class MeasuredPower:
     background_db: Array
     environment_db: Array
     power_db: Array
+    has_environment: bool = True
 
     @property
     def power_dba(self) -> float:
@@ -81,18 +83,25 @@ class MeasuredPower:
         return float(a_weighted_sum(before) - a_weighted_sum(before - self.environment_db))
 
     @property
+    def missing(self) -> tuple[str, ...]:
+        """What a grade of ISO 3744 or ISO 3746 needs and was not measured."""
+        background = ("background",) if np.isnan(self.margin_dba) else ()
+        return background if self.has_environment else (*background, "K2")
+
+    @property
     def grade(self) -> int | None:
         """2 (ISO 3744), 3 (ISO 3746) or neither, by K2A and the margin of the A-weighted sums.
 
-        A background that was not recorded counts as none.
+        None without a recorded background and without a stated room; see `missing`.
         """
-        margin = np.inf if np.isnan(self.margin_dba) else self.margin_dba
+        if self.missing:
+            return None
         limits = (
             (2, MINIMUM_BACKGROUND_MARGIN_DB, LARGEST_ENVIRONMENT_CORRECTION_DB),
             (3, SURVEY_MARGIN_DB, SURVEY_ENVIRONMENT_DB),
         )
         for grade, least, largest in limits:
-            if margin >= least and self.environment_dba <= largest:
+            if self.margin_dba >= least and self.environment_dba <= largest:
                 return grade
         return None
 
@@ -121,7 +130,8 @@ def measured_power(
     if absorption_area_m2 is not None:
         environment = environment_correction(surface_m2, absorption_area_m2)
     power = sound_power_level(mean, surface_m2, background, environment)
-    return MeasuredPower(mean, margin, background, environment, power)
+    has_room = absorption_area_m2 is not None
+    return MeasuredPower(mean, margin, background, environment, power, has_room)
 
 
 def a_weighted_sum(levels_db: Array) -> Array:

@@ -12,6 +12,7 @@ from ..orders import recorded as of_recording
 from ..orders.angular_stream import AngularStream
 from ..orders.block_orders import BlockOrders
 from ..orders.crank_motion import CrankMotion
+from ..orders.fitted_orders import FittedOrders
 from ..orders.synchronous_average import RevolutionAverage
 from ..study.order_analysis import OrderAnalysis
 
@@ -27,6 +28,8 @@ def passed_over(
 
     Attributes: the resolution, what is omitted.
     """
+    if settings.is_fit:
+        return _fitted(recording, names, motion, settings)
     rate_hz, samples = recording.sample_rate_hz, recording.samples
     channel = _labels(recording, names)
     plan = of_recording.angular_plan(rate_hz, samples, motion, settings)
@@ -50,6 +53,27 @@ def passed_over(
     in_db = levels.result()
     results = results.merge(averages).merge(in_db)
     results.attrs = {**of_recording.resolution(of_blocks), **averages.attrs, **in_db.attrs}
+    return results
+
+
+def _fitted(
+    recording: RecordingBlocks, names: Sequence[str], motion: CrankMotion, settings: OrderAnalysis
+) -> xr.Dataset:
+    """Orders by one fit to the whole recording, and levels; without a synchronous average."""
+    rate_hz, samples = recording.sample_rate_hz, recording.samples
+    channel = _labels(recording, names)
+    orders = FittedOrders(rate_hz, samples, len(names), motion, settings)
+    levels = PressureLevels(channel, samples, rate_hz, _offsets(recording, names), settings.bands)
+    for block in block_by_block(recording, names):
+        orders.add(block)
+        levels.add(block)
+    fitted, in_db = orders.result(), levels.result()
+    results = of_recording.recorded_orders(channel, fitted, settings).merge(in_db)
+    window = "least squares, hann" if orders.is_tapered else "least squares, rectangular"
+    omitted = {"left_out": "synchronous average: orders are fitted to the whole recording"}
+    results.attrs = {
+        **of_recording.resolution(fitted), "window": window, **omitted, **in_db.attrs
+    }  # fmt: skip
     return results
 
 

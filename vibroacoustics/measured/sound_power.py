@@ -39,7 +39,8 @@ def sound_power(
     -------
     levels at each position, their mean, K1, K2 and the sound power level, by band and A-weighted;
     bands that cannot be measured at the sample rate are empty. Attribute `grade`: 2 (ISO 3744),
-    3 (ISO 3746) or 0, neither
+    3 (ISO 3746) or 0, neither; `missing_for_grade`: `background`, `K2`, where no grade can be
+    stated
 
     Raises
     ------
@@ -71,6 +72,7 @@ def sound_power(
         "surface": surface.name,
         "surface_m2": surface.area_m2,
         "grade": measured.grade or 0,
+        "missing_for_grade": ", ".join(measured.missing),
         "spread_dba": spread_dba(measured_db),
         "positions_of_the_standard": list(surface.positions),
     }

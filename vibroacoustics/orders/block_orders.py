@@ -34,7 +34,7 @@ class OrdersOfBlocks:
     amplitude : complex peaks, shape (channel, block, line); None where no map is wanted
     time_s : middle of the blocks, shape (block,)
     shaft_frequency_hz : mean over each block, shape (block,)
-    revolutions : of a block
+    revolutions : of a block, whole; of a fit any
     resolution_order : noise bandwidth of a line, orders
     band_order : width of the bands, orders
     """
@@ -46,7 +46,7 @@ class OrdersOfBlocks:
     amplitude: ComplexArray | None
     time_s: Array
     shaft_frequency_hz: Array
-    revolutions: int
+    revolutions: float
     resolution_order: float
     band_order: float
 
@@ -71,9 +71,13 @@ class BlockOrders:
         first, last = plan.grid
         samples = last + 1 - first
         per_revolution = plan.samples_per_revolution
-        self._revolutions = block_revolutions(
-            window_by_name(WINDOW), settings.resolution_order, samples / per_revolution
-        )
+        spanned = samples / per_revolution
+        try:
+            self._revolutions = block_revolutions(
+                window_by_name(WINDOW), settings.resolution_order, spanned
+            )
+        except ParameterError as error:
+            raise ParameterError(f"{error}; for a few revolutions give is_fit") from None
         self._length = self._revolutions * per_revolution
         if settings.with_map:
             blocks = block_starts(samples, self._length, OVERLAP_RATIO).size

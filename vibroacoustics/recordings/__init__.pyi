@@ -1,6 +1,8 @@
 from .blocks import FileBlocks as FileBlocks
 from .blocks import LabelledBlocks as LabelledBlocks
 from .blocks import open_recording as open_recording
+from .calibrator import CalibratorReading as CalibratorReading
+from .calibrator import read_calibrator as read_calibrator
 from .export import csv_bytes as csv_bytes
 from .export import wav_bytes as wav_bytes
 from .function_export import functions_csv as functions_csv

@@ -10,7 +10,7 @@ from ..base.errors import ParameterError, StorageError
 from .array_columns import Column, column_of
 from .named_arrays import RATE_NAMES, TIME_NAMES, NamedArray, as_text, is_rate, is_time, nearest
 from .quantities import time_factor
-from .recorded import Request, Samples, check_rate, listed
+from .recorded import MissingError, Request, Samples, check_rate, listed
 from .time_axis import even_part
 
 _PROBES: Final = 9
@@ -91,10 +91,9 @@ def part_of(
     if time is None:
         rate = request.sample_rate_hz or stated
         if rate is None:
-            raise ParameterError(
-                "states no sample rate: needs a time vector in s "
-                f"({', '.join(TIME_NAMES)}) or a number ({', '.join(RATE_NAMES)}); "
-                "or give sample_rate_hz"
+            raise MissingError(
+                "states no sample rate: give sample_rate_hz, or save a vector "
+                f"{TIME_NAMES[1]} or a number {RATE_NAMES[2]}"
             )
         check_rate(rate)
         return (*request.part(samples, rate), rate)

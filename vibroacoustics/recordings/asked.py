@@ -2,13 +2,16 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final, TypeVar
 
+from ..base.arrays import Array
 from ..base.errors import ParameterError, StorageError, VibroacousticsError
+from .child_process import read_in_child
+from .other_formats import advice
 from .reader import readers_by_suffix
-from .recorded import MAXIMUM_READING_BYTES, TooLargeError, check_rate, listed
+from .recorded import MAXIMUM_READING_BYTES, MissingError, TooLargeError, check_rate, listed
 
 Given = TypeVar("Given", str, float)
 ALL_CHANNELS: Final = "*"
@@ -22,7 +25,7 @@ class Asked:
     Attributes
     ----------
     path : of the file
-    units, calibration, channels, sample_rate_hz : as in `read_recording`
+    units, calibration, channels, sample_rate_hz, names : as in `read_recording`
     """
 
     path: Path
@@ -30,6 +33,7 @@ class Asked:
     calibration: Mapping[str, float]
     channels: Sequence[str] | None
     sample_rate_hz: float | None
+    names: Mapping[str, str] = field(default_factory=dict)
 
     def check(self, may_be_large: bool) -> bool:
         """Refuse a file that cannot be read; see `check_file`. Whether it is above the cap."""
@@ -48,10 +52,55 @@ class Asked:
             "plugin": None if plugin is None else str(plugin),
         }
 
+    def read(self, part: dict[str, Any]) -> tuple[dict[str, Any], Array]:
+        """Header and samples of a part; see `read_in_child`.
+
+        Raises
+        ------
+        MissingError
+            The file lacks its sample rate; the message asks for all else that is missing.
+        """
+        try:
+            return read_in_child(self.request() | part)
+        except MissingError as error:
+            raise MissingError("; ".join([str(error), *self._further_missing()])) from None
+
+    def _further_missing(self) -> list[str]:
+        """What a file without a sample rate lacks beside it: units and calibration."""
+        provisional = {"sample_rate_hz": 1.0, "samples": [0, 2], "hashed": False}
+        try:
+            self.chosen_units(read_in_child(self.request() | provisional)[0])
+        except MissingError as error:
+            return [str(error)]
+        except VibroacousticsError:
+            pass
+        return []
+
+    def new_names(self, header: Mapping[str, Any]) -> list[str]:
+        """Name of each channel, from the user or else from the file.
+
+        Raises
+        ------
+        ParameterError
+            A renamed channel is not in the file, or two channels get one name.
+        """
+        renamed = _of_channels("names", self.names, header["names"])
+        names = [renamed.get(name, name) for name in header["names"]]
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice or not all(names):
+            raise ParameterError(f"names: {twice[0] if twice else ''!r}: must be unique, not empty")
+        return names
+
     def chosen_units(self, header: Mapping[str, Any]) -> list[str]:
         """Unit of each channel, from the user or else from the file."""
         units = _of_channels("units", self.units, header["names"])
         return _units(header, units, self.chosen_calibration(header))
+
+    def new_calibration(self, header: Mapping[str, Any]) -> dict[str, float]:
+        """Factor by the new name of a channel."""
+        factors = self.chosen_calibration(header)
+        renamed = zip(header["names"], self.new_names(header), strict=True)
+        return {new: factors[name] for name, new in renamed if name in factors}
 
     def chosen_calibration(self, header: Mapping[str, Any]) -> dict[str, float]:
         """Factor by channel, from the user or else from the file, in the file's unit."""
@@ -86,7 +135,10 @@ def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) 
         There is no such file, or it is empty or too large.
     """
     if path.suffix.lower() not in suffixes:
-        raise ParameterError(f"format {path.suffix!r} is unknown; known are {', '.join(suffixes)}")
+        raise ParameterError(
+            f"format {path.suffix!r} is unknown{advice(path.suffix)}; known are "
+            f"{', '.join(suffixes)}"
+        )
     try:
         size = path.stat().st_size
     except FileNotFoundError:
@@ -127,22 +179,25 @@ def _units(
 ) -> list[str]:
     """Unit of each channel, from the user or else from the file."""
     names = header["names"]
-    if header["full_scale"]:
-        _check_calibrated(names, calibration)
+    missing = _uncalibrated(names, calibration) if header["full_scale"] else []
     chosen = [units.get(name, stated) for name, stated in zip(names, header["units"], strict=True)]
-    missing = [name for name, unit in zip(names, chosen, strict=True) if not unit]
-    if missing:
-        raise ParameterError(
-            f"the file states no unit for {listed(missing)}: give it, as in "
-            f"units={{{missing[0]!r}: 'Pa'}}"
+    unlabelled = [name for name, unit in zip(names, chosen, strict=True) if not unit]
+    if unlabelled:
+        missing.append(
+            f"the file states no unit for {listed(unlabelled)}: give it, as in "
+            f"units={{{unlabelled[0]!r}: 'Pa'}}"
         )
+    if missing:
+        raise MissingError("; ".join(missing))
     return chosen
 
 
-def _check_calibrated(names: Sequence[str], calibration: Mapping[str, float]) -> None:
+def _uncalibrated(names: Sequence[str], calibration: Mapping[str, float]) -> list[str]:
+    """A line that asks for the calibration of fractions of full scale, where it is missing."""
     missing = [name for name in names if name not in calibration]
-    if missing:
-        raise ParameterError(
-            f"samples of {listed(missing)} are fractions of full scale: give the calibration "
-            f"factor, unit at full scale, as in calibration={{{missing[0]!r}: 20.0}}"
-        )
+    if not missing:
+        return []
+    return [
+        f"samples of {listed(missing)} are fractions of full scale: give the calibration "
+        f"factor, unit at full scale, as in calibration={{{missing[0]!r}: 20.0}}"
+    ]

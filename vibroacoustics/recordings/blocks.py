@@ -39,7 +39,7 @@ class FileBlocks:
     @property
     def channels(self) -> Sequence[str]:
         """Names, each once."""
-        return tuple(self.header["names"])
+        return tuple(self.asked.new_names(self.header))
 
     @property
     def attributes(self) -> Mapping[str, Any]:
@@ -68,10 +68,11 @@ class FileBlocks:
         """
         _check_block(self, channels, first, last)
         at = self.first_sample
-        part = {"samples": [at + first, at + last], "channels": list(channels), "hashed": False}
+        rows = [self.channels.index(name) for name in channels]
+        stored = [self.header["names"][row] for row in rows]
+        part = {"samples": [at + first, at + last], "channels": stored, "hashed": False}
         with naming_file(self.asked.path):
             header, samples = read_in_child(self.asked.request() | part)
-            rows = [self.channels.index(name) for name in channels]
             units = [self.channel_units[row] for row in rows]
             scale_in_place(samples, channels, [self.calibration_factors[row] for row in rows])
         self._remark(overload_lines(header, units))
@@ -140,6 +141,7 @@ def open_recording(
     sample_rate_hz: float | None = None,
     from_s: float | None = None,
     to_s: float | None = None,
+    names: Mapping[str, str] | None = None,
 ) -> FileBlocks:
     """Open a recording of any length, to be read in blocks.
 
@@ -147,7 +149,8 @@ def open_recording(
 
     Parameters
     ----------
-    path, units, calibration, channels, sample_rate_hz, from_s, to_s : as in `read_recording`
+    path, units, calibration, channels, sample_rate_hz, from_s, to_s, names : as in
+        `read_recording`
 
     Raises
     ------
@@ -167,14 +170,14 @@ def open_recording(
     >>> blocks.samples, blocks.read(["front"], 2, 4)
     (8, array([[2., 3.]]))
     """
-    asked = Asked(Path(path), units or {}, calibration or {}, channels, sample_rate_hz)
+    asked = Asked(Path(path), units or {}, calibration or {}, channels, sample_rate_hz, names or {})
     with naming_file(asked.path):
         check_part(from_s, to_s)
         asked.check(may_be_large=True)
-        header, _ = read_in_child(asked.request() | {"samples": [0, 0], "hashed": False})
-        names, rate_hz = header["names"], float(header["sample_rate_hz"])
+        header, _ = asked.read({"samples": [0, 0], "hashed": False})
+        new_names, rate_hz = asked.new_names(header), float(header["sample_rate_hz"])
         si_units, factors = si_scale(
-            names, asked.chosen_units(header), asked.chosen_calibration(header)
+            new_names, asked.chosen_units(header), asked.new_calibration(header)
         )
         request = Request(asked.path, from_s=from_s, to_s=to_s)
         first, last = request.part(header["total_samples"], rate_hz)

@@ -15,11 +15,18 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError, PluginError, StorageError
 from ..base.fault import FaultError
 from .child import MAXIMUM_CPU_S
-from .recorded import TooLargeError
+from .recorded import MissingError, TooLargeError
 
 _ERRORS: Final = {
     error.__name__: error
-    for error in (ParameterError, PluginError, FaultError, StorageError, TooLargeError)
+    for error in (
+        ParameterError,
+        MissingError,
+        PluginError,
+        FaultError,
+        StorageError,
+        TooLargeError,
+    )
 }
 
 

@@ -54,6 +54,7 @@ def _offset_minutes(zone: str) -> int:
     return -minutes if zone[0] == "-" else minutes
 
 
+MISSING_TIME: Final = "has no column 'time [s]': add one or give sample_rate_hz"
 SEPARATORS: Final = ("\t", ";", ",")
 _TIME_NAMES: Final = {"time", "t"}
 _BRACKETS: Final = re.compile(r"(?P<name>.*?)\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))")

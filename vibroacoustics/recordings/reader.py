@@ -52,6 +52,8 @@ class Reader:
         return plugin_file(getattr(self.read, "__module__", ""))
 
 
+_EXTRAS: Final = {"asammdf": "mdf"}
+"""Extras of packages that are not in `io`."""
 READERS: Final[Registry[Reader]] = Registry(
     "reader", Reader, "name", "recordings.readers", "vibroacoustics.readers"
 )
@@ -82,5 +84,6 @@ def readers_by_suffix() -> dict[str, Reader]:
 def needed(reader: Reader, module: str) -> str:
     """What to install where a reader misses a module."""
     if READERS.origin(reader.name) is None:
-        return f"needs {module}: pip install vibroacoustics[io]"
+        extra = _EXTRAS.get(reader.package, "io")
+        return f"needs {module}: pip install vibroacoustics[{extra}]"
     return f"needs {module}: pip install {reader.package or module}"

@@ -7,7 +7,6 @@ from pathlib import Path
 import xarray as xr
 
 from .asked import Asked, naming_file
-from .child_process import read_in_child
 from .recorded import check_part
 from .recording import label_in_place
 from .remarks import overload_lines, remark
@@ -22,6 +21,7 @@ def read_recording(
     sample_rate_hz: float | None = None,
     from_s: float | None = None,
     to_s: float | None = None,
+    names: Mapping[str, str] | None = None,
 ) -> xr.Dataset:
     """Read a recording; what its file must hold is told in docs/recordings.md.
 
@@ -36,6 +36,8 @@ def read_recording(
     channels : names of the channels to read; default: all
     sample_rate_hz : actual sample rate, where the file states none or a rounded one
     from_s, to_s : part to read, in seconds from the first sample; default: all
+    names : new name by the file's name of a channel; `units`, `calibration` and `channels` keep to
+        the file's
 
     Returns
     -------
@@ -65,22 +67,22 @@ def read_recording(
     >>> va.read_recording(file)["signal"].sel(channel="front").values
     array([0. , 0.5])
     """
-    asked = Asked(Path(path), units or {}, calibration or {}, channels, sample_rate_hz)
+    asked = Asked(Path(path), units or {}, calibration or {}, channels, sample_rate_hz, names or {})
     with naming_file(asked.path):
         check_part(from_s, to_s)
         is_part = from_s is not None or to_s is not None
         is_large = asked.check(may_be_large=is_part or channels is not None)
         part = {"from_s": from_s, "to_s": to_s, "hashed": not is_large}
-        header, stored = read_in_child(asked.request() | part)
+        header, stored = asked.read(part)
         digest = {"source_sha256": header["sha256"]}
         if is_large:
             digest = {"part_sha256": hashlib.sha256(stored.data.cast("B")).hexdigest()}
         recording = label_in_place(
             stored,
             header["sample_rate_hz"],
-            header["names"],
+            asked.new_names(header),
             asked.chosen_units(header),
-            asked.chosen_calibration(header),
+            asked.new_calibration(header),
         )
     lines = [*header["remarks"], *overload_lines(header, recording["channel_unit"].values)]
     remark(asked.path, lines)

@@ -18,6 +18,10 @@ class TooLargeError(StorageError):
     """A recording is larger than is read at once; `open_recording` may still read it in blocks."""
 
 
+class MissingError(ParameterError):
+    """The file lacks something that the user must give; what else is missing is asked for too."""
+
+
 MAXIMUM_RECORDING_BYTES: Final = 2 * 2**30
 """Largest recording: samples of all channels and the time axis, 8 bytes each."""
 MAXIMUM_READING_BYTES: Final = 2 * MAXIMUM_RECORDING_BYTES

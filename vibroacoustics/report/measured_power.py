@@ -65,7 +65,14 @@ def headline(measured: xr.Dataset) -> str:
     """Level and grade in a sentence."""
     level = rounding.fixed(measured["measured_power_level_a"].item())
     at_most = "at most " if _bound(measured["background_margin_a"].item()) == "yes" else ""
-    return f"L_WA = {at_most}{level} dB(A) re 1 pW: {GRADES[int(measured.attrs['grade'])]}."
+    return f"L_WA = {at_most}{level} dB(A) re 1 pW: {_grade(measured)}."
+
+
+def _grade(measured: xr.Dataset) -> str:
+    missing = str(measured.attrs.get("missing_for_grade", ""))
+    if missing:
+        return f"no grade without {missing.replace(', ', ' and ')}"
+    return GRADES[int(measured.attrs["grade"])]
 
 
 def _table(measured: xr.Dataset) -> Table:
@@ -95,14 +102,26 @@ def _remarks(measured: xr.Dataset) -> list[str]:
         f"A-weighted levels of the positions span {spread} dB"
         + (f", more than their number, {count}: use more." if attrs["spread_dba"] > count else "."),
         _background(measured),
-        f"K2A = {rounding.fixed(measured['environment_correction_a'].item())} dB; "
-        "grade 2 allows 4 dB, grade 3 7 dB.",
+        _environment(measured),
         "L_WA is the sum of the bands from 100 Hz to 10 kHz; the air's state is not corrected for.",
     ]
     empty = measured["band"].values[np.isnan(measured["measured_power_level"].values)]
     if empty.size:
         remarks.append(f"Bands from {empty[0]:g} Hz are beyond the sample rate: empty.")
     return remarks
+
+
+def _environment(measured: xr.Dataset) -> str:
+    if "K2" in str(measured.attrs.get("missing_for_grade", "")):
+        return (
+            "The room was not stated: K2 is 0, and the level is high by what the room reflects. "
+            "Give its absorption area (1e6 m² in a hemi-anechoic room), or its reverberation time "
+            "and volume."
+        )
+    return (
+        f"K2A = {rounding.fixed(measured['environment_correction_a'].item())} dB; "
+        "grade 2 allows 4 dB, grade 3 7 dB."
+    )
 
 
 def _background(measured: xr.Dataset) -> str:

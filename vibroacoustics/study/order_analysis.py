@@ -144,6 +144,8 @@ class OrderAnalysis:
     bands : third octaves of sound pressure as "sums" of the lines within a band, or through the
         "filters" of IEC 61260-1, whose skirts let in what lies beside the band
 
+    is_fit : whether all orders are fitted to the recording at once, for a few revolutions
+
     Raises
     ------
     ParameterError
@@ -167,6 +169,7 @@ class OrderAnalysis:
     with_map: bool = False
     """Keep the order map of every block."""
     bands: BandMethod = "sums"
+    is_fit: bool = False
 
     def __post_init__(self) -> None:
         for order in self.orders:

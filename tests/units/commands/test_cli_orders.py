@@ -281,7 +281,7 @@ def test_a_refusal_is_no_traceback(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ([], ["give one of --speed-channel CHANNEL, --rpm NUMBER and --tacholess"]),
+        ([], ["give one of --speed-channel CHANNEL, --rpm NUMBER, --tacholess LOWEST"]),
         (["--speed-channel", "tacho", "--rpm", 2900], ["give one of --speed"]),
         (["--tacholess", 1000, 4000, "--rpm", 2900], ["give one of --speed"]),
         (["--rpm", 0], ["--rpm = 0 rpm"]),

@@ -14,7 +14,9 @@ from vibroacoustics.results import provenance
         (
             (),
             "recordings: CSV (.csv .txt), FLAC and Wave64 (.flac .w64), HDF5 and netCDF "
-            "(.h5 .hdf5 .nc), MAT (.mat), TDMS (.tdms), UFF (.uff .unv), WAV (.wav) can be read",
+            "(.h5 .hdf5 .nc), LVM (LabVIEW measurement) (.lvm), MAT (.mat), MDF and MF4 "
+            "(.mf4 .mdf), TDMS (.tdms), UFF (.uff .unv), WAV (.wav), XLSX (spreadsheet) "
+            "(.xlsx .xlsm) can be read",
         ),
         (
             ("soundfile",),
@@ -24,10 +26,12 @@ from vibroacoustics.results import provenance
     ],
 )
 def test_the_extra_for_recordings(monkeypatch, missing, told):
+    packages = ("asammdf", "nptdms", "openpyxl", "pyuff", "soundfile")
+
     def installed(name: str) -> str:
         if name in missing:
             raise PackageNotFoundError(name)
-        return version(name) if name not in ("pyuff", "nptdms", "soundfile") else "1.0"
+        return version(name) if name not in packages else "1.0"
 
     monkeypatch.setattr(provenance, "version", installed)
     lines = list(doctor.findings())

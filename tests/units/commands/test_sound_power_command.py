@@ -41,7 +41,8 @@ def test_one_file_with_a_unit_for_all_channels(folder: Path, tmp_path: Path) -> 
     levels = _levels(tmp_path / "sound_power.csv")
     assert len(levels) == 22
     assert float(levels["1000"]) == pytest.approx(70.0, abs=0.1)  # the table has two digits
-    assert "grade 2 (ISO 3744, engineering)" in done.stdout
+    assert "dB(A) re 1 pW: no grade without background and K2." in done.stdout
+    assert "The room was not stated: K2 is 0" in done.stdout
     assert "The background was not recorded" in done.stdout
     page = (tmp_path / "sound_power.html").read_text(encoding="utf-8")
     assert '<th scope="row" class="words">6300</th>' in page

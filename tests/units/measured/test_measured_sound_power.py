@@ -32,7 +32,7 @@ def quiet_db() -> np.ndarray:
 def measured(positions: np.ndarray, quiet_db: np.ndarray) -> xr.Dataset:
     running = recording(positions, POWER_DB, quiet_db, with_source=True)
     still = recording(positions, POWER_DB, quiet_db, with_source=False)
-    return va.sound_power([running], va.MeasurementSurface.hemisphere(RADIUS_M), [still])
+    return va.sound_power([running], va.MeasurementSurface.hemisphere(RADIUS_M), [still], 1e6)
 
 
 def test_power_of_a_monopole_behind_background_noise(measured: xr.Dataset) -> None:
@@ -58,6 +58,8 @@ def test_without_its_recording_the_background_counts_as_sound(
     k1 = -10.0 * np.log10(1.0 - 10.0 ** (-MARGIN_DB / 10.0))
     assert errors == pytest.approx(k1, abs=0.02)
     assert np.isnan(measured["background_margin"].values).all()
+    assert measured.attrs["grade"] == 0
+    assert measured.attrs["missing_for_grade"] == "background, K2"
 
 
 def test_loud_background_makes_an_upper_bound(positions: np.ndarray) -> None:
@@ -65,6 +67,10 @@ def test_loud_background_makes_an_upper_bound(positions: np.ndarray) -> None:
     running = recording(positions, POWER_DB, at_microphone, with_source=True)
     still = recording(positions, POWER_DB, at_microphone, with_source=False)
     measured = va.sound_power([running], va.MeasurementSurface.hemisphere(RADIUS_M), [still])
+    assert measured.attrs["grade"] == 0
+    assert measured.attrs["missing_for_grade"] == "K2"
+    surface = va.MeasurementSurface.hemisphere(RADIUS_M)
+    measured = va.sound_power([running], surface, [still], 1e6)
     assert measured["background_margin"].values == pytest.approx(3.01, abs=0.02)
     assert measured["background_correction"].values == pytest.approx(1.26, abs=0.01)
     assert (measured["measured_power_level"].values > POWER_DB).all()
@@ -84,6 +90,10 @@ def test_reflections_of_the_room_are_taken_off(positions: np.ndarray) -> None:
     assert measured["measured_power_level"].values == pytest.approx(POWER_DB, abs=0.02)
     k2 = measured["environment_correction"].values
     assert k2 == pytest.approx(10.0 * np.log10(1.0 + 4.0 * surface.area_m2 / area))
+    assert measured.attrs["missing_for_grade"] == "background"
+    silence = recording(positions, POWER_DB, POWER_DB - 60.0, with_source=False)
+    measured = va.sound_power([running], surface, [silence], given)
+    assert measured.attrs["missing_for_grade"] == ""
     assert measured.attrs["grade"] == 3  # K2A lies between 4 and 7 dB
 
 

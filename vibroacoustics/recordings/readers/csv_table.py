@@ -10,10 +10,10 @@ import numpy as np
 
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
-from ..csv_head import Head, read_head, stamp_ns, stamp_text, time_column
+from ..csv_head import MISSING_TIME, Head, read_head, stamp_ns, stamp_text, time_column
 from ..quantities import time_factor
 from ..reader import Reader
-from ..recorded import Recorded, Request, Samples, check_rate, check_size
+from ..recorded import MissingError, Recorded, Request, Samples, check_rate, check_size
 from ..text_lines import MAXIMUM_LINE_BYTES, last_lines, lines, opened, reached, text
 from ..time_axis import even_rate_hz
 
@@ -153,7 +153,7 @@ def _between(
 def _without_time(table: _Table, columns: Sequence[int], request: Request) -> _Part:
     rate_hz = request.sample_rate_hz
     if rate_hz is None:
-        raise ParameterError("has no column 'time [s]': add one or give sample_rate_hz")
+        raise MissingError(MISSING_TIME)
     check_rate(rate_hz)
     rows = None if request.wants_all else request.part(2**62, rate_hz)
     values = _numbers(table, columns, {}, rows)

@@ -1,4 +1,7 @@
-"""MAT: up to 7.2 by SciPy, 7.3 as HDF5. Numbers, also in structs; cells are not read."""
+"""MAT: up to 7.2 by SciPy, 7.3 as HDF5. Numbers, also in structs; signals of Testlab.
+
+Cells are not read.
+"""
 
 import warnings
 from collections import Counter
@@ -13,7 +16,8 @@ from ...base.registry import register
 from ..array_recording import recorded
 from ..named_arrays import NamedArray, Part, as_text
 from ..reader import Reader
-from ..recorded import Recorded, Request, listed
+from ..recorded import Recorded, Request, check_size, listed
+from ..testlab import Struct, recorded_signals
 from .hdf5 import CHUNK_CACHE_BYTES, datasets, named_dataset
 
 _HDF5_MARK: Final = b"\x89HDF\r\n\x1a\n"
@@ -57,6 +61,9 @@ def _read_mat(request: Request) -> Recorded:
     def load(name: str, part: Part) -> Any:
         return loaded(name)[part]
 
+    signals = [mat_struct(name, loaded(name)) for name, _, kind in variables if kind == "struct"]
+    if signals := [struct for struct in signals if struct.is_signal]:
+        return recorded_signals(signals, request)
     arrays: list[NamedArray] = []
     for name, shape, kind in {name: (name, *rest) for name, *rest in variables}.values():
         if kind == "struct":
@@ -97,6 +104,29 @@ def fields(name: str, struct: Any, depth: int = 0) -> list[NamedArray]:
     return arrays
 
 
+def mat_struct(name: str, struct: Any) -> Struct:
+    """A struct as SciPy reads it, by the paths of its fields."""
+    prefix = f"{name}."
+    numbers = {array.name.removeprefix(prefix): array for array in fields(name, struct)}
+
+    def texts(path: str) -> list[str]:
+        value: Any = struct
+        for field in path.split("."):
+            items = np.asarray(value).ravel()
+            value = getattr(items[0], field, "") if items.size else ""
+        return [as_text(cell) for cell in np.asarray(_cells(value)).ravel()]
+
+    return Struct(name, numbers, texts)
+
+
+def _cells(value: Any) -> list[Any]:
+    """Contents of a cell, and of the cells in it; of anything else itself."""
+    array = np.asarray(value)
+    if array.dtype.kind == "O":
+        return [text for cell in array.ravel() for text in _cells(cell)]
+    return array.ravel().tolist() if array.dtype.kind in "US" else []
+
+
 def _read_hdf5(request: Request) -> Recorded:
     import h5py
 
@@ -107,8 +137,32 @@ def _read_hdf5(request: Request) -> Recorded:
             if not name.startswith("#")  # what cells refer to
             and as_text(dataset.attrs.get("MATLAB_class", "")) in _NUMBERS
         ]
+        signals = [hdf5_struct(name, arrays, file) for name in file if not name.startswith("#")]
+        if signals := [struct for struct in signals if struct.is_signal]:
+            return recorded_signals(signals, request)
         _check_numbers(arrays, [name for name in file if not name.startswith("#")])
         return recorded(arrays, {}, request)
+
+
+def hdf5_struct(name: str, arrays: list[NamedArray], file: Any) -> Struct:
+    """A struct of a MAT file 7.3, by the paths of its fields."""
+    prefix = f"{name}."
+    numbers = {a.name.removeprefix(prefix): a for a in arrays if a.name.startswith(prefix)}
+
+    def texts(path: str) -> list[str]:
+        item = file.get(f"{name}/{path.replace('.', '/')}")
+        return [] if not hasattr(item, "shape") else _hdf5_texts(item, file)
+
+    return Struct(name, numbers, texts)
+
+
+def _hdf5_texts(dataset: Any, file: Any) -> list[str]:
+    """Texts of characters that MATLAB stores as numbers, or of a cell of references to them."""
+    check_size(0, dataset.size)
+    stored = dataset[()]
+    if dataset.dtype.kind == "O":
+        return [text for cell in stored.ravel() for text in _hdf5_texts(file[cell], file)]
+    return ["".join(map(chr, stored.ravel()))] if dataset.dtype == np.uint16 else []
 
 
 def _check_numbers(arrays: list[NamedArray], variables: list[str]) -> None:

@@ -6,7 +6,7 @@ from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ..named_arrays import is_rate
 from ..reader import Reader
-from ..recorded import Recorded, Request, check_rate, check_size, listed
+from ..recorded import MissingError, Recorded, Request, check_rate, check_size, listed
 
 UNIT = "unit_string"
 """Property of a channel."""
@@ -104,7 +104,7 @@ def _stated_rate_hz(file: Any, name: str, channel: Any) -> float:
                 rate = float(value)
                 check_rate(rate)
                 return rate
-    raise ParameterError(
+    raise MissingError(
         f"channel {name!r}: has no wf_increment and no property such as SampleFrequency: "
         "give sample_rate_hz"
     )

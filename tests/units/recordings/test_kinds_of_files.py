@@ -1,0 +1,152 @@
+"""Kinds of files of docs/recordings.md, each written by another library, read back alike."""
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+import pyuff
+import scipy.io
+import soundfile
+import xarray as xr
+from nptdms import ChannelObject, TdmsWriter
+from support import ROOT
+from trade_files import RATE_HZ, SIGNALS, mf4, simcenter, simcenter_hdf5, xlsx
+
+from vibroacoustics.recordings import read_recording
+
+HALF = 0.1 * SIGNALS
+UNITS = ("Pa", "m/s²")
+NAMES = ("microphone", "foot")
+
+
+def sound(subtype: str, scale: float = 1.0):
+    """Writer of a sound file by libsndfile."""
+
+    def write(path: Path) -> None:
+        soundfile.write(path, scale * HALF.T, int(RATE_HZ), subtype=subtype)
+
+    return write
+
+
+def scipy_wav(path: Path) -> None:
+    scipy.io.wavfile.write(path, int(RATE_HZ), HALF.T.astype(np.float32))
+
+
+def mat(path: Path) -> None:
+    scipy.io.savemat(path, {"microphone": HALF[0], "foot": HALF[1], "fs": RATE_HZ})
+
+
+def mat_hdf5(path: Path) -> None:
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, values in zip(("microphone", "foot", "fs"), [*HALF, RATE_HZ], strict=True):
+            file[name] = np.atleast_2d(values).T
+            file[name].attrs["MATLAB_class"] = np.bytes_("double")
+
+
+def hdf5(path: Path) -> None:
+    with h5py.File(path, "w") as file:
+        file.attrs["sample_rate_hz"] = RATE_HZ
+        for name, values, unit in zip(NAMES, HALF, UNITS, strict=True):
+            file[name] = values
+            file[name].attrs["units"] = unit
+
+
+def netcdf(form: str):
+    """Writer of netCDF by xarray."""
+
+    def write(path: Path) -> None:
+        named = zip(NAMES, HALF, UNITS, strict=True)
+        variables = {name: ("time", x, {"units": unit}) for name, x, unit in named}
+        dataset = xr.Dataset(variables, attrs={"fs": RATE_HZ})
+        dataset.to_netcdf(path, format=form, engine="netcdf4")
+
+    return write
+
+
+def universal(binary: int):
+    """Writer of dataset 58 by pyuff."""
+
+    def write(path: Path) -> None:
+        sets = [
+            pyuff.prepare_58(
+                binary=binary, func_type=1, rsp_node=number, rsp_dir=3, ref_node=1, ref_dir=3,
+                data=values, x=np.arange(300) / RATE_HZ, id1=name, abscissa_spec_data_type=17,
+                ordinate_spec_data_type=kind, ordinate_axis_units_lab=unit, ord_data_type=4,
+                orddenom_spec_data_type=0, abscissa_spacing=1, abscissa_min=0.0,
+                abscissa_inc=1.0 / RATE_HZ,
+            )
+            for number, (name, values, unit, kind) in enumerate(
+                zip(NAMES, HALF, ("Pa", "m/s^2"), (15, 12), strict=True), 1
+            )
+        ]  # fmt: skip
+        pyuff.UFF(str(path)).write_sets(sets, "add")
+
+    return write
+
+
+def tdms(path: Path) -> None:
+    with TdmsWriter(str(path)) as writer:
+        named = zip(NAMES, HALF, UNITS, strict=True)
+        writer.write_segment([
+            ChannelObject("run", name, x, {"wf_increment": 1.0 / RATE_HZ, "unit_string": unit})
+            for name, x, unit in named
+        ])  # fmt: skip
+
+
+ALL_PASCAL = {"units": {"*": "Pa"}}
+FULL_SCALE = {**ALL_PASCAL, "calibration": {"*": 1.0}}
+KINDS = {
+    "float.wav": (scipy_wav, ALL_PASCAL, 1e-7),
+    "pcm.wav": (sound("PCM_24"), FULL_SCALE, 2e-7),
+    "packed.wav": (sound("ALAW"), FULL_SCALE, 0.04),
+    "a.flac": (sound("PCM_24"), FULL_SCALE, 2e-7),
+    "a.w64": (sound("PCM_32"), FULL_SCALE, 1e-9),
+    "a.mat": (mat, ALL_PASCAL, 0.0),
+    "seven.mat": (mat_hdf5, ALL_PASCAL, 0.0),
+    "a.h5": (hdf5, {}, 0.0),
+    "a.nc": (netcdf("NETCDF4"), {}, 0.0),
+    "classic.nc": (netcdf("NETCDF3_64BIT"), {}, 0.0),
+    "a.uff": (universal(0), {}, 1e-5),
+    "binary.uff": (universal(1), {}, 1e-7),
+    "a.tdms": (tdms, {}, 0.0),
+}
+"""Writer, options and tolerance by the name of a file."""
+RESCALED = {"a.xlsx": xlsx, "testlab.mat": simcenter, "testlab_seven.mat": simcenter_hdf5}
+"""Writers of the samples in full; all of their files need no option."""
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_what_other_libraries_write(tmp_path, name):
+    write, options, tolerance = KINDS[name]
+    write(tmp_path / name)
+    read = read_recording(tmp_path / name, **options)
+    samples = read["signal"].values
+    if not name.endswith((".wav", ".flac", ".w64")):
+        read = read.sel(channel=list(NAMES))
+        samples = read["signal"].values
+    assert read.attrs["sample_rate_hz"] == pytest.approx(RATE_HZ, rel=2e-6)
+    assert set(read["channel_unit"].values) <= set(UNITS)
+    np.testing.assert_allclose(samples, HALF, rtol=0.0, atol=tolerance)
+
+
+@pytest.mark.parametrize("name", RESCALED)
+def test_without_any_option(tmp_path, name):
+    read = read_recording(RESCALED[name](tmp_path / name))
+    assert tuple(read["channel_unit"].values) == UNITS
+    assert read.attrs["sample_rate_hz"] == pytest.approx(RATE_HZ, rel=1e-9)
+    np.testing.assert_allclose(read["signal"].values, SIGNALS, rtol=1e-12)
+
+
+@pytest.mark.parametrize("version", ["4.10", "3.30"])
+def test_measurement_data_files(tmp_path, version):
+    pytest.importorskip("asammdf")
+    file = mf4(tmp_path / ("a.mf4" if version >= "4" else "a.mdf"), version, is_slow=False)
+    read = read_recording(file)
+    assert tuple(read["channel_unit"].values) == UNITS
+    np.testing.assert_array_equal(read["signal"].values, SIGNALS)
+
+
+def test_files_of_measuring_systems():
+    for name in ("electric_motor_vibration.uff", "labview_force.lvm", "labview_acceleration.lvm"):
+        assert read_recording(ROOT / "data" / "recordings" / name)["signal"].size >= 12

@@ -1,0 +1,206 @@
+"""Headers of a LabVIEW measurement file: one of the file, one of each segment."""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..base.errors import ParameterError, StorageError
+from .text_lines import text
+
+MARK: Final = "LabVIEW Measurement"
+END: Final = "***End_of_Header***"
+MAXIMUM_HEAD_LINES: Final = 200
+_SEPARATORS: Final = {"Tab": "\t", "Comma": ","}
+_TIMES: Final = ("", "time")
+_EXACT: Final = 1e-4
+"""Relative rounding of `Delta_X` above which a remark is due."""
+
+
+@dataclass(frozen=True)
+class Segment:
+    """Header of one segment.
+
+    Attributes
+    ----------
+    names, units : of the channels
+    columns : of the channels among the fields of a row
+    samples : of each channel, as the header claims
+    interval : between samples, as the header writes it
+    interval_s : the same as a number
+    start_s : time of the first sample, s since 1970 where the header states the date
+    start_time : ISO 8601; empty where it is not stated
+    time_column : of the times; None without one
+    separator : of fields
+    has_decimal_comma : whether numbers are written with one
+    """
+
+    names: Sequence[str]
+    units: Sequence[str]
+    columns: Sequence[int]
+    samples: Sequence[int]
+    interval: str
+    interval_s: float
+    start_s: float
+    start_time: str
+    time_column: int | None
+    separator: str
+    has_decimal_comma: bool
+
+    def fields(self, line: bytes) -> list[str]:
+        """Fields of a row, with decimal points."""
+        plain = text(line).strip("\r\n")
+        return (plain.replace(",", ".") if self.has_decimal_comma else plain).split(self.separator)
+
+    @property
+    def remarks(self) -> list[str]:
+        """What the user must know of the sampling interval."""
+        digits = len(self.interval.lower().partition("e")[0].partition(".")[2])
+        exponent = int(self.interval.lower().partition("e")[2] or 0)
+        rounding = 0.5 * float(f"1e{exponent - digits}") / self.interval_s
+        rate_hz = 1.0 / self.interval_s
+        if rounding <= _EXACT or abs(rate_hz - round(rate_hz)) < 1e-6 * rate_hz:
+            return []
+        return [
+            f"Delta_X = {self.interval} s is rounded: the sample rate of {rate_hz:.6g} Hz is "
+            f"uncertain by {100.0 * rounding:.2g} %; give sample_rate_hz"
+        ]
+
+
+def file_header(lines: Iterator[bytes]) -> dict[str, str]:
+    """Keys and values above the first segment.
+
+    Raises
+    ------
+    StorageError
+        The file does not begin as such a file does, or its header has no end.
+    """
+    first = text(next(lines, b""))
+    if not first.startswith(MARK):
+        raise StorageError(f"does not begin with {MARK!r}")
+    rows = _rows_to_end(lines, "\t" if "\t" in first else None)
+    return {row[0]: row[1] for row in rows if len(row) > 1}
+
+
+def segment(lines: Iterator[bytes], above: dict[str, str]) -> Segment | None:
+    """The header of the next segment; None at the end of the file.
+
+    Parameters
+    ----------
+    lines : of the file, from behind the last row
+    above : keys and values of the file's header
+
+    Raises
+    ------
+    ParameterError
+        The abscissa is not the time.
+    StorageError
+        The header is incomplete.
+    """
+    separator = _SEPARATORS.get(above.get("Separator", "Tab"), "\t")
+    rows = {row[0]: row for row in _rows_to_end(lines, separator) if any(row)}
+    if not rows:
+        return None
+    names = [field.strip() for field in text(next(lines, b"")).rstrip("\r\n").split(separator)]
+    columns = _columns(rows, names, above)
+    head = _Cells(rows, columns)
+    dimensions = {value.lower() for value in head.values("X_Dimension")}
+    if not dimensions <= set(_TIMES):
+        raise ParameterError(f"its abscissa is {sorted(dimensions)}, not Time")
+    is_comma = separator != "," and _is_comma(head, above)
+    interval = head.number_text("Delta_X", is_comma)
+    start_time, stamp_s = _start(head)
+    return Segment(
+        names=[names[column] for column in columns],
+        units=head.values("Y_Unit_Label"),
+        columns=columns,
+        samples=[_count(value) for value in head.values("Samples")],
+        interval=interval,
+        interval_s=_number("Delta_X", interval),
+        start_s=stamp_s + _number("X0", head.number_text("X0", is_comma) or "0"),
+        start_time=start_time,
+        time_column=None if above.get("X_Columns", "One") == "No" else 0,
+        separator=separator,
+        has_decimal_comma=is_comma,
+    )
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """Rows of a header, by their key, and the columns of the channels in them."""
+
+    rows: dict[str, list[str]]
+    columns: Sequence[int]
+
+    def values(self, key: str) -> list[str]:
+        """One text a channel; empty where the header has none."""
+        row = self.rows.get(key, [])
+        return [row[c].strip() if c < len(row) else "" for c in self.columns]
+
+    def number_text(self, key: str, is_comma: bool) -> str:
+        """The text that the channels share."""
+        texts = {value for value in self.values(key) if value}
+        if len(texts) > 1:
+            texts = {self.values(key)[0]}
+        shared = texts.pop() if texts else ""
+        return shared.replace(",", ".") if is_comma else shared
+
+
+def _rows_to_end(lines: Iterator[bytes], separator: str | None) -> list[list[str]]:
+    rows: list[list[str]] = []
+    for number, line in enumerate(lines):
+        plain = text(line).strip("\r\n")
+        if plain.startswith(END):
+            return rows
+        if number == MAXIMUM_HEAD_LINES:
+            break
+        cells = re.split(r"[\t,]", plain, maxsplit=1) if separator is None else None
+        rows.append(cells or plain.split(separator))
+    if any(any(row) for row in rows):
+        raise StorageError(f"its header has no end ({END})")
+    return []
+
+
+def _columns(rows: dict[str, list[str]], names: list[str], above: dict[str, str]) -> list[int]:
+    """Columns of the channels in rows of the header and of the table alike."""
+    channels = _count(rows.get("Channels", ["", ""])[1])
+    step = 2 if above.get("X_Columns") == "Multi" else 1
+    columns = list(range(1, 1 + step * channels, step))
+    if not columns or columns[-1] >= len(names):
+        raise StorageError(f"claims {channels} channels and names {max(len(names) - 1, 0)}")
+    return columns
+
+
+def _is_comma(head: _Cells, above: dict[str, str]) -> bool:
+    """Whether numbers have a decimal comma; old files do not state it."""
+    stated = above.get("Decimal_Separator")
+    return "," in "".join(head.values("Delta_X")) if stated is None else stated == ","
+
+
+def _count(value: str) -> int:
+    if not value.isascii() or not value.isdigit() or len(value) > 18:
+        raise StorageError(f"{value!r} is no number of channels or samples")
+    return int(value)
+
+
+def _number(key: str, value: str) -> float:
+    try:
+        number = float(value)
+    except ValueError:
+        raise StorageError(f"{key} {value!r} is no number") from None
+    if not np.isfinite(number) or (key == "Delta_X" and not number > 0.0):
+        raise StorageError(f"{key} = {value} s: must be above zero and finite")
+    return number
+
+
+def _start(head: _Cells) -> tuple[str, float]:
+    """Time of a segment's first sample: ISO 8601, and s since 1970."""
+    date, clock = head.values("Date")[0], head.values("Time")[0].replace(",", ".")
+    seconds, _, fraction = clock.partition(".")
+    stamp = f"{date.replace('/', '-')}T{seconds}" + (f".{fraction[:6]}" if fraction else "")
+    try:
+        return stamp, float(np.datetime64(stamp, "us").astype(np.int64)) * 1e-6
+    except ValueError:  # neither is needed to read the samples
+        return "", 0.0
