@@ -23,6 +23,7 @@ _ARGUMENTS: Final = {
     "maximum_rpm": "highest",
     "speed_rpm": "--rpm",
     "orders": "--orders",
+    "listen": "--listen",
     "poles": "--poles",
     "is_fit": "--fit",
     "absorption_area_m2": "--absorption-area",

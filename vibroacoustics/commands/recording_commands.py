@@ -35,13 +35,19 @@ def orders_command(
     maximum_order: Annotated[float, "Highest order of spectra and map."] = 20.0,
     resolution: Annotated[float, "Coarsest resolution, orders."] = 0.25,
     speed_step: Annotated[float, "Step between operating points of a run-up, rpm."] = 100.0,
-    with_map: Annotated[bool, typer.Option("--map", help="Keep and draw the order map.")] = False,
+    with_map: Annotated[
+        bool | None,
+        typer.Option("--map/--no-map", help="Keep and draw the order map; default: of a run-up."),
+    ] = None,
     fit: Annotated[
         bool,
         "Fit all multiples of the orders' spacing to the whole recording at once: for a few "
         "revolutions and half orders.",
     ] = False,
     bands: Annotated[str, "Third octaves: sums of lines, or filters of IEC 61260-1."] = "sums",
+    listen: Annotated[
+        str | None, "Channel whose map and sound are on the page of a run-up; default: first in Pa."
+    ] = None,
     reading: Reading,
     out: FileOut = None,
     limits: LimitsFile = None,
@@ -51,6 +57,7 @@ def orders_command(
     """Find the orders of a recording: orders.html, netCDF, CSV, figures and a table."""
     from .. import report
     from ..measured.recorded_orders import analyse_orders
+    from ..measured.run_up_sound import check_listen, listened
     from ..results.limits_file import read_limits
     from ..results.order_limits import with_limits
     from ..study.order_analysis import BAND_METHODS, OrderAnalysis
@@ -69,9 +76,12 @@ def orders_command(
     target = printing.target(out or Path("reports") / recording_file.stem)
     allowed = read_limits(limits) if limits else ()
     recording = reading.in_blocks(recording_file, plugin)
+    check_listen(recording, settings, listen)
     results = with_limits(analyse_orders(recording, settings, progress), allowed)
     broken = report.broken_lines(results, ())
-    return target.outcome(report.analysis_of_orders(results), results, "orders.nc", broken)
+    sound = listened(recording, settings, results, listen)
+    analysis = report.analysis_of_orders(results, listen, sound)
+    return target.outcome(analysis, results, "orders.nc", broken)
 
 
 @command("track", "Recordings", "run_up.csv --speed-channel tacho --bandwidth 3", RENAMED)

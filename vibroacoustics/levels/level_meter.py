@@ -26,6 +26,8 @@ _BLOCK_S: Final = 2.5
 _FILTERED: Final = ("A", "C")
 _SHORTEST_SHARE: Final = 4
 """At either end at most a quarter of a recording is left out."""
+_TICK_S: Final = 0.01
+"""Squares are summed over ticks of this length for levels over the time."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,21 @@ class MeterPlan:
         return self.run_in / self.sample_rate_hz
 
     @cached_property
+    def tick(self) -> int:
+        """Samples whose squares are summed for levels over the time."""
+        return max(round(_TICK_S * self.sample_rate_hz), 1)
+
+    @property
+    def ticks(self) -> int:
+        """Number of ticks of the recording; the last may be shorter."""
+        return -(-self.samples // self.tick)
+
+    def measured(self, weighting: str) -> tuple[int, int]:
+        """First sample that is measured with a weighting, and the one after the last."""
+        omitted = 0 if weighting == "Z" else self.run_in
+        return omitted, self.samples - omitted
+
+    @cached_property
     def length(self) -> int:
         """Samples of a transform: of a block and of a run-in of silence on both sides."""
         most = min(self.samples, round(_BLOCK_S * self.sample_rate_hz))
@@ -73,6 +90,11 @@ class MeterPlan:
         return np.asarray(
             np.sin(0.5 * np.pi * (np.arange(self.ramp) + 0.5) / max(self.ramp, 1)) ** 2
         )
+
+    @cached_property
+    def block_window(self) -> Array:
+        """Window of a full block."""
+        return self.window(self.block)
 
     def window(self, samples: int) -> Array:
         """Of a block: one but for its ramps."""
@@ -117,6 +139,7 @@ class LevelMeter:
         self.lines = np.zeros(plan.frequency_hz.size)
         self.weight = 0.0
         self._state = {name: np.zeros(5) for name in "ZAC"}
+        self.tick_squares = {name: np.zeros(plan.ticks) for name in "ZAC"}
         self._added = 0
         self._start = 0  # of the next block
         self._pending: Array = np.empty(0)  # samples from there on
@@ -152,23 +175,29 @@ class LevelMeter:
 
     def _add_block(self, samples: Array, step: int) -> None:
         """Measure a block of which `step` samples come before the next one."""
-        plan, window = self.plan, self.plan.window(samples.size)
+        plan, is_full = self.plan, samples.size == self.plan.block
+        window = plan.block_window if is_full else plan.window(samples.size)
         padded = np.zeros(plan.length)
         sound = padded[plan.run_in : plan.run_in + samples.size]
         np.subtract(samples, self.offset, out=sound)
-        _detect(sound[:step], plan.kept, self._state["Z"])
+        self._detect("Z", sound[:step], self._start)
         sound *= window
         spectrum = fft.rfft(padded)
         self.lines += _one_sided(spectrum, plan.length)
-        self.weight += float(window @ window)
+        self.weight += float(np.sum(window**2))  # BLAS would start threads for it
         begin = 0 if self._start else 2 * plan.run_in  # of silence and of the recording
         for name in _FILTERED:
             weighted = fft.irfft(spectrum * plan.gain[name], plan.length)
             tail = self._tail[name]
             weighted[: tail.size] += tail
             self._tail[name] = weighted[step:].copy()
-            _detect(weighted[begin:step], plan.kept, self._state[name])
+            self._detect(name, weighted[begin:step], self._start - plan.run_in + begin)
         self._start += step
+
+    def _detect(self, name: str, signal: Array, first: int) -> None:
+        """Measure samples of a weighted signal, of which the first has this number."""
+        squares, tick = self.tick_squares[name], self.plan.tick
+        _detect(signal, self.plan.kept, self._state[name], first, tick, squares)
 
     def mean_square(self, weighting: str) -> tuple[float, float, float]:
         """Mean over the recording, and greatest Fast and Slow mean square, unit squared."""
@@ -185,15 +214,25 @@ def _one_sided(spectrum: ComplexArray, length: int) -> Array:
 
 
 @numba.njit(cache=True, nogil=True, fastmath={"contract"})
-def _detect(signal: Array, kept: Array, state: Array) -> None:
-    """Take samples into (sum of squares, Fast, Slow, greatest Fast, greatest Slow)."""
+def _detect(
+    signal: Array, kept: Array, state: Array, first: int, tick: int, tick_squares: Array
+) -> None:
+    """Take samples into (sum of squares, Fast, Slow, greatest Fast, greatest Slow) and ticks."""
     total, fast, slow, most_fast, most_slow = state
     keep_fast, keep_slow = kept
-    for value in signal:
-        square = value * value
-        total += square
-        fast = keep_fast * fast + (1.0 - keep_fast) * square
-        slow = keep_slow * slow + (1.0 - keep_slow) * square
-        most_fast = max(most_fast, fast)
-        most_slow = max(most_slow, slow)
+    begin = 0
+    while begin < signal.size:
+        number = (first + begin) // tick
+        end = min((number + 1) * tick - first, signal.size)
+        part = 0.0
+        for sample in range(begin, end):
+            square = signal[sample] * signal[sample]
+            part += square
+            fast = keep_fast * fast + (1.0 - keep_fast) * square
+            slow = keep_slow * slow + (1.0 - keep_slow) * square
+            most_fast = max(most_fast, fast)
+            most_slow = max(most_slow, slow)
+        tick_squares[number] += part
+        total += part
+        begin = end
     state[:] = (total, fast, slow, most_fast, most_slow)

@@ -15,6 +15,7 @@ from .band_meter import BandMeter
 from .bands import Band, bands_between, measurable_bands
 from .level_meter import LevelMeter, MeterPlan
 from .signal_levels import in_bands
+from .tick_levels import windowed_mean_square
 
 LOWEST_BAND_HZ: Final = 25.0
 HIGHEST_BAND_HZ: Final = 20e3
@@ -71,6 +72,43 @@ class PressureLevels:
         """Of all that has been added; attribute `levels_left_out_s`: see `labelled_levels`."""
         sums = {row: meter.mean_square() for row, meter in self._sums.items()}
         return labelled_levels(self._channel, self._meters, self._bands, self._method, sums)
+
+    def over_blocks(self, middle_s: Array, duration_s: Array) -> xr.Dataset:
+        """`block_level` (channel, block, weighting), of Hann-windowed blocks.
+
+        It is not a number where a channel is no sound pressure, and where most of a block is in
+        the part of the recording that the weighting omits. Empty without sound pressure.
+
+        Parameters
+        ----------
+        middle_s : centre of each block, shape (block,), s
+        duration_s : of the blocks, shape (block,), s
+        """
+        if not self._meters:
+            return xr.Dataset()
+        rows, plan = list(self._meters), next(iter(self._meters.values())).plan
+        level = np.full((self._channel.size, middle_s.size, len(WEIGHTINGS)), np.nan)
+        for column, name in enumerate(WEIGHTINGS):
+            squares = np.array([meter.tick_squares[name] for meter in self._meters.values()])
+            first, end = plan.measured(name)
+            mean_square = windowed_mean_square(
+                squares / plan.sample_rate_hz,
+                plan.tick / plan.sample_rate_hz,
+                (first / plan.sample_rate_hz, end / plan.sample_rate_hz),
+                middle_s,
+                duration_s,
+            )
+            is_finite = np.isfinite(mean_square)
+            level_db = mean_square_level(
+                np.where(is_finite, mean_square, 0.0), REFERENCE_PRESSURE_PA
+            )
+            level[rows, :, column] = np.where(is_finite, level_db, np.nan)
+        coords = {
+            "channel": self._channel,
+            "block": np.arange(middle_s.size),
+            "weighting": list(WEIGHTINGS),
+        }
+        return xr.Dataset({"block_level": stamp("block_level", level, coords)})
 
 
 def labelled_levels(

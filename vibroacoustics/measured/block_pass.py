@@ -51,7 +51,8 @@ def passed_over(
     results = of_recording.recorded_orders(channel, of_blocks, settings)
     averages = of_recording.synchronous_average(channel, average)
     in_db = levels.result()
-    results = results.merge(averages).merge(in_db)
+    over_blocks = levels.over_blocks(of_blocks.time_s, of_blocks.duration_s)
+    results = results.merge(averages).merge(in_db).merge(over_blocks)
     results.attrs = {**of_recording.resolution(of_blocks), **averages.attrs, **in_db.attrs}
     return results
 

@@ -19,6 +19,10 @@ WINDOW: Final = "hann"
 OVERLAP_RATIO: Final = 0.5
 MOST_MAP_BYTES: Final = 2**30
 """Of an order map that is kept: 16 a line, block and channel."""
+MOST_UNASKED_MAP_BYTES: Final = 2**27
+"""Largest order map of a run-up that is kept where the settings leave the choice."""
+STEADY_RATIO: Final = 0.02
+"""A speed that stays within this share of its mean makes one operating point."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +54,11 @@ class OrdersOfBlocks:
     resolution_order: float
     band_order: float
 
+    @property
+    def duration_s(self) -> Array:
+        """Duration of the blocks, shape (block,)."""
+        return self.revolutions / self.shaft_frequency_hz
+
 
 class BlockOrders:
     """Phasors and RMS of orders in every block, and the mean spectrum of all.
@@ -79,9 +88,12 @@ class BlockOrders:
         except ParameterError as error:
             raise ParameterError(f"{error}; for a few revolutions give is_fit") from None
         self._length = self._revolutions * per_revolution
+        blocks = block_starts(samples, self._length, OVERLAP_RATIO).size
+        lines = int(plan.maximum_order * self._revolutions) + 1
         if settings.with_map:
-            blocks = block_starts(samples, self._length, OVERLAP_RATIO).size
-            _check_map(channels, blocks, int(plan.maximum_order * self._revolutions) + 1)
+            _check_map(channels, blocks, lines)
+        is_small = 16 * channels * blocks * lines <= MOST_UNASKED_MAP_BYTES
+        self._keeps_map = is_small if settings.with_map is None else settings.with_map
         self._pending: AngularSignal | None = None
         self._spectra: list[OrderMap] = []  # without amplitudes where no map is wanted
         self._bands: list[range] = []
@@ -111,7 +123,7 @@ class BlockOrders:
         self._bands = self._bands or order_bands(spectra, self._settings.orders)
         self._rms.append(rms_in_bands(spectra, self._bands))
         self._squares.append(np.sum(np.abs(spectra.amplitude) ** 2, axis=-2))
-        if not self._settings.with_map:
+        if not self._keeps_map:
             spectra = replace(spectra, amplitude=np.empty(0, dtype=complex))
         self._spectra.append(spectra)
         hop = block_hop(self._length, OVERLAP_RATIO)
@@ -121,8 +133,11 @@ class BlockOrders:
         """Of all that has been added."""
         last = self._spectra[-1]
         time_s = np.concatenate([spectra.time_s for spectra in self._spectra])
+        shaft_frequency_hz = np.concatenate(
+            [spectra.shaft_frequency_hz for spectra in self._spectra]
+        )
         amplitude = None
-        if self._settings.with_map:
+        if self._settings.with_map or (self._keeps_map and not is_steady(shaft_frequency_hz)):
             amplitude = np.concatenate([spectra.amplitude for spectra in self._spectra], axis=-2)
         return OrdersOfBlocks(
             phasor=np.concatenate(self._phasors, axis=-2),
@@ -131,13 +146,16 @@ class BlockOrders:
             map_order=last.order,
             amplitude=amplitude,
             time_s=time_s,
-            shaft_frequency_hz=np.concatenate(
-                [spectra.shaft_frequency_hz for spectra in self._spectra]
-            ),
+            shaft_frequency_hz=shaft_frequency_hz,
             revolutions=last.revolutions,
             resolution_order=last.resolution_order,
             band_order=last.main_lobe_order,
         )
+
+
+def is_steady(speed: Array) -> bool:
+    """Whether speeds, in any unit, are one operating point."""
+    return bool(np.ptp(speed) <= STEADY_RATIO * np.mean(speed))
 
 
 def _check_map(channels: int, blocks: int, lines: int) -> None:

@@ -11,13 +11,11 @@ from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
 from ..study.order_analysis import OrderAnalysis
 from .angular_plan import AngularPlan
-from .block_orders import WINDOW, OrdersOfBlocks
+from .block_orders import WINDOW, OrdersOfBlocks, is_steady
 from .crank_motion import CrankMotion
 from .pulse_faults import PulseFault
 from .synchronous_average import RevolutionAverage
 
-STEADY_RATIO: Final = 0.02
-"""A speed that stays within this share of its mean makes one operating point."""
 _HALF_LOBE: Final = 4.0 / 3.0
 """Half of the window's main lobe over its noise bandwidth: room for the highest order's band."""
 
@@ -79,7 +77,7 @@ def operating_points(block_speed_rpm: Array, speed_step_rpm: float) -> tuple[Arr
     which a block is nearest.
     """
     mean = float(np.mean(block_speed_rpm))
-    if np.ptp(block_speed_rpm) <= STEADY_RATIO * mean:
+    if is_steady(block_speed_rpm):
         return np.array([mean]), np.zeros(block_speed_rpm.size, dtype=np.intp)
     nearest = np.maximum(np.rint(block_speed_rpm / speed_step_rpm), 1.0)
     numbers, point = np.unique(nearest, return_inverse=True)

@@ -81,15 +81,17 @@ class Pictures:
 
 @dataclass(frozen=True)
 class Live:
-    """The part of the page that moves, of the package's report alone; nothing without a script.
+    """The interactive part of a page of the package; nothing without a script.
 
     Attributes
     ----------
     data : JSON for the script
+    panel : what it consists of; a page has one
     block : kind of block
     """
 
     data: str = field(repr=False)
+    panel: Literal["sliders", "run_up"] = "sliders"
     block: Literal["live"] = field(default="live", kw_only=True, repr=False)
 
 

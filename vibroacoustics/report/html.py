@@ -11,7 +11,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from ..base.visible import visible
-from .blocks import Part, Text, drawn
+from .blocks import Live, Part, Text, drawn
 from .charts.svg import Picture
 from .live.assets import live_script, live_style, packed, unpacking_script
 
@@ -35,8 +35,11 @@ def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = ""
     }
     style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")
     unpacking, script = "", ""
-    if any(block.block == "live" for part in parts for block in part.blocks):
-        style, unpacking, script = style + live_style(), unpacking_script(), live_script()
+    blocks = (block for part in parts for block in part.blocks)
+    live = next((block for block in blocks if isinstance(block, Live)), None)
+    if live is not None:
+        style += live_style(live.panel)
+        unpacking, script = unpacking_script(), live_script(live.panel)
     template = environment.get_template("report.html.j2")
     page = template.render(
         title=title,

@@ -13,11 +13,14 @@ from ..results.bands import fixed
 from ..results.number import number
 from ..results.over_speed.avoid import recorded_speeds_to_avoid
 from ..results.over_speed.level_curves import is_run_up, recorded_curves
+from ..results.over_speed.run_up_sound import RunUpSound, shown_channel
 from .analysis import Analysis, origin
 from .avoid import RECORDED_RULE, recorded_avoid_table
-from .blocks import Block, Bullets, Part, Pictures, Text
+from .blocks import Block, Bullets, Live, Part, Pictures, Text
 from .figures.channel_orders import recorded_order_charts, speed_map_charts, tracked_order_charts
 from .limit_tables import limits_data, limits_words, order_limits_table
+from .live.run_up_data import run_up_data
+from .run_up_tables import every_loudest, loudest_table
 from .tables import (
     Cell,
     Columns,
@@ -53,16 +56,44 @@ _COLUMNS: Final[Columns] = (
 )
 
 
-def analysis_of_orders(results: xr.Dataset) -> Analysis:
-    """Return the analysis of the orders of a recording."""
+def analysis_of_orders(
+    results: xr.Dataset, listen: str | None = None, sound: RunUpSound | None = None
+) -> Analysis:
+    """Return the analysis of the orders of a recording.
+
+    Parameters
+    ----------
+    results : of `analyse_orders`
+    listen : channel of the interactive map of a run-up; default: the first of sound pressure
+    sound : of that channel; None for none
+
+    Raises
+    ------
+    ParameterError
+        There is no such channel.
+    """
+    channel = shown_channel(results, listen)
     facts, tables = Bullets(tuple(orders_facts(results))), orders_tables(results)
+    loudest = every_loudest(results)
+    in_db = [loudest_table(loudest)] if loudest else []
+    charts = recorded_order_charts(results, loudest)
     parts = [
-        Part("figures", "Orders by channel", (Pictures(tuple(recorded_order_charts(results))),)),
+        *(Part("levels", "Levels over the speed", (table,)) for table in in_db),
+        *(
+            Part(
+                "map",
+                f"Interactive map of {channel}",
+                (Live(run_up_data(results, each, sound), "run_up"),),
+            )
+            for each in loudest
+            if each.channel == channel
+        ),
+        Part("figures", "Orders by channel", (Pictures(tuple(charts)),)),
         Part("orders", "Orders and levels", tuple(tables)),
         Part("settings", "Speed and resolution", (facts,)),
     ]
     data = {"orders.csv": data_table(_DIMENSIONS, _orders(results))}
-    shown: list[Block] = [facts, *tables]
+    shown: list[Block] = [facts, *in_db, *tables]
     if "equivalent_level" in results:
         data["levels.csv"] = levels_data(results)
     if "order_limit" in results:

@@ -140,7 +140,8 @@ class OrderAnalysis:
     maximum_order : of spectra and map
     resolution_order : coarsest noise bandwidth of a line, orders
     speed_step_rpm : of the operating points of a run-up
-    with_map : whether the order map of every block is kept
+    with_map : whether the order map of every block is kept; None: of a run-up where it takes at
+        most 128 MiB
     bands : third octaves of sound pressure as "sums" of the lines within a band, or through the
         "filters" of IEC 61260-1, whose skirts let in what lies beside the band
 
@@ -166,8 +167,8 @@ class OrderAnalysis:
     """Coarsest noise bandwidth of a line, orders."""
     speed_step_rpm: float = 100.0
     """Of the operating points of a run-up."""
-    with_map: bool = False
-    """Keep the order map of every block."""
+    with_map: bool | None = False
+    """Keep the order map of every block; None: that of a run-up, up to 128 MiB."""
     bands: BandMethod = "sums"
     is_fit: bool = False
 

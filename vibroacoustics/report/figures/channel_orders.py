@@ -8,6 +8,7 @@ import xarray as xr
 
 from ...results.map_levels import map_level
 from ...results.over_speed.level_curves import is_run_up
+from ...results.over_speed.loudest_orders import LoudestOrders
 from ...results.titles import chosen
 from ..charts.axes import MAP_RANGE_DB, amplitude_axis, level_image, stacked
 from ..charts.layout import COLOURS, shortened
@@ -16,17 +17,32 @@ from ..charts.needs import needs
 from ..file_names import numbered
 from .levels_over_speed import levels_over_speed
 from .orders_over_speed import orders_over_speed, speed_frequency_map
+from .run_up_levels import run_up_chart
 
 
-def recorded_order_charts(results: xr.Dataset) -> list[Chart]:
-    """Return for each channel: mean spectrum, orders over speed in a run-up, map if present."""
+def recorded_order_charts(
+    results: xr.Dataset, loudest: Sequence[LoudestOrders] = ()
+) -> list[Chart]:
+    """Return for each channel: levels and map of a run-up, mean spectrum.
+
+    Orders of the analysis over the speed are shown where they have limits, or without levels.
+
+    Parameters
+    ----------
+    results : of `analyse_orders`
+    loudest : overall level and orders of every channel of a run-up with its map; else none
+    """
     charts = []
-    for channel in map(str, results["channel"].values):
-        charts.append(order_spectrum(results, channel))
-        if results.sizes["speed"] > 1:
-            charts.append(orders_over_speed(results, channel))
+    levels = {curves.channel: curves for curves in loudest}
+    for channel, file in numbered(results, "channel"):
+        if channel in levels:
+            charts.append(run_up_chart(levels[channel], file))
         if "order_map" in results:
             charts.append(order_map(results, channel))
+        with_limits = bool(limits_of(results.sel(channel=channel)))
+        if results.sizes["speed"] > 1 and (with_limits or channel not in levels):
+            charts.append(orders_over_speed(results, channel))
+        charts.append(order_spectrum(results, channel))
     return charts
 
 

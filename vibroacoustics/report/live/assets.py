@@ -1,4 +1,4 @@
-"""Scripts and style of the part of the page that moves, and texts that its script unpacks."""
+"""Scripts and style of the interactive part of a page, and texts that its script unpacks."""
 
 import zlib
 from functools import cache
@@ -9,9 +9,16 @@ import numpy as np
 
 CHARTS: Final = "uPlot.iife.min.js"
 """uPlot 1.6.32 by Leon Sorokin, under the MIT licence that stands beside it."""
-SCRIPTS: Final = (
-    "levels.js", "sound.js", "abx.js", "charts.js", "panel.js", "sliders.js", "listening.js",
-)  # fmt: skip
+SCRIPTS: Final = {
+    "sliders": (
+        "weighting.js", "levels.js", "sound.js", "abx.js", "charts.js", "panel.js", "sliders.js",
+        "listening.js",
+    ),
+    "run_up": ("weighting.js", "charts.js", "run_up_map.js", "run_up_cuts.js", "run_up.js",
+               "run_up_sound.js", "run_up_start.js"),
+}  # fmt: skip
+"""By the name of the panel."""
+_STYLES: Final = {"sliders": (), "run_up": ("run_up.css",)}
 _LEFT_OUT: Final = b"<\\"
 """Of the letters from ( to ~, so that the rest are 85 that mean nothing in HTML and in JSON."""
 _LETTERS: Final = np.array([one for one in range(ord("("), ord("~") + 1) if one not in _LEFT_OUT])
@@ -24,16 +31,16 @@ def unpacking_script() -> str:
 
 
 @cache
-def live_script() -> str:
-    """uPlot, and the package's script as one function."""
-    parts = "\n".join(map(_read, SCRIPTS))
+def live_script(panel: str = "sliders") -> str:
+    """uPlot, and the script of a panel as one function."""
+    parts = "\n".join(map(_read, SCRIPTS[panel]))
     return f'{_read(CHARTS)}\n(() => {{\n"use strict";\n{parts}}})();\n'
 
 
 @cache
-def live_style() -> str:
-    """Of uPlot and of the panel."""
-    return _read("uPlot.min.css") + "\n" + _read("live.css")
+def live_style(panel: str = "sliders") -> str:
+    """Style of uPlot and of a panel."""
+    return "\n".join(map(_read, ("uPlot.min.css", "live.css", *_STYLES[panel])))
 
 
 def packed(content: bytes) -> str:

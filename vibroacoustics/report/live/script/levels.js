@@ -11,16 +11,6 @@ async function decoded(text) {
   return new Float32Array(sorted.buffer);
 }
 
-// Weighting A of mean squares (IEC 61672-1:2013, E.6), 1 at 1 kHz.
-function aPower(hertz) {
-  const gain = (f) => {
-    const s = f * f;
-    return (s * s) / ((s + 20.598997 ** 2) * (s + 12194.217 ** 2)
-      * Math.sqrt((s + 107.65265 ** 2) * (s + 737.86223 ** 2)));
-  };
-  return (gain(hertz) / gain(1000)) ** 2;
-}
-
 const level = (square) => 10 * Math.log10(Math.max(square, 1e-30) / REFERENCE);
 
 // Solves (a + j b) x = c + j d in place by elimination with row exchange; the answer is in c and d.
