@@ -23,7 +23,7 @@ class Part(BaseModel):
 
 
 class SpectralShare(Part):
-    below_hz: Positive
+    below_hz: Number
 
 
 class Noise(Part):
