@@ -191,7 +191,8 @@ class Intervals:
     block: Literal["intervals"] = field(default="intervals", kw_only=True, repr=False)
 
 
-class Sound(NamedTuple):
+@dataclass(frozen=True)
+class Sound:
     """A sound that the page plays.
 
     Attributes
