@@ -22,7 +22,7 @@ from ..sound.rendering import SAMPLE_RATE_HZ, rendered, whole_revolutions
 
 _LARGEST_PA = 1e5
 UNITS: Final = {"t": "Pa/(m/s²)", "r": "Pa/(rad/s²)"}
-"""Of translations and rotations."""
+"""Units of responses to translations and to rotations."""
 
 
 class _Sound(NamedTuple):

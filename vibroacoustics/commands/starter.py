@@ -112,7 +112,7 @@ def _rewritten(text: str, schema: str = "", name: str = "") -> str:
 
 
 def schemas() -> dict[str, bytes]:
-    """Of study and machine, by name of their file."""
+    """Return the schemas of study and machine by the names of their files."""
     return {"study.json": as_file(study_schema()), "machine.json": as_file(machine_schema())}
 
 

@@ -83,7 +83,7 @@ def searched_designs(
 
 @dataclass(frozen=True)
 class Coding:
-    """How designs are told in numbers that a search may change freely.
+    """Designs as numbers that a search may change freely.
 
     Attributes
     ----------

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterable, Mapping
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -11,7 +11,7 @@ from ..base import rounding
 from ..results.number import Number
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Sound, Sounds, Text
-from .tables import DataTable, Table, data_table, known
+from .tables import DataTable, Table, columns_of, data_table, known
 
 _SUMMARY_WEIGHTING: Final = "A"
 _MOST_LINES: Final = 12
@@ -197,8 +197,7 @@ def _unchanged_data(summary: xr.Dataset) -> DataTable:
         for channel, reasons in _unchanged(summary).items()
         for line, reason in reasons.items()
     ]
-    columns: list[list[Any]] = [[row[number] for row in rows] for number in range(3)]
-    return dict(zip(("channel", "line", "reason"), columns, strict=True))
+    return columns_of(("channel", "line", "reason"), rows)
 
 
 def _without_gaps(table: DataTable) -> DataTable:

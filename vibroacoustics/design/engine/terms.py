@@ -9,7 +9,7 @@ import numpy as np
 from ...base.arrays import Array
 
 Functions = Callable[[Array, float], Array]
-"""Of values, shape (design, variable), and speed in rpm to functions, shape (design, function)."""
+"""Functions, shape (design, function), of values, shape (design, variable), and speed in rpm."""
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ LOUD_DB: Final = 20.0
 CHANGED_DB: Final = 0.5
 """So are those that differ by more, no further below than `WITHIN_DB`."""
 MOST_ORDERS: Final = 12
-"""Of a channel at a speed, the strongest."""
+"""Printed orders of a channel at a speed: the strongest."""
 _RESULTS: Final = ("channel", "compared")
 _SCATTER: Final = ("order_run_deviation", "order_specimen_deviation", "order_mean_uncertainty")
 _COLUMNS: Final[Columns] = (
@@ -165,7 +165,7 @@ def compared_data(compared: xr.Dataset) -> DataTable:
 
 
 def _that_matter(rows: Iterable[Record]) -> Iterator[Record]:
-    """Of each channel and speed the orders that are strong, or strong enough and different."""
+    """Return the strong orders of each channel and speed, and weaker ones that differ."""
     for _, group in groupby(rows, key=itemgetter("channel", "speed_rpm")):
         known = [row for row in group if np.isfinite(row["difference_db"])]
         strongest = max((_peak(row) for row in known), default=0.0)
