@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import Final
 
+import numpy as np
 import xarray as xr
 
 from ..base import rounding
@@ -12,6 +13,7 @@ from ..report.analysis import Analysis, origin
 from ..report.blocks import Block, Bullets, Part, Text
 from ..report.tables import Cell, DataTable, Table, columns_of
 from ..results.number import Number
+from ..sound.audibility import NO_TONE_AUDIBILITY_DB
 from ..sound.critical_bands import noise_criterion_db, prominence_criterion_db
 from ..sound.loudness import NEEDED, available
 from ..sound.tonality import Tone
@@ -28,6 +30,8 @@ _COLUMNS: Final = (
 _METHOD: Final = (
     "Tone-to-noise ratio and prominence ratio: ECMA-418-1, the criterion in brackets.",
     "A tone is prominent by one of the two ratios if it is audible and reaches its criterion.",
+    "Audibility: ISO/PAS 20065 in spectra of 3 s, its interval holds 90 %; adjustment: "
+    "ISO 1996-2:2017, table J.1.",
 )
 
 
@@ -46,8 +50,8 @@ def analysis_of_tones(tones: xr.Dataset) -> Analysis:
         about="Tones above the noise of their critical band, the strongest first.",
         parts=tuple(parts),
         shown=(*shown, *map(Text, needed)),
-        tables={"tones.csv": _rows(tones)},
-        numbers=tuple(_loudness(tones)),
+        tables={"tones.csv": _rows(tones), "audibility.csv": _over_time(tones)},
+        numbers=(*_loudness(tones), *_rated(tones)),
         **origin(tones, "Recording"),
     )
 
@@ -62,6 +66,25 @@ def _rows(tones: xr.Dataset) -> DataTable:
     return columns_of(_COLUMNS, rows)
 
 
+def _over_time(tones: xr.Dataset) -> DataTable:
+    """Most audible tone of every spectrum of 3 s."""
+    rows: list[tuple[str | float, ...]] = []
+    for name in _channels(tones):
+        here = tones.sel(channel=name)
+        columns = (here[f"recorded_decisive_{of}"].values for of in ("audibility", "frequency"))
+        for number, (audibility_db, hertz) in enumerate(zip(*columns, strict=True), start=1):
+            rows.append((name, number, audibility_db, "" if math.isnan(hertz) else hertz))
+    return columns_of(("channel", "spectrum", "audibility_db", "frequency_hz"), rows)
+
+
+def _rated(tones: xr.Dataset) -> Iterator[Number]:
+    """Mean audibility of every channel, its uncertainty and the adjustment."""
+    for name in _channels(tones):
+        for variable in _RATED:
+            value = tones[variable].sel(channel=name).item()
+            yield Number(value, "dB", variable, {"channel": name}, text=rounding.fixed(value))
+
+
 def _loudness(tones: xr.Dataset) -> Iterator[Number]:
     """Loudness and sharpness of every channel where they are available."""
     for name in _channels(tones):
@@ -72,6 +95,9 @@ def _loudness(tones: xr.Dataset) -> Iterator[Number]:
                 yield Number(value, unit, variable, {"channel": name}, text=text)
 
 
+_RATED: Final = (
+    "recorded_audibility", "recorded_audibility_uncertainty", "recorded_tonal_adjustment",
+)  # fmt: skip
 _LOUDNESS: Final = {"recorded_loudness": "sone", "recorded_sharpness": "acum"}
 
 
@@ -89,8 +115,23 @@ def _of_channel(tones: xr.Dataset, name: str) -> Iterator[Table | Bullets | Text
     else:
         yield Text(f"{name}: no tone stands above the noise of its critical band")
     loudness, sharpness = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
-    if not math.isnan(loudness):
-        yield Bullets((f"loudness {loudness:.3g} sone, sharpness {sharpness:.2f} acum",))
+    loud = f"loudness {loudness:.3g} sone, sharpness {sharpness:.2f} acum"
+    yield Bullets((_audibility(tones, name), *([] if math.isnan(loudness) else [loud])))
+
+
+def _audibility(tones: xr.Dataset, name: str) -> str:
+    """Mean audibility of the tones of a channel and the adjustment for them."""
+    here = tones.sel(channel=name)
+    spectra_db = here["recorded_decisive_audibility"].values
+    if not np.any(spectra_db > NO_TONE_AUDIBILITY_DB):
+        return f"no audible tone in {spectra_db.size} spectra of 3 s: adjustment 0 dB"
+    hertz = here["recorded_decisive_frequency"].values[int(np.argmax(spectra_db))]
+    mean_db, uncertainty_db, adjustment_db = (here[name].item() for name in _RATED)
+    return (
+        f"mean audibility {rounding.level(mean_db)} ± {rounding.level(uncertainty_db)} dB in "
+        f"{spectra_db.size} spectra of 3 s, most audible {rounding.fixed(hertz)} Hz: adjustment "
+        f"{adjustment_db:.0f} dB"
+    )
 
 
 def _tone(tone: Tone, channel: str) -> tuple[Cell, ...]:

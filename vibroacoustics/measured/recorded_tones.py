@@ -1,14 +1,18 @@
 """Tones, loudness and sharpness of recorded sound."""
 
+from collections.abc import Sequence
 from itertools import zip_longest
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
+from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.vocabulary import label_coordinates, stamped
 from ..results import provenance
+from ..sound.audibility import tonal_adjustment_db
+from ..sound.audible_tones import MeanAudibility, mean_audibility
 from ..sound.loudness import available, recorded_loudness
 from ..sound.recorded import narrow_bands, recorded_spectrum
 from ..sound.tonality import Tone, tones
@@ -31,7 +35,8 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     -------
     variables `recorded_tone_*` (channel, recorded_tone), `recorded_loudness` and
     `recorded_sharpness` (channel); tones above the noise of their critical band, the strongest
-    first
+    first; `recorded_decisive_*` (channel, audible_spectrum), `recorded_audibility*` and
+    `recorded_tonal_adjustment` (channel)
 
     Raises
     ------
@@ -44,16 +49,18 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         units = ", ".join(sorted(set(map(str, signal["channel_unit"].values))))
         raise ParameterError(f"channels: none is in Pa (available: {units}); see --unit")
     rate_hz = float(recording.attrs["sample_rate_hz"])
-    listed, loudness = [], []
+    listed, loudness, means = [], [], []
     for channel in microphones:
         bands = narrow_bands(channel.values, rate_hz)
         judged = tones(recorded_spectrum(bands))
         listed.append([tone for tone in judged if tone.noise_ratio_db > 0.0])
         loud = recorded_loudness(bands) if available() else None
+        means.append(mean_audibility(channel.values, rate_hz))
         loudness.append((loud.loudness_sone, loud.sharpness_acum) if loud else (np.nan, np.nan))
     coords = {
         "channel": microphones["channel"].values,
         "recorded_tone": np.arange(1.0, max(map(len, listed)) + 1.0),
+        "audible_spectrum": np.arange(1.0, len(means[0].decisive) + 1.0),
     }
     table = list(zip_longest(*listed)) or []
     values = {
@@ -65,9 +72,23 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     loud_values = dict(
         zip(("recorded_loudness", "recorded_sharpness"), np.transpose(loudness), strict=True)
     )
-    results = stamped({**values, **loud_values}, coords)
+    results = stamped({**values, **loud_values, **_audibility(means)}, coords)
     results.attrs = provenance.of_recording(recording.attrs, "tones")
     return label_coordinates(results)
+
+
+def _audibility(means: Sequence[MeanAudibility]) -> dict[str, Array]:
+    """Audibility of the tones of every channel, over its spectra and in the mean."""
+    mean_db = np.array([mean.audibility_db for mean in means])
+    return {
+        "recorded_decisive_audibility": np.array([mean.spectra_db for mean in means]),
+        "recorded_decisive_frequency": np.array(
+            [[tone.frequency_hz if tone else np.nan for tone in mean.decisive] for mean in means]
+        ),
+        "recorded_audibility": mean_db,
+        "recorded_audibility_uncertainty": np.array([mean.uncertainty_db for mean in means]),
+        "recorded_tonal_adjustment": tonal_adjustment_db(mean_db),
+    }
 
 
 def tones_of(listed: xr.Dataset, channel: str) -> list[Tone]:

@@ -1,8 +1,12 @@
 """Critical bands and criteria of discrete tones (ECMA-418-1)."""
 
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple, TypeVar, cast
 
 import numpy as np
+
+from ..base.arrays import Array
+
+Frequency = TypeVar("Frequency", float, Array)
 
 LOWEST_TONE_HZ: Final = 89.1
 HIGHEST_TONE_HZ: Final = 11220.0
@@ -27,9 +31,10 @@ class Edges(NamedTuple):
         return self.upper - self.lower
 
 
-def critical_bandwidth(frequency_hz: float) -> float:
-    """Δf_c = 25 + 75 (1 + 1.4 (f/kHz)²)^0.69, Hz (ECMA-418-1, width of the critical band)."""
-    return float(25.0 + 75.0 * (1.0 + 1.4 * (frequency_hz / 1000.0) ** 2) ** 0.69)
+def critical_bandwidth(frequency_hz: Frequency) -> Frequency:
+    """Δf_c = 25 + 75 (1 + 1.4 (f/kHz)²)^0.69, Hz (ECMA-418-1; ISO/PAS 20065, equation 2)."""
+    square = (cast(Any, frequency_hz) / 1000.0) ** 2
+    return cast(Frequency, 25.0 + 75.0 * (1.0 + 1.4 * square) ** 0.69)
 
 
 def critical_band(frequency_hz: float) -> Edges:
@@ -60,12 +65,15 @@ def _quadratic(constants: tuple[float, ...] | list[float], value: float) -> floa
     return constants[0] + constants[1] * value + constants[2] * value**2
 
 
-def proximity_hz(frequency_hz: float) -> float:
+def proximity_hz(frequency_hz: Frequency) -> Frequency:
     """Within it a weaker tone belongs to a stronger one: 21 · 10^(1.2 |lg(f/212)|^1.8), Hz.
+
+    It is equation 19 of ISO/PAS 20065, too.
 
     From 1 kHz on it is more than half of the critical band: all tones in it belong together.
     """
-    return float(21.0 * 10.0 ** (1.2 * abs(np.log10(frequency_hz / 212.0)) ** 1.8))
+    exponent = 1.2 * np.abs(np.log10(cast(Any, frequency_hz) / 212.0)) ** 1.8
+    return cast(Frequency, 21.0 * 10.0**exponent)
 
 
 def noise_criterion_db(frequency_hz: float) -> float:

@@ -13,7 +13,9 @@ from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import stamped
 from ..levels.by_source import membership
 from ..levels.measured_points import BASELINE_BANDS, MIDDLE_HZ
+from .audibility import tonal_adjustment_db
 from .ingredients import DUST
+from .predicted_audibility import predicted_audibility
 from .prominence import judged_tones
 
 _ORDER = "order "
@@ -88,20 +90,24 @@ def tone_levels(spectra: ToneSpectra) -> dict[str, Array]:
 
     Returns
     -------
-    variables of the vocabulary, shape (..., speed, option, receiver) and, but for the largest
-    excess, line
+    variables of the vocabulary, shape (..., speed, option, receiver), those of each tone with
+    line
     """
-    judged = [
-        judged_tones(
-            hertz, spectra.square[..., s, :, :, :], spectra.noise[..., s, :, :, :], MIDDLE_HZ
-        )
-        for s, hertz in enumerate(spectra.frequency_hz)
-    ]
+    judged, rated = [], []
+    for speed, hertz in enumerate(spectra.frequency_hz):
+        case = (..., speed, slice(None), slice(None), slice(None))
+        sound = hertz, spectra.square[case], spectra.noise[case], MIDDLE_HZ
+        judged.append(judged_tones(*sound))
+        rated.append(predicted_audibility(*sound))
     level, excess = (np.stack(part, axis=-4) for part in zip(*judged, strict=True))
+    decisive = np.stack([rating.decisive_db for rating in rated], axis=-3)
     return {
         "tone_level": level,
         "tone_excess": excess,
         "largest_tone_excess": excess.max(axis=-1),
+        "tone_audibility": np.stack([rating.tone_db for rating in rated], axis=-4),
+        "decisive_audibility": decisive,
+        "tonal_adjustment": tonal_adjustment_db(decisive),
     }
 
 

@@ -34,7 +34,7 @@ class Levels(Stage):
         "change_1x", "change_modelled", "change_total", "force_change_1x", "moment_change_1x",
         "foot_force_change_1x", "increase_probability", "decrease_probability", "source_level",
         "source_band_level", "source_share", "unmodelled_share", "baseline_*", "tone_*",
-        "largest_tone_excess", "any_tone_probability",
+        "decisive_audibility", "tonal_adjustment", "largest_tone_excess", "any_tone_probability",
     )  # fmt: skip
 
     def run(self, chain: Chain) -> Given:

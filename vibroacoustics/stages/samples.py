@@ -49,7 +49,8 @@ class Samples(Stage):
         "sources_band_level", "change_1x",
         "change_modelled", "change_total", "increase_probability", "decrease_probability",
         "source_level", "source_band_level", "source_share", "unmodelled_share", "tone_level",
-        "tone_excess", "largest_tone_excess", "tone_probability", "any_tone_probability",
+        "tone_excess", "largest_tone_excess", "tone_audibility", "decisive_audibility",
+        "tonal_adjustment", "tone_probability", "any_tone_probability",
     )  # fmt: skip
 
     def applies(self, study: Study) -> bool:

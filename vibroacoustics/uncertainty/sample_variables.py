@@ -35,6 +35,7 @@ _KEPT: Final = ("source_level", "level_modelled", "level_total", "level_unmodell
 _LARGE: Final = frozenset({
     "order_level", "source_band_level", "noise_band_level", "unmodelled_band_level",
     "total_band_level", "sources_band_level", "tone_level", "tone_excess",
+    "tone_audibility",
 })  # fmt: skip
 """Kept in single precision, 1e-5 dB, until their statistics are computed."""
 

@@ -35,3 +35,10 @@ def test_tone_excess_is_the_worst_over_microphones_and_speeds():
 
 def test_tone_excess_without_audible_tones_is_the_least(results):
     assert np.all(CRITERIA["tone_excess_db"]().value(results) == -60.0)  # all below 89.1 Hz
+
+
+def test_audibility_is_the_worst_over_microphones_and_speeds():
+    heard = [[[-10.0, 1.0], [4.0, -2.0]], [[0.0, -1.0], [-5.0, 2.0]]]
+    of_cases = xr.DataArray(heard, dims=("option", "receiver", "speed"))
+    value = CRITERIA["audibility_db"]().value(xr.Dataset({"decisive_audibility": of_cases}))
+    assert value.values.tolist() == [4.0, 2.0]

@@ -2,7 +2,7 @@
 
 import math
 from itertools import product
-from typing import Final
+from typing import Any, Final
 
 import xarray as xr
 
@@ -18,6 +18,8 @@ from . import Section, hold
 
 MOST_NAMES: Final = 3
 HEAD: Final = ("Option", "Prominent tones", "Tone", "Hz", "dB", "excess, dB")
+AUDIBILITY: Final = "decisive_audibility"
+AUDIBILITY_HEAD: Final = ("audibility, dB", "adjustment, dB")
 NOT_PROMINENT: Final = "not prominent"
 NO_LOUDNESS: Final = (
     "The results have no loudness: a run needs mosqito for it, pip install 'vibroacoustics[sound]'."
@@ -43,10 +45,11 @@ def tone_table(results: xr.Dataset) -> Table:
         cells += _cells(nearest_tone(results, option, microphone, speed), sampled)
         if sampled:
             cells.append(_percent(estimate(results, "any_tone_probability", **case).value))
-        rows.append((*cells, *loud.get(option, ())))
+        rows.append((*cells, *_audibility(results, case), *loud.get(option, ())))
     of_samples = ("80 % interval, dB", "probability", "some tone") if sampled else ()
+    headings = AUDIBILITY_HEAD if AUDIBILITY in results else ()
     with_loudness = ("sone", "acum") if loud else ()
-    head = (*HEAD, *of_samples, *with_loudness)
+    head = (*HEAD, *of_samples, *headings, *with_loudness)
     caption = f"Prominent tones, and the tone with the largest excess, {microphone}, {speed:g} rpm"
     return Table(caption, head, tuple(rows), frozenset({0, 1, 2}))
 
@@ -61,7 +64,13 @@ def tone_data(results: xr.Dataset) -> dict[str, DataTable]:
         case = {"option": option, "speed": speed, "receiver": microphone}
         values = (
             float(results[name].sel(case)) if name in results else ""
-            for name in ("any_tone_probability", "loudness", "sharpness")
+            for name in (
+                "any_tone_probability",
+                AUDIBILITY,
+                "tonal_adjustment",
+                "loudness",
+                "sharpness",
+            )
         )
         cells: tuple[str | float, ...] = ("",) * 7
         if tone is not None:
@@ -70,8 +79,21 @@ def tone_data(results: xr.Dataset) -> dict[str, DataTable]:
         rows.append((option, speed, microphone, *cells, *values))
     head = ("option", "speed_rpm", "receiver", "tone", "frequency_hz", "level_db",
             "excess_10_percent_db", "excess_db", "excess_90_percent_db", "probability",
-            "some_tone_probability", "loudness_sone", "sharpness_acum")  # fmt: skip
+            "some_tone_probability", "audibility_db", "tonal_adjustment_db", "loudness_sone",
+            "sharpness_acum")  # fmt: skip
     return {"tones.csv": columns_of(head, rows)}
+
+
+def _audibility(results: xr.Dataset, case: dict[str, Any]) -> tuple[str, ...]:
+    """Audibility and adjustment, with their intervals where they are sampled."""
+    if AUDIBILITY not in results:
+        return ()
+    texts = []
+    for variable, decimals in ((AUDIBILITY, 1), ("tonal_adjustment", 0)):
+        estimated = estimate(results, variable, **case)
+        low, value, high = (rounding.fixed(part, decimals) for part in estimated)
+        texts.append(value if low == high else f"{value} ({low} to {high})")
+    return tuple(texts)
 
 
 def _cells(tone: ProminentTone | None, sampled: bool) -> tuple[str, ...]:
@@ -113,7 +135,9 @@ def _loudness(results: xr.Dataset, microphone: str, speed: float) -> dict[str, t
 _HOW = (
     "A tone is listed if it is audible and prominent (ECMA-418-1){samples}. The excess is the "
     "larger one over the criteria of tone-to-noise and prominence ratio. The noise is that of the "
-    "sources and the unmodelled noise. {loudness} Other speeds and microphones are in tones.csv."
+    "sources and the unmodelled noise. Audibility: level of the most audible tone over its masked "
+    "threshold (ISO/PAS 20065); adjustment: ISO 1996-2, table J.1. {loudness} Other speeds "
+    "and microphones are in tones.csv."
 )
 _LOUDNESS = "Loudness: ISO 532-1 (sone); sharpness: DIN 45692 (acum)."
 
