@@ -141,7 +141,7 @@ TABLES: dict[str, list[str]] = {
     "time [s],a [Pa]\n0,1\n1,2,3\n": ["below its 1 header lines", "row 2"],
     "time [s],a [Pa]\n0,1\n1,x\n": ["'x'", "row 1, column 2"],
     "time [s],a [Pa]\n0,1\n1,\n": ["''", "row 1, column 2"],
-    "time [s],a [Pa],b [Pa]\n0,1\n": ["names 3 columns, the table has 2"],
+    "time [s],a [Pa],b [Pa]\n0,1\n": ["3 columns ('time', 'a', 'b'), the table has 2"],
     "time [h],a [Pa]\n0,1\n1,2\n": ["time has the unit 'h'"],
     "time [s],t [s],a [Pa]\n0,1,2\n": ["['time', 't'] are all times"],
     "only text\n" * 300: ["no row of numbers in its first 200 lines"],

@@ -114,7 +114,7 @@ def test_force_of_the_file_is_in_the_results_without_the_file(tmp_path):
     [
         (None, r"bench\.csv: no such file"),
         ("force_n\n1\nx\n", r"bench\.csv: line 3: force_n = x: must be a finite number"),
-        ("torque_n_m\n1\n", r"bench\.csv: torque_n_m: unknown column; columns are force_n"),
+        ("torque_n_m\n1\n", r"bench\.csv: torque_n_m: unknown column; force_n is missing"),
     ],
 )
 def test_a_bad_file_is_refused_in_one_line(tmp_path, content, words):

@@ -1,19 +1,17 @@
-"""Columns of numbers with their unit in the name, from a CSV file of the user."""
+"""Columns of numbers and words from a CSV file of the user, by names with units."""
 
-import csv
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 
 from .arrays import Array
+from .column_head import Column, Head, Layout, find_head, with_units
+from .csv_form import NumberForm, number_form, tidy
+from .csv_rows import MAXIMUM_BYTES, read_lines
 from .errors import ParameterError
-from .regular_file import read_text
-from .units import si_key, split_key
-
-MAXIMUM_BYTES: Final = 200_000_000
 
 
 @dataclass(frozen=True)
@@ -33,14 +31,13 @@ class Columns:
     texts: dict[str, tuple[str, ...]]
     lines: tuple[int, ...]
 
+    def origin(self, row: int) -> str:
+        """File and line of a row."""
+        return f"{self.path}: line {self.lines[row]}"
+
     def refusal(self, row: int, words: str) -> ParameterError:
         """What to raise of a row."""
-        return ParameterError(f"{self.path}: line {self.lines[row]}: {words}")
-
-
-def column_names(path: Path) -> tuple[str, ...]:
-    """SI names of a file's columns, for a file that may be of several layouts; errors as below."""
-    return tuple(si_key(_plain(cell))[0] for cell in _rows(path)[1][0])
+        return ParameterError(f"{self.origin(row)}: {words}")
 
 
 def read_columns(
@@ -49,13 +46,14 @@ def read_columns(
     optional: Sequence[str] = (),
     texts: Sequence[str] = (),
 ) -> Columns:
-    """Read columns of a CSV file by their SI names; lines that begin with # are remarks.
+    """Read columns of a CSV file by their SI names; lines that begin with # are comments.
 
-    A column may be in any unit of its quantity, as its name says: `fx_n`, `speed_rpm`.
+    A column may be in any unit of its quantity: `fx_kn`, `Fx [kN]`, `Fx (kN)` and `Fx / kN` are
+    `fx_n`. The unit may be in a line below the head. docs/csv.md shows all forms.
 
     Parameters
     ----------
-    path : file with a head line, separated by commas
+    path : file with a head line
     numbers : SI names of columns that it must have
     optional : SI names of columns that it may have
     texts : names of columns of words that it may have
@@ -76,103 +74,98 @@ def read_columns(
     >>> columns.numbers["stiffness_n_per_m"].tolist()  # N/m
     [50000.0]
     """
-    path = Path(path)
-    lines, rows = _rows(path)
-    head = [_plain(cell) for cell in rows[0]]
-    fields = {si_key(name)[0]: at for at, name in enumerate(head)}
-    if len(fields) < len(head):
-        raise ParameterError(f"{path}: a column is given twice: {', '.join(head)}")
-    _check_names(path, head, fields, numbers, (*numbers, *optional, *texts))
-    for line, row in zip(lines[1:], rows[1:], strict=True):
-        if len(row) != len(head):
-            raise ParameterError(f"{path}: line {line}: {len(row)} cells, the head has {len(head)}")
-    cells = list(zip(*rows[1:], strict=True))
-    if not cells:
-        raise ParameterError(f"{path}: has no rows under its head")
+    return read_layouts(path, [Layout(numbers, optional, texts)])
+
+
+def read_layouts(
+    path: str | Path, layouts: Sequence[Layout], maximum_bytes: int = MAXIMUM_BYTES
+) -> Columns:
+    """Read columns of a CSV file of one of several layouts; see `read_columns`.
+
+    Parameters
+    ----------
+    path : file with a head line
+    layouts : that it may have; its head decides
+    maximum_bytes : largest size of the file
+    """
+    lines = read_lines(Path(path), maximum_bytes)
+    head = find_head(lines, layouts)
+    rows = lines.rows(head.separator)[head.row + 1 :]
+    numbers, columns = lines.numbers[head.row + 1 :], head.numeric
+    if rows and (stated := with_units(head, rows[0])) is not None:
+        columns, rows, numbers = stated, rows[1:], numbers[1:]
+    for column in [*(each for each in head.columns if head.layout.is_text(each.name)), *columns]:
+        column.check(lines.path)
+    if not rows:
+        raise ParameterError(f"{lines.path}: has no rows under its head")
+    for line, row in zip(numbers, rows, strict=True):
+        _check_row(f"{lines.path}: line {line}", head, row)
     return Columns(
-        path,
+        lines.path,
+        _numbers(lines.path, head, columns, rows, numbers),
         {
-            name: si_key(head[at])[1] * _numbers(path, head[at], cells[at], lines[1:])
-            for name, at in fields.items()
-            if name not in texts
+            column.name: tuple(row[column.number] for row in rows)
+            for column in head.columns
+            if head.layout.is_text(column.name)
         },
-        {
-            name: tuple(cell.strip() for cell in cells[at])
-            for name, at in fields.items()
-            if name in texts
-        },
-        tuple(lines[1:]),
+        numbers,
     )
 
 
-def _rows(path: Path) -> tuple[list[int], list[list[str]]]:
-    try:
-        text = read_text(path, MAXIMUM_BYTES)
-    except FileNotFoundError:
-        raise ParameterError(f"{path}: no such file") from None
-    except OSError as error:
-        raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
-    except ValueError:
-        raise ParameterError(f"{path}: is not UTF-8 text") from None
-    kept = [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), 1)
-        if line.strip(" ,;") and not line.startswith("#")
-    ]
-    if not kept:
-        raise ParameterError(f"{path}: is empty")
-    try:
-        rows = list(csv.reader((line for _, line in kept), strict=True))
-    except csv.Error as error:
-        raise ParameterError(f"{path}: is not a CSV file: {error}") from None
-    if len(rows) != len(kept):
-        raise ParameterError(f"{path}: a cell has a line break")
-    return [number for number, _ in kept], rows
+def _check_row(where: str, head: Head, row: Sequence[str]) -> None:
+    """Refuse a row with fewer cells than names, or with a cell under no name."""
+    names = max(number for number, cell in enumerate(head.cells) if cell) + 1
+    cells = max(number for number, cell in enumerate(row) if cell) + 1
+    if len(row) < names or cells > names:
+        count = cells if cells > names else len(row)
+        decimal = "; with decimal commas, separate cells by semicolons"
+        hint = decimal if head.separator == "," and cells > names else ""
+        raise ParameterError(f"{where}: {count} cells, the head has {names}{hint}")
+    for cell, name in zip(row, head.cells, strict=False):
+        if cell and not name:
+            raise ParameterError(f"{where}: {cell}: its column has no name")
 
 
-def _plain(cell: str) -> str:
-    """A column's name with the newton metre as in keys, `mx_nm` is `mx_n_m`."""
-    name = cell.strip()
-    return f"{name[:-3]}_n_m" if name.endswith("_nm") else name
-
-
-def _check_names(
+def _numbers(
     path: Path,
-    head: Sequence[str],
-    fields: dict[str, int],
-    needed: Sequence[str],
-    known: Sequence[str],
-) -> None:
-    """Refuse what lacks, what is in a wrong unit and what is unknown, the first of them."""
-    stems = {split_key(name)[0]: name for name in known}
-    for name, at in fields.items():
-        if name in known:
-            continue
-        meant = stems.get(split_key(head[at])[0]) or stems.get(head[at].rpartition("_")[0])
-        others = f"unknown column; columns are {', '.join(known)}"
-        words = f"wrong unit, needs {meant} or another unit of it" if meant else others
-        raise ParameterError(f"{path}: {head[at]}: {words}")
-    for name in needed:
-        if name not in fields:
-            raise ParameterError(f"{path}: column {name} is missing")
-
-
-def _numbers(path: Path, name: str, cells: Sequence[str], lines: Sequence[int]) -> Array:
+    head: Head,
+    columns: Sequence[Column],
+    rows: Sequence[Sequence[str]],
+    lines: tuple[int, ...],
+) -> dict[str, Array]:
+    cells = [[row[column.number] for row in rows] for column in columns]
     try:
-        values = np.array(cells, dtype=np.float64)
-        if np.all(np.isfinite(values)):
-            return values
-    except ValueError:
-        pass
-    for line, cell in zip(lines, cells, strict=True):
-        if not _is_finite(cell):
-            shown = cell.strip() or "nothing"
-            raise ParameterError(f"{path}: line {line}: {name} = {shown}: must be a finite number")
-    raise ParameterError(f"{path}: {name}: must be finite numbers")
+        form = number_form(chain.from_iterable(cells), head.separator)
+    except ValueError as error:
+        words, cell = error.args
+        column, row = next(
+            (c, t.index(cell)) for c, t in zip(columns, _tidy(cells), strict=True) if cell in t
+        )
+        problem = f"line {lines[row]}: {column.cell} = {words}"
+        raise ParameterError(f"{path}: {problem}") from None
+    numbers = {}
+    for column, texts in zip(columns, cells, strict=True):
+        counts = [bool(cell) or column.name not in head.layout.blank for cell in texts]
+        values = np.full(len(texts), np.nan)
+        try:
+            values[counts] = form.numbers(
+                [t for t, count in zip(texts, counts, strict=True) if count]
+            )
+        except ValueError:
+            row = next(n for n, cell in enumerate(texts) if counts[n] and _is_bad(form, cell))
+            problem = f"{column.cell} = {texts[row] or 'nothing'}: must be a finite number"
+            raise ParameterError(f"{path}: line {lines[row]}: {problem}") from None
+        numbers[column.name] = (column.factor or 1.0) * values
+    return numbers
 
 
-def _is_finite(cell: str) -> bool:
+def _tidy(cells: Sequence[Sequence[str]]) -> list[list[str]]:
+    return [[tidy(cell) for cell in texts] for texts in cells]
+
+
+def _is_bad(form: NumberForm, cell: str) -> bool:
     try:
-        return bool(np.isfinite(float(cell)))
+        form.numbers([cell])
     except ValueError:
-        return False
+        return True
+    return False

@@ -8,12 +8,19 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from ..base.arrays import Array, ComplexArray
-from ..base.column_file import Columns, column_names, read_columns
+from ..base.column_file import read_layouts
+from ..base.column_head import Layout
 from ..base.file_table import FileTable
 from ..base.parameters import Parameters
 
-MOBILITY: Final = ("frequency_hz", "vertical_mobility_m_per_ns", "vertical_phase_rad")
-RECEPTANCE: Final = ("frequency_hz", "vertical_receptance_m_per_n", "vertical_phase_rad")
+LAYOUTS: Final = tuple(
+    Layout(
+        ("frequency_hz", f"vertical_{quantity}", "vertical_phase_rad"),
+        (f"lateral_{quantity}", "lateral_phase_rad"),
+        optional_texts=("foot",),
+    )
+    for quantity in ("mobility_m_per_ns", "receptance_m_per_n")
+)
 
 
 class Floor(Parameters):
@@ -66,7 +73,7 @@ class FloorMobility(FileTable):
     @classmethod
     def read(cls, path: Path, table: dict[str, Any]) -> dict[str, Any]:
         """Columns as of `docs/mounts.md`: a mobility or a receptance, for all feet or by foot."""
-        columns = _read(path)
+        columns = read_layouts(path, LAYOUTS)
         numbers = columns.numbers
         omega = 2.0 * np.pi * numbers["frequency_hz"]
         foot = columns.texts.get("foot", ("",) * omega.size)
@@ -116,13 +123,6 @@ class FloorMobility(FileTable):
             )
         )
         return np.stack([lateral, lateral, vertical], axis=-1)
-
-
-def _read(path: Path) -> Columns:
-    """Of a mobility, or of a receptance, where the head names one."""
-    names = RECEPTANCE if RECEPTANCE[1] in column_names(path) else MOBILITY
-    lateral = (names[1].replace("vertical", "lateral"), "lateral_phase_rad")
-    return read_columns(path, names, lateral, ("foot",))
 
 
 def _mobility(numbers: dict[str, Array], axis: str, omega: Array) -> tuple[Array, Array]:

@@ -4,7 +4,7 @@ Heights are those of the machine's frame: z up, zero at the centre of mass at re
 """
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Annotated, ClassVar, Final, Self, TypeVar
 
 from pydantic import Field, PrivateAttr, SerializeAsAny
@@ -14,6 +14,7 @@ from ..base.curves import Curve
 from ..base.errors import ParameterError
 from ..base.parameters import AnyOf, Contradictions, KindOfParameters, Parameters
 from ..base.registry import Registry
+from ..base.units import shaft_frequency_hz
 from ..mechanics.bushings import NO_BODIES, AttachedBodies, check_joined
 from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
@@ -24,6 +25,7 @@ from .feet import FOOT_NAMES, Feet, values_not_read
 from .floor import Floor, FloorMobility
 from .gas_in_shell import DischargeGas, ShellGas
 from .housing import Housing
+from .isolation import doubts_of_isolation, total_stiffness
 from .limits import OF_EVERY_MACHINE, Limit
 from .mount_stiffness import MountStiffness
 from .mounts import Mounts
@@ -151,6 +153,18 @@ class Machine(KindOfParameters):
     def doubts(self) -> Iterable[str]:
         """What is hardly right otherwise, with the dotted name of the value, a line each."""
         return ()
+
+    def doubts_at(self, speeds_rpm: Sequence[float]) -> Iterable[str]:
+        """What is hardly right at the speeds of a study: mounts near order 1, a line each."""
+        lowest, scale = min(speeds_rpm), self.scale
+        feet = () if self.feet is None else tuple(self.feet.by_name.values())
+        hertz = shaft_frequency_hz(lowest)
+        stiffness = total_stiffness(self.mounts, feet, self.mount_stiffness, hertz)
+        yield from doubts_of_isolation("mounts", stiffness, scale.mass_kg, lowest)
+        if self.suspension is not None:
+            stiffness = total_stiffness(self.suspension.springs, (), None, hertz)
+            name = "suspension.springs"
+            yield from doubts_of_isolation(name, stiffness, scale.block_kg, lowest)
 
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:
         """One steady revolution: force and moment of the moving parts by source.

@@ -9,6 +9,7 @@ from importlib.resources import files
 from math import pi
 from typing import Any, Final
 
+from ..base.units import shaft_frequency_hz
 from .shell import Shell
 
 DENSITY_KG_PER_M3: Final = (500.0, 20e3)
@@ -17,6 +18,8 @@ MOUNTED_HZ: Final = (2.0, 60.0)
 """Natural frequency on mounts: below they sag by 60 mm, above nothing is isolated."""
 FREE_MOTION_M: Final = 0.01
 """Largest displacement of a machine without mounts by its own forces."""
+INERTIA_FACTOR: Final = 5.0
+"""Largest ratio of a force to m r ω²: counterweights leave a fifth or more, gas adds some."""
 
 
 @dataclass(frozen=True)
@@ -131,6 +134,28 @@ def doubt_of_forces(mass_kg: float, force_n: float, speed_rad_per_s: float) -> s
     return (
         f"order 1 of {force_n:.3g} N would move {mass_kg:.3g} kg without mounts by "
         f"{1e3 * motion:.3g} mm; usual is at most {1e3 * FREE_MOTION_M:g} mm; are they in mN?"
+    )
+
+
+def doubt_of_mass(
+    table: str, force_n: float, mass_kg: float, radius_m: float, speed_rpm: float
+) -> str:
+    """What is doubtful in a moving mass beside a table of forces; empty where nothing.
+
+    Parameters
+    ----------
+    table : of the mass
+    force_n : peak at order 1 along its stroke
+    mass_kg, radius_m : of the mass, half its stroke
+    speed_rpm : of the shaft
+    """
+    inertia = mass_kg * radius_m * (2.0 * pi * shaft_frequency_hz(speed_rpm)) ** 2
+    if force_n / INERTIA_FACTOR <= inertia <= force_n * INERTIA_FACTOR:
+        return ""
+    return (
+        f"order 1 along the stroke is {force_n:.3g} N at {speed_rpm:g} rpm; {table}.mass_kg = "
+        f"{mass_kg:g} kg and {table}.amplitude_m = {radius_m:g} m make m r ω² = {inertia:.3g} N; "
+        f"usual is a factor of {INERTIA_FACTOR:g} at most; are both of one machine?"
     )
 
 

@@ -55,9 +55,8 @@ def _numbers(rows: list[str], head: Head) -> Array:
     for number, row in enumerate(rows, head.lines + 1):
         if not row.strip():
             continue
-        plain = row.replace(",", ".") if head.has_decimal_comma else row
         try:
-            table.append([float(field) for field in plain.split(head.separator)])
+            table.append([float(cell) for cell in head.cells(row)])
         except ValueError:
             raise StorageError(f"line {number}: holds something that is no number") from None
         if len(table[-1]) != len(head.names):

@@ -4,13 +4,25 @@ import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final
 
 import numpy as np
 
+from ..base.csv_form import (
+    COMMENT,
+    GROUPED,
+    SEPARATORS,
+    NumberForm,
+    cells_of,
+    number_form,
+    split_head,
+    tidy,
+)
 from ..base.csv_text import fused
 from ..base.errors import ParameterError, StorageError
 from .quantities import TIME_UNITS, find_quantity
+from .recorded import listed
 
 _STAMP: Final = re.compile(
     r"\s*\"?(?P<date>[0-9]{4}-[0-9]{2}-[0-9]{2})[T ]"
@@ -55,34 +67,68 @@ def _offset_minutes(zone: str) -> int:
 
 
 MISSING_TIME: Final = "has no column 'time [s]': add one or give sample_rate_hz"
-SEPARATORS: Final = ("\t", ";", ",")
 _TIME_NAMES: Final = {"time", "t"}
-_BRACKETS: Final = re.compile(r"(?P<name>.*?)\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))")
 
 
 @dataclass(frozen=True)
 class Head:
-    """What stands above the numbers.
+    """What is above the numbers.
 
     Attributes
     ----------
     names, units : of the columns
     separator : of the columns
-    has_decimal_comma : whether numbers are written with one
     lines : above the numbers
     stamps : column of time stamps; None without one
+    sample : first rows of numbers
     """
 
     names: Sequence[str]
     units: Sequence[str]
     separator: str
-    has_decimal_comma: bool
     lines: int
     stamps: int | None
+    sample: Sequence[Sequence[str]]
+
+    @cached_property
+    def form(self) -> NumberForm:
+        """Signs of the numbers.
+
+        Raises
+        ------
+        ParameterError
+            The first rows contradict each other, or a cell may be two numbers.
+        """
+        numbers = (c for row in self.sample for n, c in enumerate(row) if n != self.stamps)
+        try:
+            return number_form(numbers, self.separator)
+        except ValueError as error:
+            raise ParameterError(error.args[0]) from None
+
+    @cached_property
+    def is_plain(self) -> bool:
+        """Whether a line is numbers of Python but for a decimal comma."""
+        cells = [cell for row in self.sample for cell in row]
+        is_special = self.stamps is not None or self.form.grouped
+        is_quoted = self.separator == self.form.decimal
+        return not (is_special or is_quoted) and cells == list(map(tidy, cells))
+
+    def cells(self, line: str) -> list[str]:
+        """Cells of a row of numbers, as Python writes them.
+
+        Raises
+        ------
+        ValueError
+            The row cannot be split, or a cell is in another form.
+        """
+        cells = _cells(line.strip("\r\n"), self.separator)
+        while len(cells) > len(self.names) and not cells[-1]:
+            cells.pop()
+        return [c if n == self.stamps else self.form.python(c) for n, c in enumerate(cells)]
 
 
 def read_head(lines: Sequence[str]) -> Head:
-    """What stands above the numbers of a table.
+    """Find names, units and separator above the numbers of a table.
 
     Raises
     ------
@@ -92,65 +138,73 @@ def read_head(lines: Sequence[str]) -> Head:
         There is no row of numbers.
     """
     for separator in SEPARATORS:
-        rows = [_fields(line, separator) for line in lines]
+        rows = [_row(line, separator) for line in lines]
         for number, fields in enumerate(rows):
-            if (len(fields) > 1 or separator == ",") and _are_numbers(fields, separator):
+            if (len(fields) > 1 or separator == ",") and _are_numbers(fields):
                 names, units = _parse_names(rows[:number], len(fields))
-                is_comma = separator != "," and any("," in line for line in lines[number:])
                 stamps = [column for column, field in enumerate(fields) if is_stamp(field)]
-                return Head(
-                    names, units, separator, is_comma, number, stamps[0] if stamps else None
-                )
+                sample = [row for row in rows[number:] if _are_numbers(row)]
+                first = stamps[0] if stamps else None
+                return Head(names, units, separator, number, first, sample)
     raise StorageError(f"has no row of numbers in its first {len(lines)} lines")
 
 
-def _fields(line: str, separator: str) -> list[str]:
+def _row(line: str, separator: str) -> list[str]:
+    """Cells of a line above or among the numbers, without blank ones at its end."""
     try:
-        return next(csv.reader([line], delimiter=separator), [])
+        cells = _cells(line, separator)
+    except ValueError as error:
+        raise StorageError(f"line {line[:40]!r} {error}") from None
+    while cells and not cells[-1]:
+        cells.pop()
+    return cells
+
+
+def _cells(line: str, separator: str) -> list[str]:
+    try:
+        return cells_of(line, separator, strict=False)
     except csv.Error as error:
-        raise StorageError(f"line {line[:40]!r} cannot be split: {error}") from None
+        raise ValueError(f"cannot be split: {error}") from None
 
 
-def _are_numbers(fields: Sequence[str], separator: str) -> bool:
+def _are_numbers(fields: Sequence[str]) -> bool:
     """Whether a row is one of numbers; one of several may be a time stamp."""
-    plain = [field if separator == "," else field.replace(",", ".") for field in fields]
-    stamps = sum(is_stamp(field) for field in plain)
-    return bool(plain) and stamps < min(2, len(plain)) and all(map(_is_number, plain))
+    stamps = sum(map(is_stamp, fields))
+    return bool(fields) and stamps < min(2, len(fields)) and all(map(_is_number, fields))
 
 
 def _is_number(field: str) -> bool:
     try:
         float(field)
     except ValueError:
-        return is_stamp(field)
+        return is_stamp(field) or any(form.fits(tidy(field)) for form in GROUPED)
     return True
 
 
 def _parse_names(rows: list[list[str]], columns: int) -> tuple[list[str], list[str]]:
     """Names and units from the last rows above the numbers; a row of units may stand below."""
-    above = [[field.strip() for field in row] for row in rows if any(f.strip() for f in row)]
+    remarks = [row for row in rows if row and row[0].startswith(COMMENT)]
+    above = [row for row in rows if row and row not in remarks]
+    if remarks and (not above or len(above[-1]) < columns == len(remarks[-1])):
+        above = [[remarks[-1][0].lstrip(f"{COMMENT} "), *remarks[-1][1:]]]
     if not above:
         raise ParameterError("has no header row: write 'time [s]' and 'name [unit]' above")
     units = None
     if len(above) > 1 and all(_is_unit(field) for field in above[-1]):
         units = [field.strip("[]()") for field in above.pop()]
-    named = [_split_name(fused(field)) for field in above[-1]]
+        units += [""] * (len(above[-1]) - len(units))
+    named = [split_head(fused(field), _is_unit) for field in above[-1]]
     if len(named) != columns or (units is not None and len(units) != columns):
-        raise ParameterError(f"the header names {len(named)} columns, the table has {columns}")
-    return [name for name, _ in named], units or [unit for _, unit in named]
+        raise ParameterError(
+            f"the header names {len(named)} columns ({listed([name for name, _ in named])}), the "
+            f"table has {columns}"
+        )
+    return [name for name, _ in named], units or [unit or "" for _, unit in named]
 
 
 def _is_unit(field: str) -> bool:
     plain = field.strip("[]()")
     return not plain or plain in TIME_UNITS or find_quantity(plain) is not None
-
-
-def _split_name(field: str) -> tuple[str, str]:
-    """Name and unit; round brackets count as part of the name where they hold no unit."""
-    match = _BRACKETS.fullmatch(field)
-    if match is None or (match["square"] is None and not _is_unit(match["round"])):
-        return field, ""
-    return match["name"], (match["square"] or match["round"] or "").strip()
 
 
 def time_column(head: Head) -> int | None:

@@ -6,6 +6,7 @@ from typing import Final, NamedTuple
 
 from ..base.constants import STANDARD_GRAVITY_M_PER_S2
 from ..base.errors import ParameterError
+from ..base.unit_spelling import plain_unit
 
 
 class Quantity(NamedTuple):
@@ -45,35 +46,7 @@ QUANTITIES: Final[dict[str, Quantity]] = {
 TIME_UNITS: Final = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "us": 1e-6}
 """Units of a time axis and their factors to s."""
 
-_SIGNS: Final = str.maketrans(
-    {"²": "2", "⁻": "-", "¹": "1", "μ": "µ", "·": " ", "*": " ", "^": None}
-)
-"""Signs that files write in several ways; `μ` is the Greek letter, `µ` the micro sign."""
-
-_NAMES: Final = {
-    "Pa": ("Pascal", "Pascals", "pascal", "pascals"),
-    "N": ("Newton", "Newtons", "newton", "newtons"),
-    "V": ("Volt", "Volts", "volt", "volts"),
-    "A": ("Ampere", "Amperes", "Amps", "ampere", "amperes", "amps"),
-    "rpm": ("U/min",),
-}
-"""Units in words, as some recorders write them."""
-
-_SPELLINGS: Final[dict[str, str]] = {
-    **{unit.translate(_SIGNS): unit for unit in QUANTITIES},
-    **dict.fromkeys(("m s-2", "m/s/s", "m/(s2)"), "m/s²"),
-    "mm s-2": "mm/s²",
-    "m s-1": "m/s",
-    "mm s-1": "mm/s",
-    "uPa": "µPa",
-    "um": "µm",
-    "Nm": "N m",
-    **dict.fromkeys(("RPM", "1/min", "r/min", "min-1"), "rpm"),
-    "rad s-1": "rad/s",
-    **dict.fromkeys(("deg", "degree", "degrees"), "°"),
-    "-": "1",
-    **{name: unit for unit, names in _NAMES.items() for name in names},
-}
+_BY_SPELLING: Final = {plain_unit(unit): known for unit, known in QUANTITIES.items()}
 
 
 def quantity(unit: str) -> Quantity:
@@ -96,8 +69,7 @@ def quantity(unit: str) -> Quantity:
 
 def find_quantity(unit: str) -> Quantity | None:
     """What a unit means, or None where it is not in the list."""
-    plain = " ".join(unit.replace("**", "^").translate(_SIGNS).split())
-    return QUANTITIES[_SPELLINGS[plain]] if plain in _SPELLINGS else None
+    return _BY_SPELLING.get(plain_unit(unit))
 
 
 def time_factor(unit: str) -> float:

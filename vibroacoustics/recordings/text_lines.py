@@ -1,6 +1,5 @@
 """Lines of a text file: of any Unicode, its unfinished end, the line with a value."""
 
-import codecs
 import os
 import tempfile
 from collections.abc import Callable, Iterator
@@ -8,18 +7,18 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO, Final
 
+from ..base.csv_form import narrow_text, wide_encoding
 from ..base.errors import StorageError
 
 MAXIMUM_LINE_BYTES: Final = 2**16
 _PIECE: Final = 2**20
-_UTF_16: Final = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 
 
 @contextmanager
 def opened(path: Path) -> Iterator[BinaryIO]:
     """A text file as bytes of which a line feed is one; UTF-16 is put into UTF-8."""
     with path.open("rb") as file:
-        encoding = _wide_encoding(file.read(64))
+        encoding = wide_encoding(file.read(64))
         if encoding is None:
             file.seek(0)
             yield file
@@ -29,17 +28,6 @@ def opened(path: Path) -> Iterator[BinaryIO]:
             narrow.write(piece.encode())
         narrow.seek(0)
         yield narrow
-
-
-def _wide_encoding(begin: bytes) -> str | None:
-    """UTF-16 by its mark, or by the zeros in every second byte of what is in ASCII."""
-    if begin[:2] in _UTF_16:
-        return _UTF_16[begin[:2]]
-    if len(begin) >= 4 and not any(begin[1::2]) and all(begin[::2]):
-        return "utf-16-le"
-    if len(begin) >= 4 and not any(begin[::2]) and all(begin[1::2]):
-        return "utf-16-be"
-    return None
 
 
 def lines(file: BinaryIO) -> Iterator[bytes]:
@@ -60,10 +48,7 @@ def lines(file: BinaryIO) -> Iterator[bytes]:
 
 def text(line: bytes) -> str:
     """A line as text."""
-    try:
-        return line.decode("utf-8-sig")
-    except UnicodeDecodeError:  # as Western European spreadsheets write m/s²
-        return line.decode("latin-1")
+    return narrow_text(line)
 
 
 def last_lines(file: BinaryIO, begin: int) -> tuple[list[tuple[int, bytes]], bool]:

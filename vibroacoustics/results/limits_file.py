@@ -1,22 +1,27 @@
 """Limits from a CSV file, a line each: of orders, or of all that `compare` knows."""
 
-import csv
 from collections.abc import Iterator, Mapping, Sequence
-from math import inf
+from math import inf, isnan
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
-from ..base.errors import ParameterError, StorageError
-from ..base.regular_file import read_text
+from ..base.column_file import read_layouts
+from ..base.column_head import Layout
 from .figure_limit import HIGHEST, FigureLimit
 from .limit import Limit
 
-REQUIRED: Final = ("channel", "order", "limit", "unit")
 SPEEDS: Final = {"speed_from_rpm": 0.0, "speed_to_rpm": inf}
 """Columns that may be missing or empty, and what then holds."""
-OF_FIGURES: Final = ("channel", "order", "band_hz", "criterion", "side", *SPEEDS)
-"""Columns that a file for `compare` may have beside limit and unit."""
-COMMENT: Final = "#"
+OF_ORDERS: Final = Layout(
+    ("order", "limit"), tuple(SPEEDS), texts=("channel", "unit"), blank=tuple(SPEEDS)
+)
+OF_FIGURES: Final = Layout(
+    ("limit",),
+    ("order", "band_hz", *SPEEDS),
+    ("channel", "criterion", "side"),
+    texts=("unit",),
+    blank=("order", "band_hz", *SPEEDS),
+)
 MAXIMUM_BYTES: Final = 1_000_000
 
 
@@ -37,9 +42,8 @@ def read_limits(path: str | Path) -> tuple[Limit, ...]:
     Raises
     ------
     ParameterError
-        A column is missing or unknown, or a value is outside its range.
-    StorageError
-        The file cannot be read, is no text, or is larger than a megabyte.
+        The file cannot be read, is larger than a megabyte, lacks a column or has an unknown one,
+        or a value is outside its range.
 
     Examples
     --------
@@ -49,11 +53,7 @@ def read_limits(path: str | Path) -> tuple[Limit, ...]:
     >>> limits[1].channel, limits[1].order, limits[1].limit, limits[1].unit
     ('ring', 2.0, 0.5, 'm/s²')
     """
-    return tuple(
-        _limit(_fields(header, row, where), where)
-        for header, number, row in _lines(path, REQUIRED, tuple(SPEEDS))
-        for where in [f"{path}: line {number}"]
-    )
+    return tuple(_limit(fields, origin) for fields, origin in _lines(path, OF_ORDERS))
 
 
 def read_figure_limits(path: str | Path) -> tuple[tuple[Limit, ...], tuple[FigureLimit, ...]]:
@@ -73,9 +73,8 @@ def read_figure_limits(path: str | Path) -> tuple[tuple[Limit, ...], tuple[Figur
     Raises
     ------
     ParameterError
-        A column is missing or unknown, or a value is outside its range.
-    StorageError
-        The file cannot be read, is no text, or is larger than a megabyte.
+        The file cannot be read, is larger than a megabyte, lacks a column or has an unknown one,
+        or a value is outside its range.
 
     Examples
     --------
@@ -86,108 +85,49 @@ def read_figure_limits(path: str | Path) -> tuple[tuple[Limit, ...], tuple[Figur
     (1.0, 'band 500 Hz of front')
     """
     orders, figures = [], []
-    for header, number, row in _lines(path, ("limit", "unit"), OF_FIGURES):
-        where = f"{path}: line {number}"
-        fields = _fields(header, row, where)
-        if fields.get("order") and fields.get("side", "") in ("", HIGHEST):
-            _figure_limit(fields, where)  # refuses a band or a criterion beside the order
-            orders.append(_limit(fields, where))
+    for fields, origin in _lines(path, OF_FIGURES):
+        if "order" in fields and fields.get("side", HIGHEST) == HIGHEST:
+            _figure_limit(fields, origin)  # refuses a band or a criterion beside the order
+            orders.append(_limit(fields, origin))
         else:
-            figures.append(_figure_limit(fields, where))
+            figures.append(_figure_limit(fields, origin))
     return tuple(orders), tuple(figures)
 
 
-def _text(path: Path) -> str:
-    try:
-        return read_text(path, MAXIMUM_BYTES)
-    except FileNotFoundError:
-        raise StorageError(f"{path}: no such file") from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "is no text in UTF-8"
-        raise StorageError(f"{path}: cannot be read: {reason}") from None
+def _lines(path: str | Path, layout: Layout) -> Iterator[tuple[dict[str, Any], str]]:
+    """Values of each limit by column, without blank cells, and its line."""
+    columns = read_layouts(path, [layout], MAXIMUM_BYTES)
+    values: dict[str, Sequence[Any]] = dict(columns.texts)
+    values |= {n: [None if isnan(v) else v for v in each] for n, each in columns.numbers.items()}
+    for row, cells in enumerate(zip(*values.values(), strict=True)):
+        named = zip(values, cells, strict=True)
+        yield {name: cell for name, cell in named if cell not in ("", None)}, columns.origin(row)
 
 
-def _rows(text: str, path: str | Path) -> Iterator[tuple[int, list[str]]]:
-    """Number and fields of each line that is neither empty nor a comment."""
-    for number, line in enumerate(text.splitlines(), 1):
-        if line.strip() and not line.startswith(COMMENT):
-            try:
-                (fields,) = csv.reader([line], strict=True)
-            except csv.Error as error:
-                raise ParameterError(f"{path}: line {number}: cannot be split: {error}") from None
-            yield number, [field.strip() for field in fields]
-
-
-def _lines(
-    path: str | Path, required: Sequence[str], optional: Sequence[str]
-) -> Iterator[tuple[list[str], int, list[str]]]:
-    """Header, number and fields of every limit of a file, at least one."""
-    rows = _rows(_text(Path(path)), path)
-    line, header = next(rows, (0, []))
-    if not header:
-        raise ParameterError(f"{path}: is empty: must begin with {','.join(required)}")
-    _check_header(header, f"{path}: line {line}", required, optional)
-    limits = [(header, number, row) for number, row in rows]
-    if not limits:
-        raise ParameterError(f"{path}: holds no limit below its header")
-    yield from limits
-
-
-def _check_header(
-    header: Sequence[str], where: str, required: Sequence[str], optional: Sequence[str]
-) -> None:
-    allowed = f"must be {','.join(required)} and may be {','.join(optional)}, each once"
-    for name in header:
-        if name not in (*required, *optional) or header.count(name) > 1:
-            raise ParameterError(f"{where}: column {name!r}: the header {allowed}")
-    for name in required:
-        if name not in header:
-            raise ParameterError(f"{where}: column {name!r} is missing: the header {allowed}")
-
-
-def _fields(header: Sequence[str], row: Sequence[str], where: str) -> dict[str, str]:
-    if len(row) != len(header):
-        raise ParameterError(f"{where}: has {len(row)} fields, the header {len(header)}")
-    return dict(zip(header, row, strict=True))
-
-
-def _limit(fields: Mapping[str, str], where: str) -> Limit:
+def _limit(fields: Mapping[str, Any], origin: str) -> Limit:
     return Limit(
-        fields["channel"],
-        _number(fields, "order", where),
-        _number(fields, "limit", where),
-        fields["unit"],
-        **_speeds(fields, where),
-        origin=where,
-    )
-
-
-def _figure_limit(fields: Mapping[str, str], where: str) -> FigureLimit:
-    order, band_hz = (
-        _number(fields, name, where) if fields.get(name) else None for name in ("order", "band_hz")
-    )
-    return FigureLimit(
-        _number(fields, "limit", where),
-        fields["unit"],
         fields.get("channel", ""),
-        order,
-        band_hz,
-        criterion=fields.get("criterion", ""),
-        side=fields.get("side") or HIGHEST,
-        **_speeds(fields, where),
-        origin=where,
+        fields["order"],
+        fields["limit"],
+        fields.get("unit", ""),
+        **_speeds(fields),
+        origin=origin,
     )
 
 
-def _speeds(fields: Mapping[str, str], where: str) -> dict[str, float]:
-    return {
-        name: _number(fields, name, where) if fields.get(name) else absent
-        for name, absent in SPEEDS.items()
-    }
+def _figure_limit(fields: Mapping[str, Any], origin: str) -> FigureLimit:
+    return FigureLimit(
+        fields["limit"],
+        fields.get("unit", ""),
+        fields.get("channel", ""),
+        fields.get("order"),
+        fields.get("band_hz"),
+        criterion=fields.get("criterion", ""),
+        side=fields.get("side", HIGHEST),
+        **_speeds(fields),
+        origin=origin,
+    )
 
 
-def _number(fields: Mapping[str, str], name: str, where: str) -> float:
-    try:
-        return float(fields[name])
-    except ValueError:
-        raise ParameterError(f"{where}: {name} = {fields[name]!r}: must be a number") from None
+def _speeds(fields: Mapping[str, Any]) -> dict[str, float]:
+    return {name: fields.get(name, absent) for name, absent in SPEEDS.items()}

@@ -1,17 +1,24 @@
 """Published values of a study, from CSV files."""
 
-import csv
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
+from ..base.column_file import read_layouts
+from ..base.column_head import Layout
+from ..base.csv_form import number_form
+from ..base.csv_rows import read_lines
 from ..base.errors import ParameterError
-from ..base.regular_file import read_text
 from .evidence import Evidence
 from .reader import Reader
 from .toml_files import beside
 
 MAXIMUM_BYTES: Final = 1_000_000
+FORCES: Final = Layout(
+    ("speed_rpm", "force_1x_n", "deviation_n"),
+    texts=("part", "source"),
+    optional_texts=("proportional_to",),
+)
 
 
 def take_evidence(content: dict[str, Any], reader: Reader) -> dict[str, Any]:
@@ -38,43 +45,27 @@ def take_evidence(content: dict[str, Any], reader: Reader) -> dict[str, Any]:
 
 
 def _rows(path: Path) -> tuple[dict[str, Any], ...]:
-    """Rows of a CSV file with a head; lines that begin with # do not count."""
-    _, lines = _remarks_and_rows(path)
-    table = csv.DictReader(lines)
-    return tuple({key: _number_or_text(cell) for key, cell in row.items()} for row in table)
-
-
-def _remarks_and_rows(path: Path) -> tuple[list[str], list[str]]:
-    try:
-        lines = read_text(path, MAXIMUM_BYTES).splitlines()
-    except OSError as error:
-        raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
-    except ValueError as error:  # no UTF-8, no file name
-        raise ParameterError(f"{path}: cannot be read: {error}") from None
-    remarks = [line for line in lines if line.startswith("#")]
-    return remarks, [line for line in lines if line.strip() and not line.startswith("#")]
-
-
-def _number_or_text(cell: Any) -> Any:
-    try:
-        return float(cell)
-    except (TypeError, ValueError):
-        return cell
+    """Rows of a file of published forces."""
+    columns = read_layouts(path, [FORCES], MAXIMUM_BYTES)
+    values = columns.texts | {name: each.tolist() for name, each in columns.numbers.items()}
+    return tuple(dict(zip(values, row, strict=True)) for row in zip(*values.values(), strict=True))
 
 
 def read_published_table(path: Path) -> dict[str, Any]:
     """A published table of scores: `criterion,OPTION,…`, one line a criterion, last the sums."""
-    remarks, lines = _remarks_and_rows(path)
-    rows = list(csv.reader(lines))
+    lines = read_lines(path, MAXIMUM_BYTES)
+    separator = max(lines.separators, key=lines.texts[0].count)
+    rows = lines.rows(separator)
+    cells = [cell for row in rows[1:] for cell in row[1:]]
     try:
-        options = tuple(rows[0][1:])
-        numbers = [tuple(float(cell) for cell in row[1:]) for row in rows[1:]]
+        options, form = tuple(rows[0][1:]), number_form(cells, separator)
+        numbers = [tuple(form.numbers(row[1:]).tolist()) for row in rows[1:]]
         if len(rows) < 3 or any(len(row) != len(options) for row in numbers):
             raise ValueError("rows of different length")
     except (ValueError, IndexError) as error:
-        raise ParameterError(f"{path}: is no table of scores: {error}") from None
+        raise ParameterError(f"{path}: is no table of scores: {error.args[0]}") from None
     return {
-        "source": " ".join(line.lstrip("# ") for line in remarks),
+        "source": " ".join(lines.comments),
         "options": options,
         "criteria": tuple(row[0] for row in rows[1:-1]),
         "scores": tuple(zip(*numbers[:-1], strict=True)),

@@ -135,7 +135,7 @@ def _study_of(written: Written) -> Study:
     ranges, held = ranges_of(machine, machine_records, content, machine_reader)
     content.update(ranges=ranges, held_ranges=held)
     study = validated(Study, content, reader).remember(written, study_of)
-    warn_of_doubts(machine, machine_reader, reader)
+    warn_of_doubts(machine, machine_reader, reader, study.operation.speed_rpm)
     for redesigned, redesigned_reader, _ in redesigns.values():
         warn_of_doubts(redesigned, redesigned_reader)
     warn_of_contradictions(study)

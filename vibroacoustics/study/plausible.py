@@ -1,7 +1,7 @@
 """Values that are allowed and hardly right: a decimal point or a unit may be wrong."""
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final
 
 from ..base.units import UNITS, Unit, split_key
@@ -15,7 +15,12 @@ MOST_LINES: Final = 12
 """Doubts that are printed; the others are counted."""
 
 
-def warn_of_doubts(machine: Machine, of_machine: Reader, of_study: Reader | None = None) -> None:
+def warn_of_doubts(
+    machine: Machine,
+    of_machine: Reader,
+    of_study: Reader | None = None,
+    speeds_rpm: Sequence[float] = (),
+) -> None:
     """Warn of values that are far from usual, with the unit that is likely.
 
     Parameters
@@ -23,11 +28,13 @@ def warn_of_doubts(machine: Machine, of_machine: Reader, of_study: Reader | None
     machine : to which the values belong, nominal or as an option changes it
     of_machine : reader of its file
     of_study : reader of the study, of which some tables are judged
+    speeds_rpm : of the study, against which the machine is judged
     """
     lines = [*_doubts(machine, of_machine, tuple(type(machine).model_fields))]
     lines += [f"{of_machine.path}: {words}" for words in machine.doubts()]
     if of_study is not None:
         lines += _doubts(machine, of_study, OF_A_STUDY)
+        lines += [f"{of_study.path}: {words}" for words in machine.doubts_at(speeds_rpm)]
     for line in lines[:MOST_LINES]:
         warnings.warn(line, stacklevel=3)
     if len(lines) > MOST_LINES:

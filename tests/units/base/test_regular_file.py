@@ -18,7 +18,7 @@ from vibroacoustics.study.toml_files import read_toml
 READERS = {
     "study": (read_toml, ParameterError),
     "scores": (read_published_table, ParameterError),
-    "limits": (read_limits, StorageError),
+    "limits": (read_limits, ParameterError),
     "results": (read_checked, StorageError),
     "plugin": (load_plugin, PluginError),
     "mesh": (lambda path: read_mesh(path, 1.0), ParameterError),

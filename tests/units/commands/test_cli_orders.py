@@ -195,7 +195,7 @@ def test_orders_and_comparison_with_limits(recording: Path, tmp_path: Path) -> N
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("shell,1,x,N", "limits.csv: line 2: limit = 'x': must be a number"),
+        ("shell,1,x,N", "limits.csv: line 2: limit = x: must be a finite number"),
         ("shell,1,60,dB", "limits.csv: line 2: unit = 'dB': channel 'shell' is in m/s²"),
         ("shel,1,1,N", "limits.csv: line 2: channel = 'shel', in N: must be one of shell"),
     ],

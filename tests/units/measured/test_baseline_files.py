@@ -199,7 +199,7 @@ def test_between_speeds_level_and_phase_go_straight(tmp_path, study):
 
 HEAD = "microphone,speed_rpm,order,level_db\n"
 WRONG = [
-    ({"a.csv": "microphone,rpm\n"}, {}, "a.csv: header must be microphone,speed_rpm,band_hz,"),
+    ({"a.csv": "microphone,rpm\n"}, {}, "a.csv: rpm: unknown column; speed_rpm, band_hz, level"),
     ({"a.csv": HEAD + "front_1m,930,1,60\nfront_1m,930,1,6"}, {}, "order 1 is there twice"),
     ({"a.csv": HEAD + "front_1m,930,0,60"}, {}, "order = 0: must be above 0"),
     ({"a.csv": HEAD + "front_1m,930,1,60", "b.csv": HEAD + "front_1m,930,1,60"}, {},

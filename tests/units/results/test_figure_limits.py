@@ -92,7 +92,7 @@ def test_file_of_all_kinds(tmp_path):
         ("front,,500,,60,Pa,", "line 2: unit = 'Pa': of a band must be one of dB"),
         ("front,,,,60,N,", "line 2: unit = 'N': of a total must be one of dB, dB"),
         ("front,,-5,,60,dB,", "line 2: band_hz = -5: must be a number above 0"),
-        ("front,,,,x,dB,", "line 2: limit = 'x': must be a number"),
+        ("front,,,,x,dB,", "line 2: limit = x: must be a finite number"),
         (",,500,,60,dB,", "line 2: channel = '': must be a channel's name"),
         ("front,,,mass,60,kg,", "line 2: channel = 'front': must be"),
     ],

@@ -21,7 +21,7 @@ from vibroacoustics import (
     plot,
     read_limits,
 )
-from vibroacoustics.base.errors import ParameterError, StorageError
+from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.report.limit_tables import limits_data, limits_words, order_limits_table
 from vibroacoustics.report.tables import to_csv, to_text
 from vibroacoustics.results.order_limits import NOT_CHECKED, with_limits
@@ -77,24 +77,24 @@ def test_a_file_with_comments_speeds_and_a_byte_order_mark(tmp_path):
 
 
 BAD_FILES = {
-    "empty": (b"# nothing\n\n", ["limits.csv: is empty", HEADER]),
-    "header only": (HEADER.encode(), ["holds no limit"]),
-    "no unit": (b"channel,order,limit\nshell,1,1\n", ["line 1: column 'unit' is missing", HEADER]),
-    "unknown column": (b"channel,order,limit,unit,peak\n", ["line 1: column 'peak'", HEADER]),
-    "column twice": (b"channel,order,limit,unit,unit\n", ["line 1: column 'unit'", "once"]),
-    "no text": (b"\xff\xfe", ["limits.csv: cannot be read: is no text in UTF-8"]),
+    "empty": (b"# nothing\n\n", ["limits.csv: is empty"]),
+    "header only": (HEADER.encode(), ["has no rows under its head"]),
+    "no unit": (b"channel,order,limit\nshell,1,1\n", ["unit is missing", "found: channel,"]),
+    "unknown column": (b"channel,order,limit,unit,peak\n", ["peak: unknown column", "may have"]),
+    "column twice": (b"channel,order,limit,unit,unit\n", ["column unit and unit is there twice"]),
+    "no text": (b"chan\0nel", ["limits.csv: cannot be read: is no text"]),
     "too large": (b"#" * 1_000_001, ["limits.csv: cannot be read: larger than 1000000 bytes"]),
     "quote": (b'channel,order,limit,unit\n"shell,1,1,N\n', ["line 2: cannot be split"]),
 }  # fmt: skip
 BAD_LINES = {
-    "shell,1,1": ["has 3 fields, the header 4"],
+    "shell,1,1": ["3 cells, the head has 4"],
     ",1,1,N": ["channel = ''", "must be a channel's name, or *"],
-    "shell,x,1,N": ["order = 'x': must be a number"],
+    "shell,x,1,N": ["order = x: must be a finite number"],
     "shell,0,1,N": ["order = 0: must be a number above 0"],
-    "shell,inf,1,N": ["order = inf: must be a number above 0"],
-    "shell,1,,N": ["limit = '': must be a number"],
+    "shell,inf,1,N": ["order = inf: must be a finite number"],
+    "shell,1,,N": ["limit = nothing: must be a finite number"],
     "shell,1,0,N": ["limit = 0: must be a number above 0, in N"],
-    "shell,1,nan,dB": ["limit = nan: must be a number, in dB"],
+    "shell,1,nan,dB": ["limit = nan: must be a finite number"],
     "shell,1,1,psi": ["unit = 'psi': must be one of dB (re 20 µPa), Pa"],
     "shell,1,1,dB(A)": ["unit = 'dB(A)': must be one of dB (re 20 µPa), Pa"],
 }
@@ -104,7 +104,7 @@ BAD_LINES = {
 def test_bad_files(name, tmp_path):
     content, words = BAD_FILES[name]
     (tmp_path / "limits.csv").write_bytes(content)
-    with pytest.raises((ParameterError, StorageError)) as refusal:
+    with pytest.raises(ParameterError) as refusal:
         read_limits(tmp_path / "limits.csv")
     assert all(word in str(refusal.value) for word in words), refusal.value
 
@@ -123,7 +123,7 @@ def test_bad_lines(line, tmp_path):
     [
         ("-1,", "speed_from_rpm = -1: must be a number of rpm, at least 0"),
         ("3000,2000", "speed_to_rpm = 2000: must be at least speed_from_rpm, 3000 rpm"),
-        (",nan", "speed_to_rpm = nan: must be at least"),
+        (",nan", "speed_to_rpm = nan: must be a finite number"),
     ],
 )
 def test_bad_speeds(speeds, words, tmp_path):
@@ -134,7 +134,7 @@ def test_bad_speeds(speeds, words, tmp_path):
 
 
 def test_missing_file(tmp_path):
-    with pytest.raises(StorageError, match=r"none\.csv: no such file"):
+    with pytest.raises(ParameterError, match=r"none\.csv: no such file"):
         read_limits(tmp_path / "none.csv")
 
 

@@ -28,9 +28,9 @@ def test_the_thesis_study_names_what_is_published() -> None:
         ("evidence = 3\n", "", "evidence = 3: must be a table"),
         ("[evidence]\nweights = 'rows.csv'\n", "", "evidence.weights: unknown key; allowed forces"),
         ("[evidence]\nforces = 3\n", "", "evidence.forces = 3: must be a file name"),
-        ("[evidence]\nforces = 'absent.csv'\n", "", "absent.csv: cannot be read"),
-        ("[evidence]\nforces = 'rows.csv'\n", "part,speed_rpm\nring,2900\n", "evidence.forces"),
-        ("[evidence]\nforces = 'rows.csv'\n", "part\nring,2\n", "evidence.forces"),
+        ("[evidence]\nforces = 'absent.csv'\n", "", "absent.csv: no such file"),
+        ("[evidence]\nforces = 'rows.csv'\n", "part,speed_rpm\nring,2900\n", "force_1x_n"),
+        ("[evidence]\nforces = 'rows.csv'\n", "part\nring,2\n", "columns found: part"),
         (
             "[evidence]\nforces = 'rows.csv'\n",
             "part,speed_rpm,force_1x_n,deviation_n,source\nring,-1,1,1,thesis\n",

@@ -1,14 +1,27 @@
 """Baselines from spectra of sound pressure: UFF datasets 58 and 58b, and CSV with units."""
 
+import re
+from pathlib import Path
+from typing import Final
+
 import numpy as np
 
 from ...base.arrays import Array
+from ...base.column_head import HEAD_LINES
+from ...base.csv_rows import read_lines
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ...recordings.functions import read_functions
 from ...recordings.measured_function import MeasuredFunction
 from ...study.baseline_files import BaselineContent, BaselineFile, BaselineReader
 from ..narrow_spectra import NarrowSpectrum, of_spectra
+
+_HEAD: Final = re.compile(r'\s*"?(frequency|f)\b(?!.*microphone)', re.IGNORECASE)
+
+
+def holds_functions(path: Path) -> bool:
+    """Whether the columns of a CSV file are functions of its first one, the frequency."""
+    return any(_HEAD.match(line) for line in read_lines(path).texts[:HEAD_LINES])
 
 
 def read_spectra(file: BaselineFile) -> BaselineContent:

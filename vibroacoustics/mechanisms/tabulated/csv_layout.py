@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array, ComplexArray
-from ...base.column_file import Columns, column_names, read_columns
+from ...base.column_file import Columns, read_layouts
+from ...base.column_head import Layout
 from ...base.csv_text import csv_bytes
 from ...base.errors import ParameterError
 from ...base.vocabulary import REFERENCE_OPTION
@@ -26,6 +27,11 @@ HIGHEST_ORDER: Final = 10_000
 ONE_SOURCE: Final = "table"
 """Name of the force where a file names no sources."""
 
+LAYOUTS: Final = (
+    Layout(("speed_rpm", "crank_angle_rad", *VALUES), optional_texts=("source",)),
+    Layout(("speed_rpm", "order", *VALUES, *PHASES), optional_texts=("source",)),
+)
+
 _Groups = dict[tuple[float, str], list[int]]
 
 
@@ -37,14 +43,8 @@ def read_csv(path: Path) -> Spectra:
     ParameterError
         The file cannot be read, lacks a column, or a row is refused.
     """
-    names = column_names(path)
-    if ("order" in names) == ("crank_angle_rad" in names):
-        raise ParameterError(f"{path}: needs a column crank_angle_deg or a column order")
-    if "order" in names:
-        columns = read_columns(path, ("speed_rpm", "order", *VALUES, *PHASES), texts=("source",))
-        return _assembled(columns, _of_orders)
-    columns = read_columns(path, ("speed_rpm", "crank_angle_rad", *VALUES), texts=("source",))
-    return _assembled(columns, _of_angles)
+    columns = read_layouts(path, LAYOUTS)
+    return _assembled(columns, _of_orders if "order" in columns.numbers else _of_angles)
 
 
 def _assembled(

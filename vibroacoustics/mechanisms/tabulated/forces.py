@@ -15,6 +15,8 @@ from .spectra import Spectra, packed, unpacked
 
 KEPT_TABLES: Final = 16
 """Tables that are kept as arrays."""
+SPEED_RATIO: Final = 2.0
+"""Largest usual ratio of the speeds between which, or from which, forces are computed."""
 
 
 class Forces(FileTable):
@@ -67,6 +69,21 @@ class Forces(FileTable):
             one = len(self.speed_rpm) == 1
             hint = '; scaling = "inertia" lets forces grow as the speed squared' if one else ""
             raise ParameterError(f"{self.file}: {error}{hint}") from None
+
+    def doubt_at(self, speed_rpm: float) -> str:
+        """What is doubtful at a speed: how far the table's speeds are; empty where nothing."""
+        below = [speed for speed in self.speed_rpm if speed <= speed_rpm]
+        above = [speed for speed in self.speed_rpm if speed >= speed_rpm]
+        if self.scaling is not None:
+            near = max(self.speed_rpm[0], speed_rpm) / min(self.speed_rpm[0], speed_rpm)
+            words = f"{self.file} is scaled from {self.speed_rpm[0]:g} rpm"
+        elif below and above:
+            near = above[0] / below[-1]
+            words = f"{self.file} is interpolated between {below[-1]:g} and {above[0]:g} rpm"
+        else:
+            near = np.inf
+            words = f"{self.file} has {self.speed_rpm[0]:g} to {self.speed_rpm[-1]:g} rpm"
+        return f"{words}; usual is a ratio of {SPEED_RATIO:g} at most" if near > SPEED_RATIO else ""
 
 
 def _read(path: Path, recorded_speed_rpm: Any) -> Spectra:

@@ -1,6 +1,6 @@
 """A machine described by a table of its forces, with what options may work on."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import ClassVar, Final
 
 import numpy as np
@@ -10,7 +10,7 @@ from ...base.parameters import Contradictions, Parameters
 from ...base.registry import register
 from ...base.units import shaft_frequency_hz
 from ...machine.machine import PART_MASS, Machine
-from ...machine.usual import doubt_of_forces
+from ...machine.usual import doubt_of_forces, doubt_of_mass
 from ...mechanics.capabilities import (
     HEIGHT,
     BalancePlanes,
@@ -70,13 +70,27 @@ class TabulatedMachine(Machine):
             yield "sliding_mass: needs the table counterweights"
 
     def doubts(self) -> Iterable[str]:
-        """Forces at the table's highest speed, against mass and speed of the machine."""
+        """Forces at the table's highest speed, against masses and speed of the machine."""
         speed_rpm = max(self.forces.speed_rpm)
         first = self.forces.at(speed_rpm).sum(axis=0)[:3, 1]
         force = float(np.linalg.norm(first))
         speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
         if words := doubt_of_forces(self.scale.mass_kg, force, speed):
             yield f"forces.file = {self.forces.file}: {words}"
+            return  # one cause, one line
+        along = float(np.abs(np.dot(self.crank_frame.stroke, first)))
+        for name, part in (("sliding_mass", self.sliding_mass), ("oldham", self.oldham)):
+            if part is not None:
+                mass = part.mass_kg, part.amplitude_m
+                if words := doubt_of_mass(name, along, *mass, speed_rpm):
+                    yield f"forces.file = {self.forces.file}: {words}"
+
+    def doubts_at(self, speeds_rpm: Sequence[float]) -> Iterable[str]:
+        """Speeds of the table far from those of a study, and doubts of every machine."""
+        for speed_rpm in speeds_rpm:
+            if words := self.forces.doubt_at(speed_rpm):
+                yield f"operation.speed_rpm = {speed_rpm:g} rpm: forces.file = {words}"
+        yield from super().doubts_at(speeds_rpm)
 
     @property
     def crank_frame(self) -> CrankFrame:

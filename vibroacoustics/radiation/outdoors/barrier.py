@@ -68,8 +68,8 @@ class Barrier:
         visible = points[..., 2] + share * (receiver[2] - points[..., 2]) > self.top_m
         of_direct = diffracted(wavenumber, direct, over)
         free = np.exp(-1j * wavenumber * direct) / (4.0 * np.pi * direct)
-        seen = np.where(visible, free - of_direct, of_direct)
-        return np.asarray(seen + diffracted(wavenumber, reflected, over))
+        over_edge = np.where(visible, free - of_direct, of_direct)
+        return np.asarray(over_edge + diffracted(wavenumber, reflected, over))
 
     def _gap(self, points: Array) -> Array:
         return np.asarray(np.abs(points[..., self.axis] - self.position_m))

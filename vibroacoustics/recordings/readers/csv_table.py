@@ -102,8 +102,10 @@ def _is_cut(before: Sequence[str], last: Sequence[str]) -> bool:
 
 
 def _split(line: bytes, head: Head) -> list[str]:
-    plain = text(line).strip("\r\n")
-    return (plain.replace(",", ".") if head.has_decimal_comma else plain).split(head.separator)
+    try:
+        return head.cells(text(line))
+    except ValueError as error:
+        raise StorageError(f"row {text(line)[:60]!r}: {error}") from None
 
 
 def _field(line: bytes, table: _Table, column: int) -> str:
@@ -194,19 +196,24 @@ def _row_texts(table: _Table) -> Iterator[str]:
     """Rows with a decimal point, all of the same number of columns."""
     table.file.seek(table.begin)
     at, row = table.begin, 0
-    separators = len(table.head.names) - 1
+    separator, separators = table.head.separator, len(table.head.names) - 1
+    decimal = table.head.form.decimal
+    other = {",": ".", ".": "," if separator != "," else "\0"}[decimal]
     while at < table.end and (line := table.file.readline(MAXIMUM_LINE_BYTES)):
         at += len(line)
         row += 1
         plain = line.decode("latin-1")
         if not plain.strip():
             continue
-        if plain.count(table.head.separator) != separators:
-            raise ValueError(
-                f"row {row} has {plain.count(table.head.separator) + 1} columns, not "
-                f"{separators + 1}"
-            )
-        yield plain.replace(",", ".") if table.head.has_decimal_comma else plain
+        is_plain = table.head.is_plain and plain.count(separator) == separators
+        if not is_plain or '"' in plain or other in plain:
+            cells = table.head.cells(text(line))
+            if len(cells) != separators + 1:
+                raise ValueError(f"row {row} has {len(cells)} columns, not {separators + 1}")
+            plain = separator.join(cells)
+        elif decimal == ",":
+            plain = plain.replace(",", ".")
+        yield plain
 
 
 register(Reader("csv", (".csv", ".txt"), "CSV", read))

@@ -1,0 +1,75 @@
+"""Mounts and springs against the shaft frequency, near which they amplify in place of isolating."""
+
+from collections.abc import Iterator, Sequence
+from math import pi, sqrt
+from typing import Final
+
+import numpy as np
+
+from ..base.units import shaft_frequency_hz
+from .feet import Foot
+from .mount_stiffness import MountStiffness
+from .mounts import Mounts
+
+ISOLATING: Final = sqrt(2.0)
+"""Ratio of shaft to natural frequency above which mounts transmit less than without them."""
+
+
+def natural_frequency_hz(stiffness_n_per_m: float, mass_kg: float) -> float:
+    """Natural frequency of a mass on springs to a rigid floor, sqrt(k/m)/2π.
+
+    Parameters
+    ----------
+    stiffness_n_per_m : of all springs
+    mass_kg : that they carry
+    """
+    return sqrt(stiffness_n_per_m / mass_kg) / (2.0 * pi)
+
+
+def total_stiffness(
+    mounts: Mounts, feet: Sequence[Foot], stiffness: MountStiffness | None, frequency_hz: float
+) -> tuple[float, float]:
+    """Lateral and vertical stiffness of all mounts at a frequency, N/m.
+
+    Parameters
+    ----------
+    mounts : that feet have without a stiffness of their own; four where there are no feet
+    feet : of the machine
+    stiffness : over frequency, of mounts without a stiffness of their own
+    frequency_hz : at which they count
+    """
+    total = np.zeros(2)
+    for foot in feet or [Foot(x_m=0.0, y_m=0.0)] * 4:
+        table = foot.stiffness or (None if foot.has_constant_values else stiffness)
+        if table is not None:
+            total += table.at(np.array(frequency_hz)).real[1:]
+        else:
+            total += (
+                foot.lateral_stiffness_n_per_m or mounts.lateral_stiffness_n_per_m,
+                foot.vertical_stiffness_n_per_m or mounts.vertical_stiffness_n_per_m,
+            )
+    return float(total[0]), float(total[1])
+
+
+def doubts_of_isolation(
+    name: str, stiffness_n_per_m: tuple[float, float], mass_kg: float, speed_rpm: float
+) -> Iterator[str]:
+    """Mounts that do not isolate the order 1 of a speed, a line for each direction.
+
+    Parameters
+    ----------
+    name : of the table of mounts
+    stiffness_n_per_m : of all mounts, lateral and vertical
+    mass_kg : that they carry
+    speed_rpm : lowest one of the study
+    """
+    shaft = shaft_frequency_hz(speed_rpm)
+    for axis, stiffness in zip(("lateral", "vertical"), stiffness_n_per_m, strict=True):
+        natural = natural_frequency_hz(stiffness, mass_kg)
+        if shaft < ISOLATING * natural:
+            yield (
+                f"operation.speed_rpm = {speed_rpm:g} rpm is 1x at {shaft:.3g} Hz: {name}, "
+                f"{axis}, {stiffness:.3g} N/m in all under {mass_kg:.3g} kg, resonates at "
+                f"{natural:.3g} Hz; usual is 1x above {ISOLATING * natural:.3g} Hz, or order 1 is "
+                "not isolated"
+            )
