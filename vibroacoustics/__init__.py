@@ -31,6 +31,8 @@ also of a machine alone, from `load_machine(path)`.
 `read_functions(path)` reads frequency responses and spectra, each a `MeasuredFunction` between two
 `Node`s; `export_functions(functions, path)` writes them as UFF or CSV.
 `analyse_orders(recording, settings)` finds orders and levels; settings are an `OrderAnalysis`.
+`analyse_campaign(files, ...)` does so for many files, each a `CampaignRun`, with mean and scatter;
+`load_campaign(path)` reads their common settings, a `Campaign`.
 `track_orders(recording, ...)` follows orders over time (Vold-Kalman).
 `replay(recording, results, ...)` changes its orders as an option of a study does, a `Replay`.
 `sound_power(recordings, surface, ...)` gives a machine's sound power from the microphones around

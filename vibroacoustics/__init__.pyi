@@ -47,6 +47,10 @@ from .machine.source import Source as Source
 from .machine.stator_yoke import STATOR_YOKE as STATOR_YOKE
 from .machine.suspension import BLOCK as BLOCK
 from .measured.blocked_forces import blocked_forces as blocked_forces
+from .measured.campaign import analyse_campaign as analyse_campaign
+from .measured.campaign_settings import Campaign as Campaign
+from .measured.campaign_settings import CampaignRun as CampaignRun
+from .measured.campaign_settings import load_campaign as load_campaign
 from .measured.change import changed_response as changed_response
 from .measured.inversion import inverted_forces as inverted_forces
 from .measured.measurement_surface import MeasurementSurface as MeasurementSurface

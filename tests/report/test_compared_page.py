@@ -89,7 +89,7 @@ def test_recordings_beside_a_study(study):
     assert scatter["order_run_deviation"].item() == pytest.approx(0.0, abs=1e-6)
     assert scatter["order_specimen_deviation"].item() == pytest.approx(4.257, abs=0.01)
     page = page_of(compared)
-    assert "mean of 4 recordings of 2 specimens" in page
+    assert "mean of 4 recordings of 2 machines" in page
     assert '<section id="validation">' in page
 
 

@@ -4,6 +4,7 @@ Heavy imports wait until it is read.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from ..base.recording_blocks import RecordingBlocks
-    from ..study.order_analysis import SpeedSource
+    from ..measured.campaign_settings import Campaign, CampaignRun
+    from ..study.order_analysis import OrderAnalysis, SpeedSource
 
 SampleRate = Annotated[float | None, "Actual sample rate, Hz, instead of the file's."]
 
@@ -26,6 +28,11 @@ Calibrator = Annotated[
 ]
 CalibratorLevel = Annotated[float, "Level of the calibrator, dB re 20 µPa."]
 CalibratorFrequency = Annotated[float, "Frequency of the calibrator, Hz."]
+Settings = Annotated[
+    Path | None,
+    "TOML file: channels, units, calibration, speed, analysis and labels of many recordings; "
+    "options override it.",
+]
 
 
 @dataclass(frozen=True)
@@ -41,6 +48,7 @@ class Reading:
     name : assignments CHANNEL=NAME
     calibrator : assignments CHANNEL=FILE, or files alone
     calibrator_level, calibrator_frequency : of the calibrator, dB re 20 µPa and Hz
+    settings : file of a campaign
     """
 
     unit: Annotated[
@@ -62,6 +70,14 @@ class Reading:
     calibrator: Calibrator = None
     calibrator_level: CalibratorLevel = 94.0
     calibrator_frequency: CalibratorFrequency = 1000.0
+    settings: Settings = None
+
+    @cached_property
+    def campaign(self) -> "Campaign":
+        """Settings that all recordings share; without a file they state nothing."""
+        from ..measured.campaign_settings import Campaign, load_campaign
+
+        return Campaign() if self.settings is None else load_campaign(self.settings)
 
     def source(
         self, speed: "SpeedOptions", file: Path, plugins: list[Path] | None
@@ -77,12 +93,16 @@ class Reading:
         from ..recordings import open_recording
         from ..recordings.recorded import MissingError
 
+        if speed == SpeedOptions():
+            of_settings = self.campaign.speed_of(file)
+            if of_settings is not None:
+                return of_settings
         try:
             return speed.source()
         except MissingError as missing:
             try:
                 load_plugins(plugins)
-                open_recording(file, **self._asked())
+                open_recording(file, **self.arguments(file))
             except MissingError as error:
                 raise MissingError(str(error), str(missing)) from None
             except VibroacousticsError:
@@ -100,7 +120,7 @@ class Reading:
         from ..recordings import read_recording
 
         load_plugins(plugins)
-        return read_recording(file, **self._asked())
+        return read_recording(file, **self.arguments(file))
 
     def in_blocks(self, file: Path, plugins: list[Path] | None) -> "RecordingBlocks":
         """Read the same into memory; what is too large for that stays in its file.
@@ -110,19 +130,38 @@ class Reading:
         ParameterError, StorageError
             It cannot be read.
         """
-        from ..recordings import LabelledBlocks, open_recording
-        from ..recordings.recorded import TooLargeError
+        from ..recordings.blocks import recording_blocks
 
-        try:
-            return LabelledBlocks(self.at_once(file, plugins))
-        except TooLargeError:
-            return open_recording(file, **self._asked())
+        load_plugins(plugins)
+        return recording_blocks(file, **self.arguments(file))
 
-    def _asked(self) -> dict[str, Any]:
-        from . import arguments
+    def run(
+        self, speed: "SpeedOptions", orders: "OrderOptions", plugins: list[Path] | None, file: Path
+    ) -> "CampaignRun":
+        """Return labels, reading and analysis of one of many recordings.
 
-        units = arguments.assignments("--unit", self.unit)
-        calibration = arguments.numbers("--calibration", self.calibration)
+        Raises
+        ------
+        ParameterError, StorageError
+            See `source` and `arguments`; or the settings give the file no label.
+        """
+        from ..measured.campaign_settings import CampaignRun
+
+        analysis = orders.analysis(self.source(speed, file, plugins), self.campaign)
+        return CampaignRun(file, *self.campaign.labels_of(file), self.arguments(file), analysis)
+
+    def arguments(self, file: Path) -> dict[str, Any]:
+        """Return the arguments of `read_recording`: those of options override the settings.
+
+        Raises
+        ------
+        ParameterError, StorageError
+            An option or the settings cannot be used for the file.
+        """
+        from . import arguments as words
+
+        units = words.assignments("--unit", self.unit)
+        calibration = words.numbers("--calibration", self.calibration)
         if self.calibrator:
             from .calibrating import with_calibrators
 
@@ -130,15 +169,75 @@ class Reading:
             units, calibration = with_calibrators(
                 self.calibrator, level, frequency, units, calibration
             )
-        return {
+        common = self.campaign.reading_of(file)
+        by_channel: dict[str, dict[str, Any]] = {
             "units": units,
             "calibration": calibration,
+            "names": words.assignments("--name", self.name),
+        }
+        chosen: dict[str, Any] = {
             "channels": None if self.channels is None else self.channels.split(","),
             "sample_rate_hz": self.sample_rate,
             "from_s": self.from_s,
             "to_s": self.to_s,
-            "names": arguments.assignments("--name", self.name),
         }
+        read = chosen["channels"]
+        for name, values in by_channel.items():
+            of_settings = common[name].items()
+            common[name] = {
+                key: each for key, each in of_settings if not read or key in (*read, "*")
+            }
+            common[name] |= values
+        return common | {name: each for name, each in chosen.items() if each is not None}
+
+
+@dataclass(frozen=True)
+class OrderOptions:
+    """Options of the orders that are analysed; the others are in the settings."""
+
+    orders: Annotated[str | None, "Shaft orders, with commas; default: 1,2,3,4."] = None
+    maximum_order: Annotated[float | None, "Highest order of spectra and map; default: 20."] = None
+    resolution: Annotated[float | None, "Coarsest resolution, orders; default: 0.25."] = None
+    speed_step: Annotated[
+        float | None, "Step between operating points of a run-up, rpm; default: 100."
+    ] = None
+    with_map: Annotated[
+        bool | None,
+        typer.Option("--map/--no-map", help="Keep and draw the order map; default: of a run-up."),
+    ] = None
+    fit: Annotated[
+        bool,
+        "Fit all multiples of the orders' spacing to the whole recording at once: for a few "
+        "revolutions and half orders.",
+    ] = False
+    bands: Annotated[
+        str | None, "Third octaves: sums of lines (default), or filters of IEC 61260-1."
+    ] = None
+
+    def analysis(self, source: "SpeedSource", campaign: "Campaign") -> "OrderAnalysis":
+        """Return the settings of the analysis.
+
+        Raises
+        ------
+        ParameterError
+            A number is out of range, or the method of the bands is unknown.
+        """
+        from ..study.order_analysis import BAND_METHODS, OrderAnalysis
+        from . import arguments
+
+        bands = (
+            None if self.bands is None else arguments.chosen("--bands", self.bands, BAND_METHODS)
+        )
+        values = {
+            "orders": None if self.orders is None else arguments.order_numbers(self.orders),
+            "maximum_order": self.maximum_order,
+            "resolution_order": self.resolution,
+            "speed_step_rpm": self.speed_step,
+            "bands": bands,
+            "is_fit": self.fit or None,
+        }
+        stated = {name: each for name, each in values.items() if each is not None}
+        return OrderAnalysis(source, **campaign.analysis.stated() | stated, with_map=self.with_map)
 
 
 @dataclass(frozen=True)

@@ -3,21 +3,23 @@
 Heavy imports wait until a command needs them.
 """
 
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Final
 
-import typer
-
 from ..base.progress import Progress
 from .command import command
-from .options import FileOut, LimitsFile, Plugins, Printing, Recording
+from .options import FileOut, LimitsFile, Plugins, Printing, Recording, load_plugins
 from .outcome import Outcome
 from .reading import (
     Calibrator,
     CalibratorFrequency,
     CalibratorLevel,
+    OrderOptions,
     Reading,
     SampleRate,
+    Settings,
     SpeedOptions,
 )
 
@@ -28,23 +30,10 @@ Orders = Annotated[str, "Shaft orders, with commas."]
 @command("orders", "Recordings", "machine.wav --speed-channel tacho --orders 1,2", RENAMED)
 def orders_command(
     progress: Progress,
-    recording_file: Recording,
+    files: Annotated[list[Path], "RECORDING: File of the recording, or several to be averaged."],
     *,
     speed: SpeedOptions,
-    orders: Orders = "1,2,3,4",
-    maximum_order: Annotated[float, "Highest order of spectra and map."] = 20.0,
-    resolution: Annotated[float, "Coarsest resolution, orders."] = 0.25,
-    speed_step: Annotated[float, "Step between operating points of a run-up, rpm."] = 100.0,
-    with_map: Annotated[
-        bool | None,
-        typer.Option("--map/--no-map", help="Keep and draw the order map; default: of a run-up."),
-    ] = None,
-    fit: Annotated[
-        bool,
-        "Fit all multiples of the orders' spacing to the whole recording at once: for a few "
-        "revolutions and half orders.",
-    ] = False,
-    bands: Annotated[str, "Third octaves: sums of lines, or filters of IEC 61260-1."] = "sums",
+    orders: OrderOptions,
     listen: Annotated[
         str | None, "Channel whose map and sound are on the page of a run-up; default: first in Pa."
     ] = None,
@@ -54,34 +43,34 @@ def orders_command(
     plugin: Plugins = None,
     printing: Printing,
 ) -> Outcome:
-    """Find the orders of a recording: orders.html, netCDF, CSV, figures and a table."""
+    """Find the orders of a recording, or mean and scatter of many: page, netCDF, CSV, figures."""
     from .. import report
+    from ..base.errors import ParameterError
+    from ..measured.campaign import analyse_campaign
     from ..measured.recorded_orders import analyse_orders
     from ..measured.run_up_sound import check_listen, listened
     from ..results.limits_file import read_limits
     from ..results.order_limits import with_limits
-    from ..study.order_analysis import BAND_METHODS, OrderAnalysis
-    from . import arguments
 
-    settings = OrderAnalysis(
-        reading.source(speed, recording_file, plugin),
-        arguments.order_numbers(orders),
-        maximum_order,
-        resolution,
-        speed_step,
-        with_map,
-        arguments.chosen("--bands", bands, BAND_METHODS),
-        fit,
-    )
-    target = printing.target(out or Path("reports") / recording_file.stem)
+    name = reading.settings if len(files) > 1 and reading.settings is not None else files[0]
+    target = printing.target(out or Path("reports") / name.stem)
     allowed = read_limits(limits) if limits else ()
-    recording = reading.in_blocks(recording_file, plugin)
-    check_listen(recording, settings, listen)
-    results = with_limits(analyse_orders(recording, settings, progress), allowed)
+    if len(files) > 1:
+        if listen is not None or orders.with_map:
+            raise ParameterError("--listen, --map: need one recording: give one file")
+        load_plugins(plugin)
+        run_of = partial(reading.run, speed, replace(orders, with_map=False), plugin)
+        results = with_limits(analyse_campaign(files, run_of, progress), allowed)
+        analysis, dataset_name = report.analysis_of_campaign(results), "campaign.nc"
+    else:
+        settings = orders.analysis(reading.source(speed, files[0], plugin), reading.campaign)
+        recording = reading.in_blocks(files[0], plugin)
+        check_listen(recording, settings, listen)
+        results = with_limits(analyse_orders(recording, settings, progress), allowed)
+        sound = listened(recording, settings, results, listen)
+        analysis, dataset_name = report.analysis_of_orders(results, listen, sound), "orders.nc"
     broken = report.broken_lines(results, ())
-    sound = listened(recording, settings, results, listen)
-    analysis = report.analysis_of_orders(results, listen, sound)
-    return target.outcome(analysis, results, "orders.nc", broken)
+    return target.outcome(analysis, results, dataset_name, broken)
 
 
 @command("track", "Recordings", "run_up.csv --speed-channel tacho --bandwidth 3", RENAMED)
@@ -199,6 +188,7 @@ def sound_power_command(
     calibrator_level: CalibratorLevel = 94.0,
     calibrator_frequency: CalibratorFrequency = 1000.0,
     sample_rate: SampleRate = None,
+    settings: Settings = None,
     out: Annotated[
         Path | None, "Folder of the results; default: reports/NAME OF THE FIRST."
     ] = None,
@@ -222,6 +212,7 @@ def sound_power_command(
         calibrator=calibrator,
         calibrator_level=calibrator_level,
         calibrator_frequency=calibrator_frequency,
+        settings=settings,
     )
     given = ([*files, *quiet], reading, plugin)
     running, still = (microphones.read_files(each, *given) for each in (files, quiet))

@@ -1,7 +1,7 @@
 """Crank angle of a recording: from a tacho, a speed channel, a given speed or the signal."""
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -74,6 +74,20 @@ class RecordedSpeed:
         }
 
 
+def check_speed_channels(names: Sequence[str], speed: SpeedSource) -> None:
+    """Refuse a source of the speed whose channels a recording does not have.
+
+    Raises
+    ------
+    ParameterError
+        There is no such channel.
+    """
+    if not isinstance(speed, NominalSpeed):
+        _channel(names, speed.channel)
+    if isinstance(speed, SpeedChannel) and speed.index_channel is not None:
+        _channel(names, speed.index_channel)
+
+
 def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSpeed:
     """Crank angle over the time of a recording, of which one channel is read.
 
@@ -98,7 +112,7 @@ def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSp
         end_s = (recording.samples - 1) / rate_hz
         motion = constant_speed(shaft_frequency_hz(speed.speed_rpm), 0.0, end_s)
         return RecordedSpeed(motion, f"nominal {speed.speed_rpm:g} rpm")
-    name = _channel(recording, speed.channel)
+    name = _channel(recording.channels, speed.channel)
     if isinstance(speed, TacholessSpeed):
         return _from_signal(_samples(recording, name), rate_hz, speed)
     if recording.channel_units[recording.channels.index(name)] == "rpm":
@@ -165,7 +179,7 @@ def _from_pulses(recording: RecordingBlocks, speed: SpeedChannel) -> RecordedSpe
     index, rate_hz = None, recording.sample_rate_hz
     angle_zero = f"pulse of {speed.channel}" if speed.pulses_per_revolution == 1 else NO_ANGLE_ZERO
     if speed.index_channel is not None:
-        blocks = _blocks(recording, _channel(recording, speed.index_channel))
+        blocks = _blocks(recording, _channel(recording.channels, speed.index_channel))
         index = pulses_of(blocks, recording.samples, rate_hz).time_s
         angle_zero = f"pulse of {speed.index_channel}"
     pulses = pulses_of(
@@ -223,9 +237,8 @@ def _samples(recording: RecordingBlocks, name: str) -> Array:
     return blocks[0] if len(blocks) == 1 else np.concatenate(blocks)
 
 
-def _channel(recording: RecordingBlocks, name: str | None) -> str:
+def _channel(names: Sequence[str], name: str | None) -> str:
     """Name of a channel that is there; the only one where none is given."""
-    names = recording.channels
     if name is None and len(names) == 1:
         return names[0]
     if name is None:

@@ -13,7 +13,8 @@ from ..base.errors import ParameterError
 from ..base.recording_blocks import RecordingBlocks
 from .asked import Asked, naming_file
 from .child_process import read_in_child
-from .recorded import MAXIMUM_RECORDING_BYTES, Request, check_part, listed
+from .reading import read_recording
+from .recorded import MAXIMUM_RECORDING_BYTES, Request, TooLargeError, check_part, listed
 from .recording import scale_in_place, si_scale
 from .remarks import overload_lines, remark
 
@@ -184,6 +185,24 @@ def open_recording(
     remark(asked.path, header["remarks"])
     remarks = {line: line for line in header["remarks"]}
     return FileBlocks(asked, header, first, last - first, si_units, factors, remarks)
+
+
+def recording_blocks(path: str | Path, **reading: Any) -> RecordingBlocks:
+    """Read a recording into memory; what is too large for that stays in its file.
+
+    Parameters
+    ----------
+    path, reading : as in `read_recording`
+
+    Raises
+    ------
+    ParameterError, StorageError
+        The file cannot be read; see `read_recording`.
+    """
+    try:
+        return LabelledBlocks(read_recording(path, **reading))
+    except TooLargeError:
+        return open_recording(path, **reading)
 
 
 def _check_block(blocks: RecordingBlocks, channels: Sequence[str], first: int, last: int) -> None:

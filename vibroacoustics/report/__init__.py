@@ -8,6 +8,7 @@ from ..base.fault import collected
 from ..base.hashing import canonical_json
 from ..base.registry import plugins
 from .analysis import Analysis
+from .campaign import analysis_of_campaign
 from .columns import COLUMNS
 from .compared.page import analysis_of_comparison
 from .curve_tables import analysis_of_curves
@@ -30,6 +31,7 @@ from .study import analysis_of_study
 __all__ = [
     "Analysis",
     "analysis_of_blocked_forces",
+    "analysis_of_campaign",
     "analysis_of_comparison",
     "analysis_of_curves",
     "analysis_of_data_sheet",

@@ -1,7 +1,7 @@
 """Several recordings of a machine as one: runs of one or of several specimens."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -11,7 +11,7 @@ from ..base.arrays import Array, ComplexArray
 from ..base.decibel import amplitude_of_level, level_of_amplitude
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
-from ..base.vocabulary import NO_ANGLE_ZERO, check, label_coordinates, stamp
+from ..base.vocabulary import NO_ANGLE_ZERO, check, label_coordinates, stamp, stamped
 from .order_comparison import (
     ORDER_TOLERANCE,
     channel_units,
@@ -19,34 +19,43 @@ from .order_comparison import (
     common_speeds,
     values_at,
 )
-from .scatter import Scatter, scatter
+from .scatter import Scatter, by_specimen, scatter
 
 RUNS: Final = "runs"
-"""Attribute that lists file and specimen of every run, as JSON."""
+"""Attribute that lists file, specimen, speed and remarks of every run, as JSON."""
 LEVELS: Final = {"equivalent_level": "equivalent", "band_level": "band"}
-_PARTS: Final = ("run_deviation", "specimen_deviation", "mean_uncertainty")
+_PARTS: Final = ("run_deviation", "specimen_deviation", "mean_uncertainty", "mean_interval")
+_OF_ONE_FILE: Final = (
+    "source_sha256", "part_sha256", "part_start_s", "start_time", "reading_remarks",
+    "speed_source", "jitter", "tacho_faults",
+)  # fmt: skip
 
 
-def mean_of_runs(runs: Sequence[xr.Dataset], specimens: Sequence[str] = ()) -> xr.Dataset:
+def mean_of_runs(
+    runs: Sequence[xr.Dataset], specimens: Sequence[str] = (), labels: Sequence[str] = ()
+) -> xr.Dataset:
     """Energy mean of the orders and levels of several recordings, with their scatter.
 
     Parameters
     ----------
     runs : of `analyse_orders`, at speeds that all have within 2 %
     specimens : name of the machine of each run; without, all are of one
+    labels : name of each run, each once; default: its file, with a number where several have one
 
     Returns
     -------
     as of `analyse_orders`, of the channels, orders, speeds (of the first run) and bands that all
     have: `channel_order_rms` and peaks are energy means, phases those of the mean phasor,
-    coherence the lowest. `order_run_deviation`, `order_specimen_deviation` and
-    `order_mean_uncertainty`, dB, and the same of `equivalent` levels and of every `band`
+    coherence the lowest. `order_run_deviation`, `order_specimen_deviation`,
+    `order_mean_uncertainty` and `order_mean_interval` (half width, 95 %), dB, and the same of
+    `equivalent` levels and of every `band`. Each run has `run_order_rms`, `run_equivalent_level`,
+    …, each machine `machine_order_rms`, `machine_order_deviation`, …
 
     Raises
     ------
     ParameterError
-        A result is of no recording, the specimens are not as many, or the runs have no channel,
-        order or speed in common.
+        A result is of no recording, the specimens or labels are not as many, or the runs have no
+        channel, order or speed in common.
 
     Examples
     --------
@@ -56,28 +65,43 @@ def mean_of_runs(runs: Sequence[xr.Dataset], specimens: Sequence[str] = ()) -> x
     0.0
     """
     names = list(specimens) or ["1"] * len(runs)
-    if len(names) != len(runs):
-        raise ParameterError(f"specimens: {len(names)} for {len(runs)} runs: must be as many")
+    named = list(labels) or _files_apart(runs)
+    for what, texts in (("specimens", names), ("labels", named)):
+        if len(texts) != len(runs):
+            raise ParameterError(f"{what}: {len(texts)} for {len(runs)} runs: must be as many")
     for run in runs:
         if "channel_order" not in run:
             title = run.attrs.get("title", "result")
             raise ParameterError(f"{title}: is of no recording; only recordings are averaged")
-    at = [_selection(runs, run) for run in runs]
+    at = _selections(runs)
     peaks, rms, coherence = (
         np.array([values_at(run[name], there) for run, there in zip(runs, at, strict=True)])
         for name in ("channel_order", "channel_order_rms", "channel_order_coherence")
     )
-    of_orders = scatter(level_of_amplitude(rms), names)
-    mean = {
+    level_db = level_of_amplitude(rms)
+    of_orders, (of_machine, deviation) = scatter(level_db, names), by_specimen(level_db, names)
+    values = {
         "channel_order": _mean_phasor(peaks, names),
         "channel_order_rms": amplitude_of_level(of_orders.mean),
         "channel_order_coherence": coherence.min(axis=0),
         **_named("order", of_orders),
+        "run_order": peaks,
+        "run_order_rms": rms,
+        "run_speed": np.array([there["speed"] for there in at]),
+        "machine_order_rms": amplitude_of_level(of_machine),
+        "machine_order_deviation": deviation,
     }
-    labelled = {name: stamp(name, values, at[0]) for name, values in mean.items()}
+    machines = list(dict.fromkeys(names))
+    coords = {**at[0], "run": named, "machine": machines}
     units = channel_units(runs[0])
-    coords = {"channel_unit": ("channel", [units[name] for name in at[0]["channel"]])}
-    result = xr.Dataset(labelled, coords=coords).merge(_levels(runs, at[0]["channel"], names))
+    further = {
+        "channel_unit": ("channel", [units[name] for name in at[0]["channel"]]),
+        "run_machine": ("run", names),
+        "run_file": ("run", list(map(_file, runs))),
+        "machine_runs": ("machine", list(map(names.count, machines))),
+    }
+    result = stamped(values, coords).assign_coords(further)
+    result = result.merge(_levels(runs, coords, names))
     result.attrs = _attributes(runs, names)
     return check(label_coordinates(result))
 
@@ -103,25 +127,34 @@ def runs_of(result: xr.Dataset) -> list[dict[str, str]]:
     return list(json.loads(result.attrs.get(RUNS, "[]")))
 
 
-def _selection(runs: Sequence[xr.Dataset], run: xr.Dataset) -> dict[str, Any]:
-    """Channels, speeds and orders of one run that all have."""
+def _selections(runs: Sequence[xr.Dataset]) -> list[dict[str, Any]]:
+    """Channels, speeds and orders that all runs have, as each run has them."""
     first = runs[0]
     units = [channel_units(one).items() for one in runs]
     common = [name for name, unit in units[0] if all((name, unit) in other for other in units)]
     if not common:
         raise ParameterError("the recordings have no channel of one name and unit in common")
     orders = np.asarray(first["order"].values, dtype=float)
+    speeds, problems = [], []
     for one in runs:
-        off = np.abs(orders[:, None] - common_orders(first, one))
+        try:
+            off = np.abs(orders[:, None] - common_orders(first, one))
+            speeds.append(dict(common_speeds(first, one).tolist()))
+        except ParameterError as error:
+            problems.append(f"{_file(one)}: {error}")
+            continue
         orders = orders[off.min(axis=1) < ORDER_TOLERANCE]
+    if problems:
+        raise ParameterError(*problems)
     if not orders.size:
         raise ParameterError("the recordings have no order in common")
-    speeds = [dict(common_speeds(first, one).tolist()) for one in runs]
     shared = [speed for speed in speeds[0] if all(speed in of_run for of_run in speeds)]
     if not shared:
         raise ParameterError("the recordings have no speed in common")
-    of_run = dict(common_speeds(first, run).tolist())
-    return {"channel": common, "speed": [of_run[one] for one in shared], "order": orders}
+    return [
+        {"channel": common, "speed": [of_run[speed] for speed in shared], "order": orders}
+        for of_run in speeds
+    ]
 
 
 def _mean_phasor(peaks: ComplexArray, names: Sequence[str]) -> ComplexArray:
@@ -130,19 +163,28 @@ def _mean_phasor(peaks: ComplexArray, names: Sequence[str]) -> ComplexArray:
     return np.asarray(size * np.exp(1j * np.angle(peaks.mean(axis=0))))
 
 
-def _levels(runs: Sequence[xr.Dataset], channels: list[str], names: Sequence[str]) -> xr.Dataset:
+def _levels(
+    runs: Sequence[xr.Dataset], coords: Mapping[str, Any], names: Sequence[str]
+) -> xr.Dataset:
     """Levels of sound pressure, where all runs have some."""
     levels = xr.Dataset()
     for variable, short in LEVELS.items():
         if not all(variable in run for run in runs):
             continue
-        aligned = xr.align(*(run[variable].sel(channel=channels) for run in runs), join="inner")
+        chosen = (run[variable].sel(channel=coords["channel"]) for run in runs)
+        aligned = xr.align(*chosen, join="inner")
         first, stacked = aligned[0], np.array([one.values for one in aligned])
         of_levels = _scatter_of_known(stacked, names)
-        coords = {str(dim): first[dim].values for dim in first.dims}
-        levels[variable] = stamp(variable, of_levels.mean, coords)
-        for name, values in _named(short, of_levels).items():
-            levels[name] = stamp(name, values, coords)
+        of_machine, deviation = by_specimen(stacked, names)
+        values = {
+            variable: of_levels.mean,
+            **_named(short, of_levels),
+            f"run_{variable}": stacked,
+            f"machine_{variable}": of_machine,
+            f"machine_{short}_deviation": deviation,
+        }
+        here = {str(dim): first[dim].values for dim in first.dims}
+        levels = levels.merge(stamped(values, {**coords, **here}))
     return levels
 
 
@@ -161,14 +203,32 @@ def _named(short: str, of_levels: Scatter) -> dict[str, Array]:
     return {f"{short}_{part}": values for part, values in zip(_PARTS, of_levels[1:], strict=True)}
 
 
+def _file(run: xr.Dataset) -> str:
+    return str(run.attrs.get("source_file", "recording"))
+
+
+def _files_apart(runs: Sequence[xr.Dataset]) -> list[str]:
+    """Files of the runs, numbered where several have one name."""
+    files = list(map(_file, runs))
+    return [
+        file if files.count(file) == 1 else f"{file} ({files[:number].count(file) + 1})"
+        for number, file in enumerate(files)
+    ]
+
+
 def _attributes(runs: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, Any]:
-    files = [str(run.attrs.get("source_file", "recording")) for run in runs]
     zeros = {str(run.attrs.get("angle_zero", NO_ANGLE_ZERO)) for run in runs}
     count = len(dict.fromkeys(names))
-    what = f"mean of {len(runs)} recordings of {count} specimen{'s' * (count != 1)}"
-    known = [{"file": file, "specimen": name} for file, name in zip(files, names, strict=True)]
+    what = f"mean of {len(runs)} recordings of {count} machine{'s' * (count != 1)}"
+    kept = {"sha256": "source_sha256", "speed": "speed_source", "remarks": "reading_remarks"}
+    known = [
+        {"file": _file(run), "specimen": name}
+        | {key: str(run.attrs[attr]) for key, attr in kept.items() if attr in run.attrs}
+        for run, name in zip(runs, names, strict=True)
+    ]
+    shared = {key: value for key, value in runs[0].attrs.items() if key not in _OF_ONE_FILE}
     return {
-        **runs[0].attrs,
+        **shared,
         "title": f"Orders, {what}",
         "source_file": what,
         "angle_zero": NO_ANGLE_ZERO if NO_ANGLE_ZERO in zeros else sorted(zeros)[0],

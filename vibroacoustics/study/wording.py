@@ -51,9 +51,9 @@ def validated(
     try:
         valid = checked(model, content, reader, table)
     except ParameterError as error:
-        raise ParameterError(*_first([*reader.problems, *error.args])) from None
+        raise ParameterError(*first_lines([*reader.problems, *error.args])) from None
     if reader.problems:
-        raise ParameterError(*_first(reader.problems))
+        raise ParameterError(*first_lines(reader.problems))
     return valid
 
 
@@ -68,7 +68,7 @@ def checked(
         raise ParameterError(*lines) from None
 
 
-def _first(lines: list[str]) -> list[str]:
+def first_lines(lines: list[str]) -> list[str]:
     """Lines, or the first of them and how many more there are."""
     different = list(dict.fromkeys(lines))
     more = len(different) - MOST_LINES

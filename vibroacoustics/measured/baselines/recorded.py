@@ -120,6 +120,8 @@ def _of_orders(results: xr.Dataset, channels: dict[str, str]) -> BaselineContent
 
 def _spectra(results: xr.Dataset, channels: dict[str, str]) -> list[NarrowSpectrum]:
     """Of the blocks of a map, or the mean at a steady speed; none of a run-up without a map."""
+    if "map_order" not in results:  # mean of several recordings
+        return []
     speeds, order = results["speed"].values, results["map_order"].values
     if "order_map" in results:
         block_speed = results["block_speed"].values
