@@ -43,7 +43,7 @@ it (ISO 3744), on a `MeasurementSurface`.
 `read_figure_limits(path)` reads limits of bands, totals and criteria too, each a `FigureLimit`.
 `mean_of_runs(runs, specimens)` averages recordings of several runs and specimens.
 `check_limits(results, limits)` holds orders of a recording, a study or a comparison against them.
-`SpeedChannel`, `NominalSpeed`, `TacholessSpeed` say where the speed comes from.
+`SpeedChannel`, `NominalSpeed`, `TacholessSpeed`, `SpeedLine` say where the speed comes from.
 
 **Measurements alone.**
 `predict(path)` predicts levels after a change of mounts, an added mass or an absorber, with a band;

@@ -129,5 +129,6 @@ from .study.loading import load_study as load_study
 from .study.order_analysis import NominalSpeed as NominalSpeed
 from .study.order_analysis import OrderAnalysis as OrderAnalysis
 from .study.order_analysis import SpeedChannel as SpeedChannel
+from .study.order_analysis import SpeedLine as SpeedLine
 from .study.order_analysis import TacholessSpeed as TacholessSpeed
 from .study.study import Study as Study

@@ -24,7 +24,7 @@ def read_here(request: Mapping[str, Any]) -> tuple[dict[str, Any], Array]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # a process of its own prints them
             asked = json.loads(json.dumps(request))
-            answered = child.answer(child._request(asked), None, asked.get("hashed", True))
+            answered = child._typed_answer(asked)
             child._write(os.fdopen(os.dup(file.fileno()), "wb"), *answered)
         file.seek(0)
         handed_over = _receive(cast(io.BufferedReader, file))

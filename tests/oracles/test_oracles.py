@@ -14,6 +14,7 @@ from scipy.special import iv
 from support import CRANK_ANGLE, balancing, turning, wrench_orders
 
 from vibroacoustics.balancers.spring_mass import sprung_mass_response, tuned_mass
+from vibroacoustics.base import fourier
 from vibroacoustics.base.arrays import ComplexArray
 from vibroacoustics.levels import a_weighting, sound_pressure_level
 from vibroacoustics.mechanics.moving_parts import (
@@ -22,7 +23,7 @@ from vibroacoustics.mechanics.moving_parts import (
     path,
     wrench,
 )
-from vibroacoustics.orders import fourier, order_spectrum
+from vibroacoustics.orders import order_spectrum
 from vibroacoustics.radiation.bodies import cylinder
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import Pattern, rigid_body

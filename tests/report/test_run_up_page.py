@@ -176,18 +176,45 @@ def test_the_cursor_reads_and_a_click_cuts(opened):
     assert opened.get_log("browser") == []
 
 
-CURSOR = """const {panel} = vibroacoustics, {plot} = panel.map, times = [];
-for (let k = 0; k < 100; k++) {
-  const start = performance.now();
-  plot.setCursor({left: 3 * k, top: 2 * k});
-  times.push(performance.now() - start);
-}
-return times.sort((a, b) => a - b)[95];"""
+LINE = """const {panel} = vibroacoustics, order = 3;
+panel.at("line-part").open = true;
+await new Promise((done) => setTimeout(done, 300));
+const line = panel.line, plot = line.plot, box = plot.over.getBoundingClientRect();
+panel.at("line-order").value = String(order);
+const event = (name, time, hertz) => plot.over.dispatchEvent(new PointerEvent(name, {pointerId: 1,
+  clientX: box.left + plot.valToPos(time, "x"), clientY: box.top + plot.valToPos(hertz, "y")}));
+plot.over.setPointerCapture = () => {};
+event("pointerdown", 4, order * 28);
+event("pointermove", 10, order * 40);
+event("pointermove", 10.02, order * 40.1);
+event("pointerup", 10, order * 40);
+event("pointermove", 12, order * 44);
+event("pointerdown", 16, order * 52);
+event("pointerup", 16, order * 52);
+const drawn = panel.at("line-option").value;
+panel.at("line-copy").click();
+const said = panel.at("line-copy").textContent;
+panel.at("line-back").click();
+const fewer = panel.at("line-option").value;
+panel.at("line-clear").click();
+return [drawn, said, fewer, panel.at("line-option").value, panel.at("line-copy").disabled];"""
+
+
+def assert_draws_a_line(drawn, said, fewer, cleared, is_disabled):
+    points = [tuple(map(float, each.split(":"))) for each in drawn.split(" ")[1].split(",")]
+    assert drawn.startswith("--tacholess-line ")
+    # Order 3 over 3 is the shaft; a pixel is 0.02 s and 4 rpm.
+    np.testing.assert_allclose(points, [(4, 1680), (10.02, 2406), (16, 3120)], atol=12.0)
+    assert np.abs(np.array(points)[:, 0] - [4.0, 10.02, 16.0]).max() < 0.1
+    assert (said, fewer.count(":")) == ("Copied", 2)
+    assert (cleared, is_disabled) == ("", True)
 
 
 @pytest.mark.slow
-def test_the_cursor_is_quick(opened):
-    assert opened.execute_script(CURSOR) <= 16.0
+def test_a_line_that_is_drawn_is_printed_as_an_option(opened):
+    script = f"const done = arguments[0]; (async () => {{{LINE}}})().then(done)"
+    assert_draws_a_line(*opened.execute_async_script(script))
+    assert opened.get_log("browser") == []
 
 
 @pytest.mark.slow
@@ -205,9 +232,9 @@ def test_firefox_shows_the_same(fox: Firefox, page: Path, orders):
     fox.run("while (!window.vibroacoustics) await new Promise((done) => setTimeout(done, 5))")
     got = fox.run("return vibroacoustics.runUp.orderCut(3)")
     np.testing.assert_allclose(got, cut_of_the_analysis(orders, 3.0), atol=0.13)
-    assert fox.run(CURSOR) <= 16.0
     says = fox.run(
         "vibroacoustics.panel.cut(3, 2600); return vibroacoustics.panel.at('order').value"
     )
     assert says == "3"
+    assert_draws_a_line(*fox.run(LINE))
     assert fox.log == []

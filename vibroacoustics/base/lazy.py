@@ -19,7 +19,7 @@ def public_names(
     """
     stub = ast.parse(Path(file).with_suffix(".pyi").read_text("utf-8"))
     home = {
-        alias.name: statement.module
+        alias.name: "." * statement.level + (statement.module or "")
         for statement in stub.body
         if isinstance(statement, ast.ImportFrom)
         for alias in statement.names
@@ -29,9 +29,8 @@ def public_names(
     def attribute(name: str) -> Any:
         if name not in home:
             raise AttributeError(f"module {package} has no attribute {name}")
-        module = home[name]
-        if module is None:
+        if home[name] == ".":
             return import_module(f"{package}.{name}")
-        return getattr(__import__(f"{package}.{module}", fromlist=[name]), name)
+        return getattr(import_module(home[name], package), name)
 
     return attribute, lambda: names, names

@@ -6,7 +6,7 @@ from typing import Any, Final, Protocol
 from .arrays import Array
 
 READ_BYTES: Final = 2**27
-"""Read at a time: the start of a process that reads is then a small part of the time it takes."""
+"""Read at a time from a file: the start of the process that reads is then a small part of it."""
 BLOCK_BYTES: Final = 2**23
 """Worked on at a time: it stays in the cache."""
 
@@ -35,6 +35,10 @@ class RecordingBlocks(Protocol):
         """SI unit per unit stored, already applied, of each channel."""
 
     @property
+    def read_bytes(self) -> int:
+        """Samples that are best read at a time, in bytes of float64."""
+
+    @property
     def attributes(self) -> Mapping[str, Any]:
         """Those of the recording in the labelled form, where known: `source_file`, …"""
 
@@ -45,7 +49,7 @@ class RecordingBlocks(Protocol):
 def block_by_block(recording: RecordingBlocks, channels: Sequence[str]) -> Iterator[Array]:
     """All samples of some channels in blocks of `BLOCK_BYTES`, each of shape (channel, time)."""
     step = max(BLOCK_BYTES // (8 * len(channels)), 1)
-    read = step * max(READ_BYTES // BLOCK_BYTES, 1)
+    read = step * max(recording.read_bytes // BLOCK_BYTES, 1)
     for first in range(0, recording.samples, read):
         samples = recording.read(channels, first, min(first + read, recording.samples))
         for begin in range(0, samples.shape[1], step):

@@ -10,7 +10,7 @@ _CODES: Final = {code: f"[U+{code:04X}]" for code in DIRECTIONS}
 
 def visible(text: str) -> str:
     """Return a text with the codes of its bidirectional control characters in their place."""
-    return text.translate(_CODES)
+    return text if text.isascii() else text.translate(_CODES)
 
 
 def escape(text: str) -> str:

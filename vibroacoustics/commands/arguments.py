@@ -33,6 +33,23 @@ def order_numbers(text: str, option: str = "--orders") -> tuple[float, ...]:
     return tuple(sorted(_number(option, part) for part in text.split(",")))
 
 
+def line_points(text: str, option: str = "--tacholess-line") -> tuple[tuple[float, float], ...]:
+    """Points of a line, time in s and speed in rpm, from TIME:RPM with commas between them.
+
+    Raises
+    ------
+    ParameterError
+        A point has no colon, or one of its parts is no number.
+    """
+    points = []
+    for part in text.split(","):
+        time, colon, speed = part.partition(":")
+        if not colon:
+            raise ParameterError(f"{option} {part!r}: must be TIME:RPM, in s and rpm")
+        points.append((_number(option, time), _number(option, speed)))
+    return tuple(points)
+
+
 def assignments(option: str, texts: Sequence[str] | None) -> dict[str, str]:
     """`NAME=VALUE` of every text; the last `=` parts name and value.
 

@@ -22,6 +22,7 @@ _ARGUMENTS: Final = {
     "minimum_rpm": "--tacholess, lowest",
     "maximum_rpm": "highest",
     "speed_rpm": "--rpm",
+    "points": "--tacholess-line",
     "orders": "--orders",
     "listen": "--listen",
     "poles": "--poles",

@@ -123,7 +123,7 @@ class Reading:
         return read_recording(file, **self.arguments(file))
 
     def in_blocks(self, file: Path, plugins: list[Path] | None) -> "RecordingBlocks":
-        """Read the same into memory; what is too large for that stays in its file.
+        """Hold the same in memory as the file stores it; what is too large stays in the file.
 
         Raises
         ------
@@ -259,6 +259,11 @@ class SpeedOptions:
     tacholess: Annotated[
         tuple[float, float] | None, "Find the speed in the signal: lowest and highest speed, rpm."
     ] = None
+    tacholess_line: Annotated[
+        str | None,
+        "Find the speed in the signal within 10 % of a line, TIME:RPM,TIME:RPM,... in s and rpm, "
+        "as the page of a run-up prints it.",
+    ] = None
     comb: Annotated[
         str | None, "With --tacholess: orders that the machine has, with commas; default: 1 to 10."
     ] = None
@@ -285,18 +290,23 @@ class SpeedOptions:
             EDGES,
             NominalSpeed,
             SpeedChannel,
+            SpeedLine,
             TacholessSpeed,
         )
-        from .arguments import chosen, order_numbers
+        from .arguments import chosen, line_points, order_numbers
 
-        without_tacho = [self.tacholess is not None, self.tacholess_machine is not None]
+        without_tacho = [
+            option is not None
+            for option in (self.tacholess, self.tacholess_machine, self.tacholess_line)
+        ]
         by_channel = self.speed_channel is not None and not any(without_tacho)
         sources = sum([self.rpm is not None, by_channel, *without_tacho])
         if sources != 1:
             kind = ParameterError if sources else MissingError
             raise kind(
                 "speed: give one of --speed-channel CHANNEL, --rpm NUMBER, "
-                "--tacholess LOWEST HIGHEST and --tacholess-machine FILE"
+                "--tacholess LOWEST HIGHEST, --tacholess-line TIME:RPM,TIME:RPM and "
+                "--tacholess-machine FILE"
             )
         tacho = any(option is not None for option in (self.index, self.threshold, self.edge))
         if (tacho or self.pulses != 1) and not by_channel:
@@ -305,10 +315,13 @@ class SpeedOptions:
             )
         if self.tacholess_machine is not None:
             return self._of_machine(self.tacholess_machine)
-        if (self.comb is not None or self.mains is not None) and self.tacholess is None:
+        if (self.comb is not None or self.mains is not None) and not any(without_tacho):
             raise ParameterError("--comb, --mains: belong to --tacholess LOWEST HIGHEST")
+        orders = DEFAULT_COMB if self.comb is None else order_numbers(self.comb, "--comb")
+        if self.tacholess_line is not None:
+            points = line_points(self.tacholess_line)
+            return SpeedLine(self.speed_channel, points, orders, self.mains)
         if self.tacholess is not None:
-            orders = DEFAULT_COMB if self.comb is None else order_numbers(self.comb, "--comb")
             return TacholessSpeed(self.speed_channel, *self.tacholess, orders, self.mains)
         if self.rpm is not None:
             return NominalSpeed(self.rpm)

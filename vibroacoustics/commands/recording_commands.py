@@ -49,6 +49,8 @@ def orders_command(
     from ..measured.campaign import analyse_campaign
     from ..measured.recorded_orders import analyse_orders
     from ..measured.run_up_sound import check_listen, listened
+    from ..orders.recorded_speed import recorded_speed
+    from ..results import provenance
     from ..results.limits_file import read_limits
     from ..results.order_limits import with_limits
 
@@ -66,8 +68,10 @@ def orders_command(
         settings = orders.analysis(reading.source(speed, files[0], plugin), reading.campaign)
         recording = reading.in_blocks(files[0], plugin)
         check_listen(recording, settings, listen)
-        results = with_limits(analyse_orders(recording, settings, progress), allowed)
-        sound = listened(recording, settings, results, listen)
+        with provenance.naming(recording.attributes):
+            shaft = recorded_speed(recording, settings.speed)
+        results = with_limits(analyse_orders(recording, settings, progress, shaft), allowed)
+        sound = listened(recording, settings, results, listen, shaft.motion)
         analysis, dataset_name = report.analysis_of_orders(results, listen, sound), "orders.nc"
     broken = report.broken_lines(results, ())
     return target.outcome(analysis, results, dataset_name, broken)

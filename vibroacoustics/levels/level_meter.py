@@ -15,6 +15,7 @@ from scipy import fft
 from ..base.arrays import Array, ComplexArray
 from ..base.decibel import amplitude_of_level
 from ..base.errors import ParameterError
+from ..base.fourier import BlockTransform
 from ..base.weighting import WEIGHTING
 from .time_weighting import FAST_TIME_CONSTANT_S, SLOW_TIME_CONSTANT_S
 
@@ -96,6 +97,16 @@ class MeterPlan:
         """Window of a full block."""
         return self.window(self.block)
 
+    @cached_property
+    def block_weight(self) -> float:
+        """Sum of the squares of the window of a full block."""
+        return _sum_of_squares(self.block_window)
+
+    @cached_property
+    def transform(self) -> BlockTransform:
+        """Transform of a block; meters use it in turns."""
+        return BlockTransform(self.length)
+
     def window(self, samples: int) -> Array:
         """Of a block: one but for its ramps."""
         window = np.ones(samples)
@@ -144,7 +155,7 @@ class LevelMeter:
         self._start = 0  # of the next block
         self._pending: Array = np.empty(0)  # samples from there on
         # Of the blocks before: from a run-in before there on.
-        self._tail = {name: np.zeros(0) for name in _FILTERED}
+        self._tail: dict[str, Array] = {name: np.zeros(0) for name in _FILTERED}
 
     def add(self, piece: Array) -> None:
         """Take the next samples of the channel.
@@ -177,17 +188,18 @@ class LevelMeter:
         """Measure a block of which `step` samples come before the next one."""
         plan, is_full = self.plan, samples.size == self.plan.block
         window = plan.block_window if is_full else plan.window(samples.size)
-        padded = np.zeros(plan.length)
+        padded = plan.transform.samples
         sound = padded[plan.run_in : plan.run_in + samples.size]
+        padded[: plan.run_in] = padded[plan.run_in + samples.size :] = 0.0
         np.subtract(samples, self.offset, out=sound)
         self._detect("Z", sound[:step], self._start)
         sound *= window
-        spectrum = fft.rfft(padded)
+        spectrum = plan.transform.forward()
         self.lines += _one_sided(spectrum, plan.length)
-        self.weight += float(np.sum(window**2))  # BLAS would start threads for it
+        self.weight += plan.block_weight if is_full else _sum_of_squares(window)
         begin = 0 if self._start else 2 * plan.run_in  # of silence and of the recording
         for name in _FILTERED:
-            weighted = fft.irfft(spectrum * plan.gain[name], plan.length)
+            weighted = plan.transform.inverse(spectrum, plan.gain[name])
             tail = self._tail[name]
             weighted[: tail.size] += tail
             self._tail[name] = weighted[step:].copy()
@@ -204,6 +216,10 @@ class LevelMeter:
         samples = self.plan.samples - (0 if weighting == "Z" else 2 * self.plan.run_in)
         total, _, _, fast, slow = self._state[weighting]
         return float(total / samples), float(fast), float(slow)
+
+
+def _sum_of_squares(window: Array) -> float:
+    return float(np.sum(window**2))  # BLAS would start threads for it
 
 
 def _one_sided(spectrum: ComplexArray, length: int) -> Array:

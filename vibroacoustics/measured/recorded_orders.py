@@ -13,7 +13,7 @@ from ..orders import recorded as of_recording
 from ..orders.analysed import analysed_channels, channels_without_speed
 from ..orders.crank_motion import CrankMotion
 from ..orders.labelled_map import labelled_map, mapped_spectra
-from ..orders.recorded_speed import recorded_speed
+from ..orders.recorded_speed import RecordedSpeed, recorded_speed
 from ..orders.tracked import tracked_orders
 from ..recordings import LabelledBlocks
 from ..results import provenance
@@ -25,6 +25,7 @@ def analyse_orders(
     recording: xr.Dataset | RecordingBlocks,
     settings: OrderAnalysis,
     progress: Progress = no_progress,
+    speed: RecordedSpeed | None = None,
 ) -> xr.Dataset:
     """Orders and levels of every channel of a recording.
 
@@ -33,6 +34,7 @@ def analyse_orders(
     recording : from `read_recording` or `label_recording`; or from `open_recording`, of any length
     settings : where the speed comes from, and which orders are wanted
     progress : called with the advance
+    speed : that the settings give, where `recorded_speed` has found it already
 
     Raises
     ------
@@ -51,7 +53,7 @@ def analyse_orders(
     """
     blocks = LabelledBlocks(recording) if isinstance(recording, xr.Dataset) else recording
     with provenance.naming(blocks.attributes):
-        speed = recorded_speed(blocks, settings.speed)
+        speed = speed or recorded_speed(blocks, settings.speed)
         names = analysed_channels(blocks.channels, settings.speed)
         passed = passed_over(blocks, names, speed.motion, settings, progress)
         results = passed.merge(of_recording.fault_times(speed.faults))

@@ -4,9 +4,9 @@ from fractions import Fraction
 from typing import Final
 
 import numpy as np
+import scipy  # loads its subpackages when they are needed
 import xarray as xr
 from scipy.interpolate import CubicSpline
-from scipy.signal import resample_poly
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError, VibroacousticsError
@@ -53,6 +53,7 @@ def listened(
     settings: OrderAnalysis,
     orders: xr.Dataset,
     channel: str | None = None,
+    motion: CrankMotion | None = None,
 ) -> RunUpSound | None:
     """Sound of a channel with its loudest orders; None where there is no map of a run-up.
 
@@ -61,7 +62,7 @@ def listened(
 
     Parameters
     ----------
-    recording, settings, orders, channel : see `run_up_sound`
+    recording, settings, orders, channel, motion : see `run_up_sound`
 
     Raises
     ------
@@ -74,7 +75,7 @@ def listened(
         return None
     wanted = loudest_orders(orders, name).order
     try:
-        return run_up_sound(recording, settings, orders, name, wanted)
+        return run_up_sound(recording, settings, orders, name, wanted, motion)
     except VibroacousticsError:
         if channel:
             raise
@@ -87,6 +88,7 @@ def run_up_sound(
     orders: xr.Dataset,
     channel: str,
     wanted: Array,
+    motion: CrankMotion | None = None,
 ) -> RunUpSound:
     """Separate orders of a channel from the residual with a Vold-Kalman filter.
 
@@ -100,6 +102,7 @@ def run_up_sound(
     orders : results of the analysis
     channel : one of its channels
     wanted : orders, shape (order,)
+    motion : of the shaft, where it is found already; None to find it by the settings
 
     Raises
     ------
@@ -115,7 +118,7 @@ def run_up_sound(
             f"listen = {channel}: {duration_s:.4g} s are too long, at most {LONGEST_S:g} s: "
             "choose a part by from_s and to_s"
         )
-    motion = recorded_speed(blocks, settings.speed).motion
+    motion = motion or recorded_speed(blocks, settings.speed).motion
     unit = blocks.channel_units[blocks.channels.index(channel)]
     signal = blocks.read([channel], 0, blocks.samples)[0]
     signal, rate_hz = played(signal - signal.mean(), blocks.sample_rate_hz)
@@ -149,7 +152,8 @@ def played(signal: Array, sample_rate_hz: float) -> tuple[Array, float]:
         up, down = (ratio if is_exact else divided).as_integer_ratio()
     if up == down:
         return signal, sample_rate_hz
-    return np.asarray(resample_poly(signal, up, down)), sample_rate_hz * up / down
+    resampled = scipy.signal.resample_poly(signal, up, down)
+    return np.asarray(resampled), sample_rate_hz * up / down
 
 
 def _sum_of(tracked: TrackedOrders, order: Array, motion: CrankMotion, time_s: Array) -> Array:

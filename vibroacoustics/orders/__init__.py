@@ -9,10 +9,10 @@ array([0.707])
 """
 
 from ..base.ellipse import semi_major_axis
+from ..base.fourier import FFT_ENGINE
 from .angular import AngularSignal, whole_revolutions
 from .angular_stream import angular_resample
 from .crank_motion import CrankMotion, constant_speed, from_angle, from_speed
-from .fourier import FFT_ENGINE
 from .frequency_map import FrequencyMap, frequency_map
 from .order_cut import OrderCut, OrderResolutionWarning, order_cut, order_lines
 from .order_map import OrderMap, block_phasors, mean_order_spectrum, order_map

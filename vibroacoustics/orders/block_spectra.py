@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
-from .fourier import real_transform
+from ..base.fourier import real_transform
 
 _CHUNK_SAMPLES: Final = 2**18
 """Windowed at once in each thread: 2 MB, and 2 MB of their spectra."""

@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
@@ -12,16 +12,24 @@ from ..base.errors import ParameterError
 from ..base.recording_blocks import RecordingBlocks, block_by_block
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import NO_ANGLE_ZERO
-from ..study.order_analysis import NominalSpeed, SpeedChannel, SpeedSource, TacholessSpeed
+from ..study.order_analysis import (
+    LINE_TOLERANCE,
+    NominalSpeed,
+    SpeedChannel,
+    SpeedLine,
+    SpeedSource,
+    TacholessSpeed,
+)
 from .crank_motion import CrankMotion, constant_speed
 from .pulse_edges import pulses_of
 from .pulse_faults import PulseFault
 from .pulse_heights import silent_parts
 from .pulse_pattern import sampling_note
 from .rpm_channel import rpm_motion_of
-from .speed_check import MOSTLY, WIDE_LINE
+from .speed_check import MOSTLY, WIDE_LINE, SpeedCheck
+from .speed_line import motion_near_line
 from .tacho import tacho_motion
-from .tacholess import TacholessResult, tacholess_motion
+from .tacholess import tacholess_motion
 
 LEAST_CONFIDENCE: Final = 0.8
 """Of a speed without a tacho that is not warned of (`SpeedCheck`)."""
@@ -115,6 +123,8 @@ def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSp
     name = _channel(recording.channels, speed.channel)
     if isinstance(speed, TacholessSpeed):
         return _from_signal(_samples(recording, name), rate_hz, speed)
+    if isinstance(speed, SpeedLine):
+        return _from_line(_samples(recording, name), rate_hz, speed)
     if recording.channel_units[recording.channels.index(name)] == "rpm":
         return _from_rpm(recording, name)
     return _from_pulses(recording, speed)
@@ -129,22 +139,40 @@ def _from_signal(samples: Array, rate_hz: float, speed: TacholessSpeed) -> Recor
         speed.comb,
         mains_hz=speed.mains_hz,
     )
-    check = tracked.check
+    within = f"within {speed.minimum_rpm:g} to {speed.maximum_rpm:g} rpm"
+    mean_hz = float(np.mean(tracked.motion.frequency_hz(tracked.time_s)))
+    return _checked(tracked.motion, mean_hz, tracked.check, within, speed.mains_hz)
+
+
+def _from_line(samples: Array, rate_hz: float, speed: SpeedLine) -> RecordedSpeed:
+    time_s, speed_rpm = np.array(speed.points).T
+    near = motion_near_line(samples, rate_hz, time_s, speed_rpm / 60.0, speed.comb, speed.mains_hz)
+    motion = near.motion
+    turned = float(np.ptp(motion.angle_rad(np.array([motion.start_s, motion.end_s])))) / (2 * np.pi)
+    mean_hz = turned / (motion.end_s - motion.start_s)
+    rival_hz = near.check.rival_hz
+    check = replace(near.check, rival_hz=None if rival_hz is None else rival_hz * mean_hz)
+    within = f"within {100.0 * LINE_TOLERANCE:.0f} % of a drawn line of {len(speed.points)} points"
+    return _checked(motion, mean_hz, check, within, speed.mains_hz)
+
+
+def _checked(
+    motion: CrankMotion, mean_hz: float, check: SpeedCheck, within: str, mains_hz: float | None
+) -> RecordedSpeed:
+    """Speed found in a signal, in words; with a warning where its confidence is low."""
     if check.confidence < LEAST_CONFIDENCE:
-        warnings.warn(_uncertain(tracked, speed), UncertainSpeedWarning, stacklevel=2)
-    mains = "" if speed.mains_hz is None else f", without mains of {speed.mains_hz:g} Hz"
+        warnings.warn(_uncertain(mean_hz, check, mains_hz), UncertainSpeedWarning, stacklevel=3)
+    mains = "" if mains_hz is None else f", without mains of {mains_hz:g} Hz"
     source = (
-        f"from the signal, within {speed.minimum_rpm:g} to {speed.maximum_rpm:g} rpm{mains}; "
-        f"lines at {check.in_place} of {check.orders} orders of the comb, confidence "
-        f"{check.confidence:.2f} of 1"
+        f"from the signal, {within}{mains}; lines at {check.in_place} of {check.orders} orders of "
+        f"the comb, confidence {check.confidence:.2f} of 1"
     )
-    return RecordedSpeed(tracked.motion, source, quality={"confidence": check.confidence})
+    return RecordedSpeed(motion, source, quality={"confidence": check.confidence})
 
 
-def _uncertain(tracked: TacholessResult, speed: TacholessSpeed) -> str:
+def _uncertain(mean_hz: float, check: SpeedCheck, mains_hz: float | None) -> str:
     """Warning of a speed that need not be the shaft's, with its rival."""
-    check = tracked.check
-    mean_rpm = 60.0 * float(np.mean(tracked.motion.frequency_hz(tracked.time_s)))
+    mean_rpm = 60.0 * mean_hz
     reasons = [f"lines at {check.in_place} of {check.orders} orders of the comb"]
     if check.width > WIDE_LINE:
         reasons.append(f"{check.width:.1f} times as wide as those of a steady speed")
@@ -155,7 +183,7 @@ def _uncertain(tracked: TacholessResult, speed: TacholessSpeed) -> str:
     if check.rival_hz is not None:
         reasons.append(f"{60.0 * check.rival_hz:.0f} rpm is the next best")
     advice = "give the comb of the machine, narrower limits or a tacho"
-    if speed.mains_hz is None:
+    if mains_hz is None:
         advice = "name the mains frequency, " + advice
     return (
         f"the speed found, {mean_rpm:.0f} rpm, is uncertain: confidence {check.confidence:.2f} of "

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
+from ..base.fourier import real_transform
 from .angular import AngularSignal
-from .fourier import real_transform
 from .low_pass import LowPass, kaiser_low_pass
 from .order_cut import warn_of_neighbours
 

@@ -3,14 +3,15 @@
 Parsers of binary formats ask for whatever a header claims, and the HDF5 library can crash on a
 damaged file. So every file is read here, never in the process of the user.
 
-On standard output: one line of JSON, then the samples as float64, channel after channel.
+On standard output: one line of JSON, then the samples, channel after channel: as float64, or where
+they are asked for as the file stores them, in the type that the header names.
 """
 
 import hashlib
 import json
 import os
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO, Final
@@ -29,6 +30,8 @@ from .recorded import MAXIMUM_READING_BYTES, MINIMUM_SAMPLES, Recorded, Request,
 MAXIMUM_CPU_S: Final = 600
 PIECE: Final = 2**17
 """Samples that are handed over at a time, 1 MiB."""
+_SMALL_TYPES: Final = ("<f4", "<i2", "<i4")
+"""Types that take half the memory of float64 or less, and that it holds exactly."""
 
 
 def answer(
@@ -153,8 +156,21 @@ def main() -> None:
     _limit(resource.RLIMIT_CORE, 0)
     output = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # a parser that prints does no harm
-    asked = json.loads(sys.argv[1])
-    _write(output, *answer(_request(asked), asked.get("plugin"), asked.get("hashed", True)))
+    _write(output, *_typed_answer(json.loads(sys.argv[1])))
+
+
+def _typed_answer(asked: Mapping[str, Any]) -> tuple[dict[str, Any], list[Any]]:
+    """Header, with the type in which samples are handed over, and channels."""
+    header, rows = answer(_request(asked), asked.get("plugin"), asked.get("hashed", True))
+    channels = list(rows)
+    kind = _common_type(channels) if asked.get("as_stored") else "<f8"
+    return {**header, "type": kind}, channels
+
+
+def _common_type(channels: Sequence[Any]) -> str:
+    """Type of the samples of all channels where it is a small one, else float64."""
+    kinds = {samples.dtype.str for samples in channels}
+    return kinds.pop() if len(kinds) == 1 and kinds <= set(_SMALL_TYPES) else "<f8"
 
 
 def _request(asked: Mapping[str, Any]) -> Request:
@@ -177,12 +193,12 @@ def _limit(kind: int, amount: int) -> None:
     resource.setrlimit(kind, (allowed, hard))
 
 
-def _write(output: BinaryIO, header: dict[str, Any], channels: Iterable[Any]) -> None:
+def _write(output: BinaryIO, header: dict[str, Any], channels: Sequence[Any]) -> None:
     with output:
         output.write(json.dumps(header).encode() + b"\n")
         for samples in channels:
             for start in range(0, len(samples), PIECE):
-                piece = np.ascontiguousarray(samples[start : start + PIECE], dtype=float)
+                piece = np.ascontiguousarray(samples[start : start + PIECE], header["type"])
                 output.write(piece.data.cast("B"))
 
 

@@ -33,6 +33,9 @@ _ERRORS: Final = {
 def read_in_child(request: Mapping[str, Any]) -> tuple[dict[str, Any], Array]:
     """Header and samples, shape (channel, time), that the child hands over.
 
+    With `as_stored` among the request the samples are of a smaller type than float64 where all
+    channels of the file are.
+
     Raises
     ------
     ParameterError, StorageError
@@ -65,7 +68,7 @@ def _receive(stream: io.BufferedReader) -> tuple[dict[str, Any], Array] | None:
     header = json.loads(line)
     if "error" in header:
         raise _ERRORS[header["error"]](header["message"])
-    samples = np.empty((len(header["names"]), header["samples"]))
+    samples = np.empty((len(header["names"]), header["samples"]), header["type"])
     complete = not samples.size or stream.readinto(samples.data.cast("B")) == samples.nbytes
     return (header, samples) if complete else None
 

@@ -1,12 +1,12 @@
 """A recording from a file of any format, in the labelled form."""
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import xarray as xr
 
 from .asked import Asked, naming_file
+from .blocks import samples_digest
 from .recorded import check_part
 from .recording import label_in_place
 from .remarks import overload_lines, remark
@@ -76,7 +76,7 @@ def read_recording(
         header, stored = asked.read(part)
         digest = {"source_sha256": header["sha256"]}
         if is_large:
-            digest = {"part_sha256": hashlib.sha256(stored.data.cast("B")).hexdigest()}
+            digest = {"part_sha256": samples_digest(stored)}
         recording = label_in_place(
             stored,
             header["sample_rate_hz"],

@@ -112,7 +112,7 @@ def scale_in_place(signal: Array, names: Sequence[str], factors: Sequence[float]
     for name, factor, samples in zip(names, factors, signal, strict=True):
         with np.errstate(over="ignore"):  # told in the next line
             np.multiply(samples, factor, out=samples)
-        _check_finite(name, samples)
+        check_finite(name, samples)
 
 
 def _check_form(
@@ -146,7 +146,14 @@ def _calibration(name: str, calibration: Mapping[str, float]) -> float:
     return factor
 
 
-def _check_finite(name: str, samples: Array) -> None:
+def check_finite(name: str, samples: Array) -> None:
+    """Refuse samples of a channel that are not finite.
+
+    Raises
+    ------
+    ParameterError
+        Says how many there are and which is the first.
+    """
     wrong = np.flatnonzero(~np.isfinite(samples))
     if wrong.size:
         raise ParameterError(

@@ -1,6 +1,6 @@
 """Analyses of a recording: its orders and levels, tracked orders, and spectra over the speed."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import product
 from typing import Final
@@ -13,13 +13,16 @@ from ..results.bands import fixed
 from ..results.number import number
 from ..results.over_speed.avoid import recorded_speeds_to_avoid
 from ..results.over_speed.level_curves import is_run_up, recorded_curves
+from ..results.over_speed.loudest_channel import loudest_channel, orders_at_speeds
 from ..results.over_speed.run_up_sound import RunUpSound, shown_channel
 from .analysis import Analysis, origin
 from .avoid import RECORDED_RULE, recorded_avoid_table
 from .blocks import Block, Bullets, Live, Part, Pictures, Text
+from .charts.marks import Chart
 from .figures.channel_orders import recorded_order_charts, speed_map_charts, tracked_order_charts
 from .limit_tables import limits_data, limits_words, order_limits_table
 from .live.run_up_data import run_up_data
+from .loudest_words import loudest_sentences
 from .run_up_tables import every_loudest, loudest_table
 from .tables import (
     Cell,
@@ -34,6 +37,10 @@ from .tables import (
     table_of,
 )
 
+_MOST_CHANNELS: Final = 4
+"""Channels whose pictures are all unfolded."""
+_MOST_ROWS: Final = 20
+"""Rows of tables that are not folded."""
 _MOST_SPEEDS: Final = 6
 """Operating points in the text; all are in the CSV."""
 _MOST_FAULTS: Final = 5
@@ -74,22 +81,23 @@ def analysis_of_orders(
     """
     channel = shown_channel(results, listen)
     facts, tables = Bullets(tuple(orders_facts(results))), orders_tables(results)
-    loudest = every_loudest(results)
-    in_db = [loudest_table(loudest)] if loudest else []
-    charts = recorded_order_charts(results, loudest)
+    curves = every_loudest(results)
+    loudest = loudest_channel(curves or orders_at_speeds(results))
+    in_db = [loudest_table(curves)] if curves else []
     parts = [
-        *(Part("levels", "Levels over the speed", (table,)) for table in in_db),
+        Part("answer", "Loudest channel and order", ()),
         *(
             Part(
                 "map",
                 f"Interactive map of {channel}",
                 (Live(run_up_data(results, each, sound), "run_up"),),
             )
-            for each in loudest
+            for each in curves
             if each.channel == channel
         ),
-        Part("figures", "Orders by channel", (Pictures(tuple(charts)),)),
-        Part("orders", "Orders and levels", tuple(tables)),
+        *_figures(recorded_order_charts(results, curves), loudest.curves.channel),
+        *(_tables_part("levels", "Levels over the speed", [table]) for table in in_db),
+        _tables_part("orders", "Orders and levels", tables),
         Part("settings", "Speed and resolution", (facts,)),
     ]
     data = {"orders.csv": data_table(_DIMENSIONS, _orders(results))}
@@ -99,17 +107,37 @@ def analysis_of_orders(
     if "order_limit" in results:
         data["orders_limits.csv"] = limits_data(results)
         limits: tuple[Block, ...] = (order_limits_table(results), *map(Text, limits_words(results)))
-        parts.insert(0, Part("limits", "Limits", limits))
+        parts.insert(1, Part("limits", "Limits", limits))
         shown += limits
     about = "Orders are multiples of the shaft frequency; amplitudes are peaks."
     return Analysis(
         "orders",
         about=about,
         parts=tuple(parts),
+        summary=loudest_sentences(loudest),
         shown=tuple(shown),
         tables=data,
         **origin(results, "Recording"),
     )
+
+
+def _figures(charts: Mapping[str, Sequence[Chart]], loudest: str) -> list[Part]:
+    """Pictures of the loudest channel; those of others are folded where there are many."""
+    others = [chart for name, each in charts.items() if name != loudest for chart in each]
+    first, is_folded = Pictures(tuple(charts[loudest])), len(charts) > _MOST_CHANNELS
+    if not is_folded:
+        every = Pictures((*first.pictures, *others))
+        return [Part("figures", "Orders by channel", (every,))]
+    return [
+        Part("figures", f"Orders of {loudest}", (first,)),
+        Part("others", "Orders of the other channels", (Pictures(tuple(others)),), folded=True),
+    ]
+
+
+def _tables_part(name: str, title: str, tables: Sequence[Table]) -> Part:
+    """Tables as a section; long ones are folded."""
+    rows = sum(len(table.rows) for table in tables)
+    return Part(name, title, tuple(tables), folded=rows > _MOST_ROWS)
 
 
 def analysis_of_tracks(tracked: xr.Dataset) -> Analysis:

@@ -8,15 +8,17 @@ from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import VibroacousticsError
 from ..base.hashing import canonical_json, sha256
 from ..base.registry import plugins
 from ..recordings.reader import READERS
-from ..study.order_analysis import OrderAnalysis
-from ..study.study import Study
+
+if TYPE_CHECKING:
+    from ..study.order_analysis import OrderAnalysis
+    from ..study.study import Study
 
 SCHEMA_VERSION: Final = "3"
 RECORDING_SCHEMA_VERSION: Final = "1"
@@ -35,7 +37,7 @@ PACKAGES: Final = (
 )
 
 
-def attributes(study: Study) -> dict[str, Any]:
+def attributes(study: "Study") -> dict[str, Any]:
     """Global attributes of a result: everything that is needed to make it again."""
     parameters = canonical_json(study.parameters())
     return {
@@ -49,7 +51,7 @@ def attributes(study: Study) -> dict[str, Any]:
 
 
 def radiation_attributes(
-    study: Study, radiated: Mapping[str, Any], was_cached: bool
+    study: "Study", radiated: Mapping[str, Any], was_cached: bool
 ) -> dict[str, Any]:
     """The same, and where the transfer vectors come from."""
     return {
@@ -60,7 +62,7 @@ def radiation_attributes(
     }
 
 
-def recording_attributes(recording: Mapping[str, Any], settings: OrderAnalysis) -> dict[str, Any]:
+def recording_attributes(recording: Mapping[str, Any], settings: "OrderAnalysis") -> dict[str, Any]:
     """Global attributes of the orders of a recording: its file and the settings."""
     parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
     return {**of_recording(recording, "orders"), "analysis": canonical_json(parameters)}

@@ -10,6 +10,8 @@ BandMethod = Literal["sums", "filters"]
 """Third octaves as sums of the lines within a band, or through the filters of IEC 61260-1."""
 DEFAULT_COMB: Final = tuple(float(order) for order in range(1, 11))
 """Orders of a machine of which nothing is known."""
+LINE_TOLERANCE: Final = 0.1
+"""Largest distance of the speed from a drawn line, relative."""
 Edge = Literal["rising", "falling"]
 """Edge of a tacho's pulses that marks the angle."""
 EDGES: Final[tuple[Edge, ...]] = get_args(Edge)
@@ -126,7 +128,51 @@ class TacholessSpeed:
             )
 
 
-SpeedSource = SpeedChannel | NominalSpeed | TacholessSpeed
+@dataclass(frozen=True)
+class SpeedLine:
+    """The speed is found from the orders in a channel, within 10 % of a line drawn by hand.
+
+    Attributes
+    ----------
+    channel : name, or None for the recording's only channel
+    points : time, s from the first sample, and speed, rpm, of at least two points; times rise
+    comb, mains_hz : as of `TacholessSpeed`
+
+    Raises
+    ------
+    ParameterError
+        There is one point, times do not rise from zero or above, a speed is not above zero; or
+        comb and mains as of `TacholessSpeed`.
+
+    Examples
+    --------
+    >>> va.SpeedLine("ring", ((0.0, 1200.0), (20.0, 3600.0))).points[1]
+    (20.0, 3600.0)
+    """
+
+    channel: str | None
+    points: tuple[tuple[float, float], ...]
+    comb: tuple[float, ...] = DEFAULT_COMB
+    mains_hz: float | None = None
+
+    def __post_init__(self) -> None:
+        if len(self.points) < 2:
+            raise ParameterError("points = 1: at least two of a time and a speed are needed")
+        last_s = -math.inf
+        for time_s, speed_rpm in self.points:
+            if not max(last_s, 0.0) <= time_s < math.inf or time_s == last_s:
+                raise ParameterError(
+                    f"points = {time_s:g} s: must be 0 s or above and rise from point to point"
+                )
+            _check_positive("speed_rpm", speed_rpm, "rpm")
+            last_s = time_s
+        limits_rpm = [speed_rpm for _, speed_rpm in self.points]
+        TacholessSpeed(
+            self.channel, 0.9 * min(limits_rpm), 1.1 * max(limits_rpm), self.comb, self.mains_hz
+        )
+
+
+SpeedSource = SpeedChannel | NominalSpeed | TacholessSpeed | SpeedLine
 
 
 @dataclass(frozen=True)

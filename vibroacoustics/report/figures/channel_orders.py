@@ -22,8 +22,8 @@ from .run_up_levels import run_up_chart
 
 def recorded_order_charts(
     results: xr.Dataset, loudest: Sequence[LoudestOrders] = ()
-) -> list[Chart]:
-    """Return for each channel: levels and map of a run-up, mean spectrum.
+) -> dict[str, list[Chart]]:
+    """Return by channel: levels and map of a run-up, mean spectrum.
 
     Orders of the analysis over the speed are shown where they have limits, or without levels.
 
@@ -32,9 +32,11 @@ def recorded_order_charts(
     results : of `analyse_orders`
     loudest : overall level and orders of every channel of a run-up with its map; else none
     """
-    charts = []
+    by_channel = {}
     levels = {curves.channel: curves for curves in loudest}
     for channel, file in numbered(results, "channel"):
+        charts: list[Chart] = []
+        by_channel[channel] = charts
         if channel in levels:
             charts.append(run_up_chart(levels[channel], file))
         if "order_map" in results:
@@ -43,7 +45,7 @@ def recorded_order_charts(
         if results.sizes["speed"] > 1 and (with_limits or channel not in levels):
             charts.append(orders_over_speed(results, channel))
         charts.append(order_spectrum(results, channel))
-    return charts
+    return by_channel
 
 
 def _of_channel(orders: xr.Dataset, channel: str | None) -> tuple[xr.Dataset, str, str]:

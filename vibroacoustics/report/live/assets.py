@@ -15,7 +15,7 @@ SCRIPTS: Final = {
         "listening.js",
     ),
     "run_up": ("weighting.js", "charts.js", "run_up_map.js", "run_up_cuts.js", "run_up.js",
-               "run_up_sound.js", "run_up_start.js"),
+               "run_up_line.js", "run_up_sound.js", "run_up_start.js"),
 }  # fmt: skip
 """By the name of the panel."""
 _STYLES: Final = {"sliders": (), "run_up": ("run_up.css",)}
