@@ -113,6 +113,7 @@ def test_bands_hold_the_forces(tmp_path, share):
     assert 0.84 < np.mean(held) < 0.94
 
 
+@pytest.mark.filterwarnings("ignore:.*usual is")
 def test_the_machine_by_table_runs_with_them(tmp_path):
     outcome = CliRunner().invoke(
         cli.app, ["blocked-forces", str(write(tmp_path, ABOVE)), "--out", str(tmp_path)]
