@@ -75,11 +75,13 @@ BUILT_IN = [
     "stopping",
     "scores",
     "evidence",
+    "example",
     "assumptions",
     "errata",
     "provenance",
 ]
 NOT_HERE = {
+    "example",
     "run-up",
     "evidence",
     "live",

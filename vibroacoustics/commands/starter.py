@@ -9,6 +9,7 @@ from typing import Any, Final
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
 from ..machine.machine import MACHINES
+from ..study.example import marked
 from ..study.schema.files import machine_schema, study_schema
 
 STUDIES: Final = {
@@ -36,7 +37,8 @@ _HEAD: Final = """\
 # From {name} of vibroacoustics: put the values of your machine in place of these.
 # Units are in the keys. A machine's value, also one that an option changes, is {{ value, source }},
 # with a range where it is assumed; elsewhere a number does. Ranges are sampled where a study has
-# [sources.NAME].
+# [sources.NAME]. A source that begins with "example: " names the value that it is of: write yours
+# with another value; `vibroacoustics check` counts those that are still the example's.
 """
 
 
@@ -68,7 +70,8 @@ def starting_files(kind: str) -> dict[str, bytes]:
         STUDY_NAME: ("study", f"pipelines/{name}"),
         MACHINE_NAME: ("machine", f"data/machines/{machine}"),
     }
-    return {file: _rewritten(text, *named.get(file, ())).encode() for file, text in files.items()}
+    new = {file: _rewritten(text, *named.get(file, ())).encode() for file, text in files.items()}
+    return {**new, **{file: marked(new[file].decode(), new).encode() for file in named}}
 
 
 def _shipped() -> Traversable:

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..base.errors import ParameterError
 from ..base.fault import collected
@@ -132,12 +132,16 @@ def check_command(
     progress: Progress,
     file: Annotated[Path, "FILE: Study or machine file, .toml."],
     plugin: Plugins = None,
+    example: Annotated[
+        bool, "List the values that are still the example's, and rank them by runs of the study."
+    ] = False,
 ) -> Outcome:
     """List all errors of a study or a machine, and what a run of the study would cost."""
     from ..pipeline.cost import run_cost
     from ..study.loading import load_study_or_machine
     from ..study.study import Study
     from ..study.summary import study_lines
+    from .example_values import count_lines
     from .summary import cost_lines, machine_lines
 
     with collected() as left_out, stage(progress, "check"):
@@ -145,13 +149,34 @@ def check_command(
         checked = load_study_or_machine(file)
         if isinstance(checked, Study):
             cost = run_cost(checked, progress)
-            lines = [*study_lines(checked), *cost_lines(cost)]
+            lines = [*study_lines(checked), *count_lines(checked), *cost_lines(cost)]
             tables = {"cost": columns([each._asdict() for each in cost.costs])}
+        elif example:
+            raise ParameterError(f"{file}: is a machine; --example needs a study that reads it")
         else:
             lines, tables = list(machine_lines(checked)), {}
     warned = left_out or messages.has_warned()
     what = "nothing else is wrong" if warned else "nothing is wrong"
-    return Outcome("\n".join([*lines, f"{file}: {what}"]), tables=tables)
+    lines.append(f"{file}: {what}")
+    if example and isinstance(checked, Study):
+        further, tables["example"] = _ranked(checked, progress)
+        lines += further
+    return Outcome("\n".join(lines), tables=tables)
+
+
+def _ranked(study: "Study", progress: Progress) -> "tuple[list[str], dict[str, list[Any]]]":
+    """Rank the example's values of a study in the coarse setting, after the price is shown."""
+    from ..design.example import planned, ranked
+    from ..study.coarse import coarse
+    from .example_values import ranking, ranking_table, show_price
+
+    with stage(progress, "price of the ranking"):
+        plan = planned(coarse(study))
+    if not plan.moves:
+        return ["example: no value that this study reads is the example's"], {}
+    show_price(plan)
+    effects = ranked(plan, progress)
+    return list(ranking(plan, effects)), ranking_table(effects)
 
 
 @command("radiation", "Studies", "pipelines/copeland_thesis.toml")

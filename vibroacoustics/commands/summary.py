@@ -75,16 +75,16 @@ def cost_lines(cost: RunCost) -> Iterator[str]:
         else f"radiation: is computed, {cost.radiation_bytes / 1e6:.0f} MB of memory"
     )
     for one in cost.costs:
-        yield f"  {_span(one.low_s, one.high_s):>14}  {one.name}: {one.how}"
+        yield f"  {span(one.low_s, one.high_s):>14}  {one.name}: {one.how}"
     cores = processors()
     yield (
-        f"time: {_span(cost.low_s, cost.high_s)} of processor time; "
-        f"{_span(cost.low_s / cores, cost.high_s)} on {cores} idle cores"
+        f"time: {span(cost.low_s, cost.high_s)} of processor time; "
+        f"{span(cost.low_s / cores, cost.high_s)} on {cores} idle cores"
     )
 
 
-def _span(low_s: float, high_s: float) -> str:
-    """A range of times in the unit of the larger one."""
+def span(low_s: float, high_s: float) -> str:
+    """Write a range of times in the unit of the larger one."""
     for unit, seconds in (("h", 3600.0), ("min", 60.0)):
         if high_s >= 2.0 * seconds:
             return f"{low_s / seconds:.2g} to {high_s / seconds:.2g} {unit}"

@@ -17,7 +17,7 @@ from ..results.left_out import keep_lines
 from ..results.words import words
 from ..stages.chain import Chain
 from ..stages.radiation import Radiated, transfer_vectors
-from ..stages.stage import STAGES, advanced, applying
+from ..stages.stage import STAGES, advanced, applying, needed_for
 from ..study.failing import surviving
 from ..study.study import Study
 
@@ -68,7 +68,7 @@ def chain_with(
     progress: Progress = no_progress,
     radiation: Radiation = transfer_vectors,
 ) -> Chain:
-    """Carry a study through the stages up to the first one that gives a product.
+    """Carry a study through the stages that a product follows from, and the one that gives it.
 
     Parameters
     ----------
@@ -84,9 +84,8 @@ def chain_with(
     """
     with one_thread_of_linear_algebra():
         chain = Chain(study, radiation, progress)
-        for stage in applying(study):
-            if product not in chain.products:
-                chain = advanced(chain, stage)
+        for stage in needed_for(product, applying(study)):
+            chain = advanced(chain, stage)
     return chain
 
 

@@ -18,6 +18,7 @@ from .kwave_words import kwave_line
 from .left_out import with_lines
 from .sections import SECTIONS
 from .sections.comparison import terminal_blocks
+from .sections.example import example_words
 from .sections.verdict.words import sentences
 from .shown_speeds import over_speed
 from .tables import DataTable
@@ -40,13 +41,13 @@ def _analysis(results: xr.Dataset) -> Analysis:
         section = sections[number]
         return Part(section.name, section.title, tuple(section.blocks(named)), section.folded)
 
-    of_study = parameters(named)
+    of_study, notes = parameters(named), (kwave_line(results), example_words(results))
     return Analysis(
         "report",
         about="What each way of balancing does to the forces, to the feet and to the sound.",
         parts=tuple(side_by_side(blocks_of, range(len(sections)))),
         summary=sentences(named),
-        shown=(*terminal_blocks(results), Text(kwave_line(results))),
+        shown=(*terminal_blocks(results), *map(Text, filter(None, notes))),
         tables=_tables(results),
         figures="figures/",
         in_markdown="comparison.md",

@@ -121,6 +121,7 @@ class Record(Part):
     highest: Number | None
     source: str
     file: str
+    example: bool = False
 
 
 class SampledRange(Part):

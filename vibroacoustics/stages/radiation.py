@@ -11,9 +11,9 @@ from .. import radiation
 from ..base.progress import Progress
 from ..base.registry import register
 from ..radiation import SurfaceMotion
-from ..radiation.cost import cost_of
+from ..radiation.cost import Cost, cost_of
 from ..radiation.given import given_radiation, radiated_by, silent_radiation
-from ..radiation.of_study import inputs_of
+from ..radiation.of_study import Inputs, inputs_of
 from ..radiation.receiver_methods import GIVEN, MEASURED
 from ..radiation.transfer_vectors import method_of, task_of
 from ..results.storage import cached, is_cached
@@ -77,10 +77,14 @@ class HousingRadiation(Stage):
         inputs = inputs_of(study, modes_of(chain))
         if is_cached(_CACHE, radiation.cache_key_material(*inputs)):
             return Trial(advanced(replace(chain, radiation=transfer_vectors), self))
-        task = task_of(*inputs)
-        costs = tuple(cost_of(method_of(study.machine.shell, task), task))
         silence = silent_radiation(study, modes_of(chain))
-        return Trial(advanced(replace(chain, radiation=silence), self), costs)
+        return Trial(advanced(replace(chain, radiation=silence), self), radiation_costs(inputs))
+
+
+def radiation_costs(inputs: Inputs) -> tuple[Cost, ...]:
+    """Estimate what transfer vectors cost that are not in the cache."""
+    task = task_of(*inputs)
+    return tuple(cost_of(method_of(inputs[0], task), task))
 
 
 def modes_of(chain: Chain) -> Sequence[SurfaceMotion]:

@@ -1,7 +1,7 @@
 """A stage of the chain, the registry of stages, and the order that follows from what they read."""
 
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Final, NamedTuple
 
@@ -143,6 +143,17 @@ def ordered(stages: Iterable[Stage]) -> list[Stage]:
         waiting.remove(ready)
         done.append(ready)
     return done
+
+
+def needed_for(product: type, stages: Sequence[Stage]) -> list[Stage]:
+    """Return the stages that a product follows from and the one that gives it, in their order."""
+    givers = _givers(stages)
+    waiting, names = {givers.get(product, "")}, set()
+    while waiting:
+        names |= waiting
+        read = (_before(stage, stages, givers) for stage in stages if stage.name in waiting)
+        waiting = set().union(*read) - names
+    return [stage for stage in stages if stage.name in names]
 
 
 def _givers(stages: Iterable[Stage]) -> dict[str | type, str]:

@@ -7,6 +7,7 @@ from typing import Any, Final
 
 from ..base.errors import ParameterError
 from ..base.units import si_key, split_key
+from .example import unmarked
 from .record import ParameterRecord
 from .toml_files import is_quantity, shown_key
 
@@ -85,6 +86,7 @@ class Reader:
         if not isinstance(source, str) or not source.strip():
             raise ParameterError(f"{where}: source is missing")
         number = value["value"]
+        source, is_example = unmarked(source, keys[-1], number, self.file(keys).parent)
         suffix = split_key(keys[-1])[1]
         symbol = unit or (suffix.symbol if suffix else "")
         lowest, highest = _limits(where, value.get("range"))
@@ -103,6 +105,7 @@ class Reader:
                 source=source,
                 lowest=lowest,
                 highest=highest,
+                example=is_example,
             )
         )
         return tuple(number) if isinstance(number, list) else number

@@ -1,5 +1,6 @@
 """`check`: all errors in one go, and what a run costs before it starts."""
 
+import json
 import os
 import time
 from math import sqrt
@@ -111,3 +112,30 @@ def test_lines_of_a_study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
                   "size of the result: 0.", "MB of memory",
                   "boundary elements: ", "of processor time; ", "nothing is wrong"):  # fmt: skip
         assert words in outcome.stdout, outcome.stdout
+
+
+def test_values_of_the_example_are_counted_and_ranked(tmp_path: Path) -> None:
+    """Two values of the machine are marked, one of them was changed since."""
+    machine = (ROOT / "data" / "machines" / "copeland_zp41k3e.toml").read_text()
+    for old, new in (
+        ('0.0727, source = "', '0.0727, source = "example: 0.0727 kg; '),
+        ('35.0, source = "', '35.0, source = "example: 34 kg; '),
+    ):
+        assert old in machine
+        machine = machine.replace(old, new, 1)
+    (tmp_path / "machine.toml").write_text(machine)
+    file = changed(tmp_path, (f"{ROOT}/data/machines/copeland_zp41k3e.toml", "machine.toml"))
+    outcome = command_here("check", file, "--example", "--json")
+    assert outcome.returncode == 0, outcome.stderr
+    assert "price: 2 runs in the coarse setting, 0 of them" in outcome.stderr
+    ranked = json.loads(outcome.stdout)["tables"]["example"]
+    assert ranked["field"] == ["oldham.mass_kg"] * 2
+    assert ranked["change_modelled_dba"] == pytest.approx([-1.938, 1.584], abs=1e-3)
+    text = command_here("check", file).stdout
+    assert "example: 1 of " in text
+    assert "write yours: housing.mass_kg" in text
+
+
+def test_a_machine_has_no_values_that_a_study_reads() -> None:
+    file = ROOT / "data" / "machines" / "zhao_minicrank.toml"
+    assert_refused(command_here("check", file, "--example"), "is a machine", "--example")

@@ -96,9 +96,10 @@ def inputs_data(results: xr.Dataset) -> dict[str, DataTable]:
         ends = [of.get(end) for of in (record, item) for end in ("lowest", "highest")]
         cells = ["" if end is None else end for end in ends]
         named = (record["field"], record["value"], record["unit"] or "1")
-        rows.append((*named, *cells, use, record["source"], record["file"]))
+        origin = "example" if record.get("example") else ""
+        rows.append((*named, *cells, use, origin, record["source"], record["file"]))
     head = ("field", "value", "unit", "lowest", "highest", "lowest_si", "highest_si", "use",
-            "source", "file")  # fmt: skip
+            "origin", "source", "file")  # fmt: skip
     return {"inputs.csv": columns_of(head, rows)}
 
 

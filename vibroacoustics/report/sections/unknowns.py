@@ -1,6 +1,6 @@
 """Unknowns that the level depends on: which were sampled, their shares, what to measure next."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, Final
 
 import numpy as np
@@ -135,8 +135,11 @@ def resolved_sentence(results: xr.Dataset) -> str:
     )
 
 
-def unknowns_table(results: xr.Dataset) -> Table | None:
-    """Unknowns with a resolved share: values before and after the published level, and shares."""
+def unknowns_table(results: xr.Dataset, among: Collection[str] | None = None) -> Table | None:
+    """Unknowns with a resolved share: values before and after the published level, and shares.
+
+    All of them, or those among some dotted names in SI.
+    """
     shares = results["level_share"]
     seen = resolved(results, "level_share")
     knowledge = [str(name) for name in shares["knowledge"].values]
@@ -150,7 +153,7 @@ def unknowns_table(results: xr.Dataset) -> Table | None:
             *(share_words(results, "level_share", number, at) for number in columns),
         )
         for at in np.argsort(-largest, kind="stable").tolist()
-        if largest[at] > 0.0
+        if largest[at] > 0.0 and (among is None or names[at] in among)
     )
     if not rows:
         return None

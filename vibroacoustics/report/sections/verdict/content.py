@@ -16,7 +16,8 @@ from ...drawing.picture import machine_picture
 from ...option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
 from ...quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
 from ...shifts import Shift, extent, measurable, shift
-from .. import Section
+from .. import Section, text
+from ..example import example_words
 from ..scores import ranking_sentence
 from .words import changes, contributions, word
 
@@ -109,7 +110,10 @@ def _note(results: xr.Dataset) -> str:
 def _blocks(results: xr.Dataset) -> list[Block]:
     contributed, changed = contributions(results), changes(results)
     charts = contributed if changed is None else Beside(contributed, changed)
-    return [*left_out_words(results), *coarse_words(results), charts, *_details(results)]
+    words = [
+        *left_out_words(results), *coarse_words(results), *text(example_words(results)),
+    ]  # fmt: skip
+    return [*words, charts, *_details(results)]
 
 
 def left_out_words(results: xr.Dataset) -> list[Block]:
