@@ -13,13 +13,13 @@ from typing import Final
 
 import numpy as np
 
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
 from vibroacoustics.radiation.arrangements import hemisphere_positions
-from vibroacoustics.radiation.bodies import cylinder
+from vibroacoustics.radiation.bodies import turned
 from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
-from vibroacoustics.radiation.revolution.profile import capped_cylinder
 from vibroacoustics.radiation.revolution.side import RevolutionSide
 from vibroacoustics.radiation.scene import Scene
 from vibroacoustics.radiation.task import Microphones
@@ -66,7 +66,7 @@ def by_cells(
     highest_hz: float, patterns: list[Pattern], points: np.ndarray, spacing_m: float
 ) -> np.ndarray:
     """The same by cut cells on two grids, the finer one of a spacing."""
-    body = cylinder(RADIUS_M, BOTTOM_M, TOP_M)
+    body = turned(capped_cylinder(RADIUS_M, BOTTOM_M, TOP_M))
     scene = Scene(body, (), (Mirror(2, -1, FLOOR_M),))
     near = near_fields(scene, spacing_m, highest_hz)
     side = MachineSide(scene, near, patterns, _table_hz(highest_hz), [Microphones(points)])

@@ -16,8 +16,9 @@ from typing import Final
 
 import numpy as np
 
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
-from vibroacoustics.radiation.bodies import cylinder
+from vibroacoustics.radiation.bodies import turned
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import Scene
@@ -52,7 +53,7 @@ def reference() -> tuple[np.ndarray, dict[str, np.ndarray]]:
 
 def transfer_vectors(spacing_m: float, frequency_hz: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Pressures (microphone, dof, frequency)."""
-    body = cylinder(0.0825, -0.19, 0.227)
+    body = turned(capped_cylinder(0.0825, -0.19, 0.227))
     patterns = [rigid_body(dof) for dof in RIGID_BODY_DOFS]
     alone = Scene(body, (), ())
     near = near_fields(alone, spacing_m, MAXIMUM_HZ)

@@ -16,6 +16,7 @@ from support import CRANK_ANGLE, balancing, turning, wrench_orders
 from vibroacoustics.balancers.spring_mass import sprung_mass_response, tuned_mass
 from vibroacoustics.base import fourier
 from vibroacoustics.base.arrays import ComplexArray
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.levels import a_weighting, sound_pressure_level
 from vibroacoustics.mechanics.moving_parts import (
     MovingPart,
@@ -24,7 +25,7 @@ from vibroacoustics.mechanics.moving_parts import (
     wrench,
 )
 from vibroacoustics.orders import order_spectrum
-from vibroacoustics.radiation.bodies import cylinder
+from vibroacoustics.radiation.bodies import turned
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.scene import Scene
@@ -405,7 +406,7 @@ def free_field(
     frequency = np.concatenate([TABLE_HZ, SHAFT_HZ])
     sides = {}
     for name, (bottom, top, dome) in OUTLINES.items():
-        body = cylinder(0.0825, bottom, top, dome)
+        body = turned(capped_cylinder(0.0825, bottom, top, dome))
         alone = Scene(body, (), ())
         near = near_fields(alone, DEFAULT_SPACING_M, MAXIMUM_HZ)
         places = microphones(boundary_elements, name)

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
+from ..base.revolution import shell_profile
 from ..results.data_sheet import Fact
 from ..results.stored_study import operating_points, parameters
 
@@ -56,14 +57,15 @@ def mounting(case: xr.Dataset) -> tuple[Fact, ...]:
     measured = (study.get("measured") or {}).get("floor")
     floor = "compliant under the feet" if yielding or measured else "rigid under the feet"
     shell = machine["shell"]
+    outside = shell_profile(shell)
     return (
         _number("mass on the mounts", machine["housing"]["mass_kg"], "kg"),
         Fact(name="feet", value=float(case.sizes["foot"])),
         *_mounts(machine),
         Fact(name="floor", value=f"{'hard' if around['floor'] else 'none'} to sound, {floor}"),
         _number("height of the shell above the floor", 1e3 * shell["floor_clearance_m"], "mm"),
-        _number("height of the shell", 1e3 * shell["height_m"], "mm"),
-        _number("diameter of the shell", 1e3 * shell["outer_diameter_m"], "mm"),
+        _number("height of the shell", 1e3 * outside.height_m, "mm"),
+        _number("diameter of the shell", 2e3 * outside.radius_m, "mm"),
         Fact(name="pipes", value="none: their stiffness and their sound are not modelled"),
         _number("density of the air", AIR_DENSITY_KG_PER_M3, "kg/m³"),
         _number("speed of sound", SPEED_OF_SOUND_M_PER_S, "m/s"),

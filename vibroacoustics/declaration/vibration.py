@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, ComplexArray
+from ..base.revolution import shell_profile
 from ..base.vocabulary import AXES, RIGID_BODY_DOFS
 from ..results.data_sheet import Vibration
 from ..results.stored_study import parameters
@@ -89,7 +90,7 @@ def offsets_m(
     """
     shell = parameters(results)["machine"]["shell"]
     below = shell["centre_of_mass_height_m"] + shell["floor_clearance_m"]
-    top = shell["floor_clearance_m"] + shell["height_m"]
+    top = below + shell_profile(shell).top_z_m
     named = {"top of the shell": (0.0, 0.0, top), **points_m}
     return {name: np.array([x, y, height - below]) for name, (x, y, height) in named.items()}
 

@@ -46,16 +46,17 @@ class DischargeDome(Parameters):
 
     def why_not_in(self, shell: Shell) -> str | None:
         """Why a shell cannot have it; None where it can."""
-        wall = shell.height_m - 2.0 * shell.dome_height_m
+        size = shell.cylinder
+        wall = size.height_m - 2.0 * size.dome_height_m
         if self.depth_m >= wall:
             return (
                 f"depth_mm = {1e3 * self.depth_m:g} mm: must be below {1e3 * wall:g} mm, the "
                 "height of the wall between the caps"
             )
-        if self.port_offset_m >= shell.radius_m:
+        if self.port_offset_m >= size.radius_m:
             return (
                 f"port_offset_mm = {1e3 * self.port_offset_m:g} mm: must be below "
-                f"{1e3 * shell.radius_m:g} mm, the radius of the shell"
+                f"{1e3 * size.radius_m:g} mm, the radius of the shell"
             )
         return None
 
@@ -87,18 +88,19 @@ class SuctionAnnulus(Parameters):
 
     def why_not_in(self, shell: Shell) -> str | None:
         """Why a shell cannot have it; None where it can."""
-        bottom = shell.dome_height_m - shell.centre_of_mass_height_m
-        top = shell.height_m - shell.dome_height_m - shell.centre_of_mass_height_m
+        size = shell.cylinder
+        bottom = size.dome_height_m - shell.centre_of_mass_height_m
+        top = size.height_m - size.dome_height_m - shell.centre_of_mass_height_m
         if not bottom < self.lower_height_m < self.upper_height_m < top:
             return (
                 f"lower_height_mm, upper_height_mm = {1e3 * self.lower_height_m:g}, "
                 f"{1e3 * self.upper_height_m:g} mm: must rise and lie between "
                 f"{1e3 * bottom:g} and {1e3 * top:g} mm, the ends of the wall"
             )
-        if self.inner_radius_m >= 0.98 * shell.radius_m:
+        if self.inner_radius_m >= 0.98 * size.radius_m:
             return (
                 f"inner_radius_mm = {1e3 * self.inner_radius_m:g} mm: must be below "
-                f"{0.98e3 * shell.radius_m:g} mm, 0.98 of the radius of the shell"
+                f"{0.98e3 * size.radius_m:g} mm, 0.98 of the radius of the shell"
             )
         return None
 

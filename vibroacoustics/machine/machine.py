@@ -20,6 +20,7 @@ from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
 from ..mechanics.ports import HOUSING, BodyPort
 from .balance_quality import BalanceQuality
+from .cavities import SPACES
 from .derived import INERTIAS, Derived
 from .feet import FOOT_NAMES, Feet, values_not_read
 from .floor import Floor, FloorMobility
@@ -31,10 +32,13 @@ from .mount_stiffness import MountStiffness
 from .mounts import Mounts
 from .remainder import OF_THE_REMAINDER, OverallNoise, Remainder
 from .shell import Shell
+from .shell_structure import ShellStructure
 from .speed_growth import Growth
 from .suspension import BLOCK, Suspension
 from .usual import Scale, Usual, of_density, of_mounts
 
+_IN_A_CYLINDER: Final[tuple[type[Parameters], ...]] = (ShellStructure, ShellGas, *SPACES.values())
+"""Tables whose models take the shell as a cylinder."""
 PART_MASS = Field(gt=0.0, le=100.0)
 
 
@@ -133,6 +137,13 @@ class Machine(KindOfParameters):
         reason = self.floor_mobility and self.floor_mobility.why_not_under(feet)
         if reason:
             yield f"floor_mobility: {reason}"
+        if self.shell.profile_m is not None:
+            for name, table in self:
+                if isinstance(table, _IN_A_CYLINDER):
+                    yield (
+                        f"shell.profile_mm, {name}: an elastic wall and gas in the shell are "
+                        "modelled in a cylinder with caps alone; remove one of them"
+                    )
 
     def usual(self) -> Iterable[Usual]:
         """Ranges that other values set, beside those of `usual.toml`; outside it is doubted."""

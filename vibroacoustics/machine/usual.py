@@ -60,13 +60,13 @@ class Scale:
 
     @property
     def volume_m3(self) -> float:
-        """Volume of the shell as a cylinder."""
-        return pi * self.shell.radius_m**2 * self.shell.height_m
+        """Volume of the shell."""
+        return self.shell.profile.volume_m3
 
     @property
     def by_name(self) -> dict[str, float]:
         """Values that rules name, and 1 for rules that name none."""
-        size = max(self.shell.outer_diameter_m, self.shell.height_m)
+        size = max(2.0 * self.shell.profile.radius_m, self.shell.profile.height_m)
         return {
             "": 1.0,
             "size": size,

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..base.errors import ParameterError
 from ..base.regular_file import opened
+from ..base.revolution import Profile
 from .arrays import Array, IndexArray
 
 _SECTIONS: Final = 128
@@ -95,31 +96,12 @@ def sphere(radius_m: float, centre_m: tuple[float, float, float] = (0.0, 0.0, 0.
     return Body(scale * np.asarray(ball.vertices) + np.array(centre_m), np.asarray(ball.faces))
 
 
-def cylinder(
-    radius_m: float, bottom_z_m: float, top_z_m: float, dome_height_m: float = 0.0
-) -> Body:
-    """Upright cylinder about the z axis, with flat caps or half-ellipsoids of a height.
-
-    The height from bottom to top includes the domes. Sections across the axis have the exact area.
-    """
+def turned(profile: Profile) -> Body:
+    """Body of revolution about the z axis; sections across the axis have the exact area."""
     import trimesh
 
     angle = 2.0 * np.pi / _SECTIONS
-    radius = radius_m * np.sqrt(angle / np.sin(angle))
-    if dome_height_m > 0.0:
-        latitude = np.linspace(0.0, np.pi / 2.0, _SECTIONS // 4 + 1)
-        ring, rise = radius * np.cos(latitude), dome_height_m * np.sin(latitude)
-        ring[-1] = 0.0
-        outline = np.concatenate(
-            [
-                np.stack([ring, bottom_z_m + dome_height_m - rise], axis=1)[::-1],
-                np.stack([ring, top_z_m - dome_height_m + rise], axis=1),
-            ]
-        )
-    else:
-        outline = np.array(
-            [[0.0, bottom_z_m], [radius, bottom_z_m], [radius, top_z_m], [0.0, top_z_m]]
-        )
+    outline = profile.points() * [np.sqrt(angle / np.sin(angle)), 1.0]
     return _outward(trimesh.creation.revolve(outline, sections=_SECTIONS))
 
 

@@ -21,7 +21,7 @@ from ..study.body import (
 from ..study.radiation import RadiationSettings
 from ..study.receivers import Receiver
 from .arrays import Array, ComplexArray
-from .bodies import Body, block, cylinder, join_bodies, read_mesh, sphere
+from .bodies import Body, block, join_bodies, read_mesh, sphere, turned
 from .cabinet import cabinet_panels, check_fits
 from .exact import Mirror, green_rows
 from .outdoors.green import Outdoors
@@ -149,7 +149,7 @@ def machine_body(shell: Shell, body: RadiatingBody) -> Body:
     if isinstance(body, MeshBody):
         mesh = read_mesh(Path(body.file), body.file_unit_m)
         return Body(mesh.vertices + np.array([0.0, 0.0, bottom]), mesh.faces)
-    return cylinder(shell.radius_m, bottom, bottom + shell.height_m, shell.dome_height_m)
+    return turned(shell.profile)
 
 
 def file_patterns(body: RadiatingBody, machine: Body) -> list[Pattern]:

@@ -3,9 +3,9 @@
 Further keys are free: machines, options and sources have their own.
 """
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from ..base.vocabulary import LARGEST, LARGEST_LEVEL_DB
 
@@ -14,6 +14,8 @@ Number = Annotated[float, Field(ge=-LARGEST, le=LARGEST)]
 Positive = Annotated[float, Field(gt=1.0 / LARGEST, le=LARGEST)]
 
 Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
+ProfilePoint = Annotated[list[Number], Field(min_length=2, max_length=2)]
+ProfilePoints = Annotated[list[ProfilePoint], Field(min_length=3)]
 
 
 class Part(BaseModel):
@@ -67,11 +69,18 @@ class Suspension(Part):
 
 
 class Shell(Part):
-    outer_diameter_m: Positive
-    height_m: Positive
+    outer_diameter_m: Positive | None = None
+    height_m: Positive | None = None
     dome_height_m: Number
+    profile_m: ProfilePoints | None = None
     centre_of_mass_height_m: Number
     floor_clearance_m: Number
+
+    @model_validator(mode="after")
+    def _has_a_size(self) -> Self:
+        if self.profile_m is None and (self.outer_diameter_m is None or self.height_m is None):
+            raise ValueError("must have outer_diameter_m and height_m, or profile_m")
+        return self
 
 
 class Foot(Part):

@@ -80,7 +80,8 @@ def response_ways(settings: StudyRoom, shell: Shell, vectors: xr.Dataset) -> Way
     both = ways_of(settings, shell, vectors, pressure)
     first = arrivals(settings, rooms.machine_middle_m(settings, shell))
     diffuse = DiffuseRoom.of(rooms.room_of(settings))
-    reach_m = float(np.hypot(shell.radius_m, shell.floor_clearance_m + shell.height_m))
+    profile = shell.profile
+    reach_m = float(np.hypot(profile.radius_m, profile.top_z_m - shell.floor_z_m))
 
     def direct_per_power(frequency_hz: Array) -> Array:
         return np.asarray(both.gain(frequency_hz) * first.per_power[:, None])

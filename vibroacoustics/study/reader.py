@@ -50,8 +50,7 @@ class Reader:
             return self.number(keys, value)
         except ParameterError as error:
             self.problems += error.args
-            bare = value["value"] if is_quantity(value) else value
-            return tuple(bare) if isinstance(bare, list) else bare
+            return _frozen(value["value"] if is_quantity(value) else value)
 
     def file(self, keys: tuple[str, ...]) -> Path:
         """The file that gives the value of these keys."""
@@ -78,7 +77,7 @@ class Reader:
                 raise ParameterError(
                     f'{where} = {value}: needs a source: {{ value = {value}, source = "…" }}'
                 )
-            return tuple(value) if isinstance(value, list) else value
+            return _frozen(value)
         unknown = set(value) - QUANTITY_KEYS
         if unknown:
             raise ParameterError(f"{where}: unknown key {shown_key(min(unknown))}")
@@ -100,7 +99,7 @@ class Reader:
             ParameterRecord(
                 file=self.file(keys).name,
                 field=".".join(keys),
-                value=f"{number:g}" if is_number(number) else str(number),
+                value=_shown(number),
                 unit=symbol,
                 source=source,
                 lowest=lowest,
@@ -108,7 +107,7 @@ class Reader:
                 example=is_example,
             )
         )
-        return tuple(number) if isinstance(number, list) else number
+        return _frozen(number)
 
 
 def _limits(where: str, given: Any) -> tuple[float, float] | tuple[None, None]:
@@ -124,6 +123,18 @@ def is_number(value: Any) -> bool:
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
     return abs(value) <= sys.float_info.max
+
+
+def _frozen(value: Any) -> Any:
+    """Lists, also lists of lists, as tuples."""
+    return tuple(map(_frozen, value)) if isinstance(value, list) else value
+
+
+def _shown(value: Any) -> str:
+    """A value in words; points as how many they are."""
+    if isinstance(value, list) and value and isinstance(value[0], list):
+        return f"{len(value)} points"
+    return f"{value:g}" if is_number(value) else str(value)
 
 
 def _scale(value: Any, factor: float) -> Any:

@@ -16,6 +16,7 @@ AXIS_OF: Final[dict[RoomSide, int]] = {
 """Axis across each side."""
 SHORTEST_M: Final = 0.5
 LONGEST_M: Final = 30.0
+_ON_WALL_M: Final = 1e-9
 LARGEST_M3: Final = 500.0
 """Beyond, waves to some hundred hertz take hours."""
 Length = Annotated[float, Field(ge=SHORTEST_M, le=LONGEST_M)]
@@ -144,8 +145,10 @@ class StudyRoom(Parameters):
         """
         x, y = self.foot_m
         bottom = self.standing_height_m + shell.floor_clearance_m
-        lower = (x - shell.radius_m, y - shell.radius_m, bottom)
-        upper = (x + shell.radius_m, y + shell.radius_m, bottom + shell.height_m)
+        outside = shell.profile
+        radius = outside.radius_m
+        lower = (x - radius, y - radius, bottom)
+        upper = (x + radius, y + radius, bottom + outside.height_m)
         for axis, word in enumerate("xyz"):
             if lower[axis] < 0.0 or upper[axis] > self.size_m[axis]:
                 raise ValueError(
@@ -154,13 +157,13 @@ class StudyRoom(Parameters):
                     f"from 0 to {1e3 * self.size_m[axis]:g} mm"
                 )
         for name, block in self.furniture.items():
-            if _overlaps(block, x, y, lower, upper, shell.radius_m):
+            if _overlaps(block, x, y, lower, upper, radius):
                 raise ValueError(
                     f"foot_mm = {_millimetres(self.foot_m)}: the shell stands in furniture.{name}"
                 )
         for name, one in self.listeners.items():
             height = one.height_m - self.standing_height_m
-            if shell.distance_m(one.x_m - x, one.y_m - y, height) <= 0.0:
+            if shell.distance_m(one.x_m - x, one.y_m - y, height) < _ON_WALL_M:
                 raise ValueError(f"listeners.{name}: lies in the machine")
 
 

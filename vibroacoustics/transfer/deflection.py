@@ -17,10 +17,8 @@ from .shell_modes.sampled import SampledMode
 
 _ANGLES: Final[Array] = 2.0 * np.pi * np.arange(48) / 48
 """Angles of the points on a ring."""
-_ON_WALL: Final = 13
-"""Rings on the wall, its ends among them."""
-_ON_CAP: Final = 6
-"""Rings on a cap, its middle among them."""
+_STATIONS: Final = 25
+"""Rings over height and radius of the shell, at least; ends of its curves are among them."""
 
 
 def rings(shell: Shell) -> tuple[Array, Array]:
@@ -30,13 +28,9 @@ def rings(shell: Shell) -> tuple[Array, Array]:
     -------
     radius, and height above the centre of mass, shape (station,), m
     """
-    turn = np.linspace(0.0, 0.5 * np.pi, _ON_CAP + 1)[:-1]
-    lower, upper = shell.dome_height_m, shell.height_m - shell.dome_height_m
-    on_cap, rise = shell.radius_m * np.sin(turn), shell.dome_height_m * np.cos(turn)
-    radius = np.concatenate([on_cap, np.full(_ON_WALL, shell.radius_m), on_cap[::-1]])
-    wall = np.linspace(lower, upper, _ON_WALL)
-    height = np.concatenate([lower - rise, wall, upper + rise[::-1]])
-    return radius, height - shell.centre_of_mass_height_m
+    profile = shell.profile
+    radius, height = profile.points((profile.height_m + profile.radius_m) / _STATIONS).T
+    return radius, height
 
 
 def ring_points(radius_m: Array, height_m: Array) -> Array:

@@ -134,7 +134,7 @@ def computed_path(
         tuple(elastic.modes[row] for row in rows),
         structure,
         projected,
-        shell.radius_m,
+        shell.cylinder.radius_m,
         rows,
     )
 

@@ -77,4 +77,4 @@ def measured_shell_path(
         )
     ]
     machine = study.machine
-    return measured_path(modes, machine.table(ShellStructure), machine.shell.radius_m)
+    return measured_path(modes, machine.table(ShellStructure), machine.shell.cylinder.radius_m)

@@ -82,7 +82,7 @@ def test_natural_frequencies_of_the_gas(study):
     annulus, flows = study.machine.suction_annulus, flows_of(study)
     speeds = {name: port.sound_speed_m_per_s for name, (port, _) in flows.items()}
     named = gas_frequencies(study.machine, path_of(study), speeds)
-    wall = study.machine.shell.radius_m - study.machine.structure.thickness_m
+    wall = study.machine.shell.cylinder.radius_m - study.machine.structure.thickness_m
     mean = 0.5 * (annulus.inner_radius_m + wall)
     once = speeds[SUCTION_ANNULUS] / (2.0 * np.pi * mean)
     assert named[f"{SUCTION_ANNULUS}_n2_1"] == pytest.approx(2.0 * once, rel=0.01)

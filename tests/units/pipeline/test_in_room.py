@@ -102,7 +102,7 @@ def test_a_surface_of_another_absorption_is_a_warning_before_waves(monkeypatch):
 
 def test_what_a_run_would_refuse_is_refused_before():
     study, (x_mm, y_mm) = va.load_study(TINY), KITCHEN["foot_mm"]
-    away_mm = 1e3 * study.machine.shell.radius_m + 50.0  # the box is 100 mm off
+    away_mm = 1e3 * study.machine.shell.cylinder.radius_m + 50.0  # the box is 100 mm off
     near = {"x_mm": x_mm - away_mm, "y_mm": y_mm, "height_mm": 300.0}
     room = KITCHEN | {"listeners": {"table": near}}
     with pytest.raises(va.ParameterError, match=r"room\.listeners\.table: stands within"):

@@ -763,7 +763,7 @@ def test_measured_modes_take_the_place_of_the_computed_ones(study, tmp_path):
     assert all(mode.around.order <= 4 for mode in modes)
     body = machine_body(study.machine.shell, study.radiation.body)
     angle, height = np.meshgrid(np.arange(0.0, 2 * np.pi, 0.12), np.arange(-0.18, 0.22, 0.01))
-    radius = study.machine.shell.radius_m
+    radius = study.machine.shell.cylinder.radius_m
     wall = np.stack([radius * np.cos(angle), radius * np.sin(angle), height], -1).reshape(-1, 3)
     nodes = np.unique(np.concatenate([wall, body.vertices]).round(6), axis=0)
     numbers = np.arange(1, len(nodes) + 1)

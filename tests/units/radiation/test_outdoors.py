@@ -9,6 +9,7 @@ from scipy.special import hankel1, j0
 from support import TINY
 
 from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.radiation.box import closed_box
 from vibroacoustics.radiation.exact import Mirror, green
 from vibroacoustics.radiation.outdoors.barrier import Barrier, diffracted
@@ -19,7 +20,6 @@ from vibroacoustics.radiation.outdoors.green import (
 )
 from vibroacoustics.radiation.revolution.mesh import mesh
 from vibroacoustics.radiation.revolution.over_ground import over_ground
-from vibroacoustics.radiation.revolution.profile import capped_cylinder
 from vibroacoustics.radiation.revolution.radiator import WallPressure
 from vibroacoustics.radiation.transfer_vectors import transfer_vectors
 from vibroacoustics.study.loading import load_study

@@ -6,6 +6,7 @@ from radiation_parts import floor
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.levels import energy_mean, sound_pressure_level
 from vibroacoustics.levels.sound_power import (
     box_area_m2,
@@ -23,12 +24,12 @@ from vibroacoustics.radiation.arrangements import (
     reference_box,
     sound_power_points,
 )
-from vibroacoustics.radiation.bodies import cylinder
+from vibroacoustics.radiation.bodies import turned
 from vibroacoustics.radiation.exact import green, wavenumber
 from vibroacoustics.study.sound_power import DirectivitySettings, MapSettings, SoundPowerSettings
 
 FLOOR_Z_M = -0.225
-BODY = cylinder(0.121, -0.18, 0.237)
+BODY = turned(capped_cylinder(0.121, -0.18, 0.237))
 """The compressor's shell."""
 EDGES = (0.242, 0.242, 0.462)
 """Of its reference box, m."""
@@ -130,7 +131,7 @@ def test_reference_box_ends_on_the_floor():
 def test_arrangement_refuses_free_field_and_a_large_machine():
     with pytest.raises(ParameterError, match="needs a hard floor"):
         sound_power_points(SoundPowerSettings(), BODY, None)
-    tall = cylinder(0.2, -0.5, 0.5)
+    tall = turned(capped_cylinder(0.2, -0.5, 0.5))
     with pytest.raises(ParameterError, match=r"radius_mm = 1000 mm: must be at least twice"):
         sound_power_points(SoundPowerSettings(), tall, -0.6)
 

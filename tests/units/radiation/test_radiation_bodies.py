@@ -8,14 +8,15 @@ import pytest
 import trimesh
 
 from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.radiation.bodies import (
     Body,
     block,
     checked_mesh,
-    cylinder,
     join_bodies,
     read_mesh,
     sphere,
+    turned,
 )
 
 
@@ -37,12 +38,12 @@ R, H, DOME = 0.0825, 0.417, 0.04
 BODIES = {
     "sphere": (sphere(0.12, (0.3, -0.2, 0.1)), 4 / 3 * np.pi * 0.12**3, 4 * np.pi * 0.12**2),
     "flat": (
-        cylinder(R, -0.19, -0.19 + H),
+        turned(capped_cylinder(R, -0.19, -0.19 + H)),
         np.pi * R**2 * H,
         2 * np.pi * R * H + 2 * np.pi * R**2,
     ),
     "domed": (
-        cylinder(R, -0.19, -0.19 + H, DOME),
+        turned(capped_cylinder(R, -0.19, -0.19 + H, DOME)),
         np.pi * R**2 * (H - 2 * DOME) + 4 / 3 * np.pi * R**2 * DOME,
         2 * np.pi * R * (H - 2 * DOME) + 2 * dome_area(R, DOME),
     ),
@@ -107,11 +108,11 @@ class TestContains:
 class TestFlats:
     def test_caps_of_a_flat_cylinder(self):
         """Both caps are equally large: their order is open."""
-        body = cylinder(0.0825, -0.19, 0.227)
+        body = turned(capped_cylinder(0.0825, -0.19, 0.227))
         np.testing.assert_allclose(np.sort(body.flats(2, 1e-4)), [-0.19, 0.227])
 
     def test_a_dome_has_none(self):
-        assert cylinder(0.0825, -0.19, 0.227, 0.04).flats(2, 1e-4).size == 0
+        assert turned(capped_cylinder(0.0825, -0.19, 0.227, 0.04)).flats(2, 1e-4).size == 0
         assert sphere(0.1).flats(0, 1e-3).size == 0
 
     def test_largest_first_and_none_below_the_least_area(self):
@@ -133,7 +134,7 @@ class TestFiles:
     @pytest.mark.parametrize("file_type", ["stl", "stl_ascii"])
     def test_round_trip_in_millimetres(self, tmp_path, file_type):
         """STL stores float32: 6e-8 of the largest coordinate, 227 mm."""
-        body = cylinder(0.0825, -0.19, 0.227, 0.04)
+        body = turned(capped_cylinder(0.0825, -0.19, 0.227, 0.04))
         path = self.write(tmp_path / "can.stl", body, file_type, 1e3)
         again = read_mesh(path, 1e-3)
         assert again.faces.shape == body.faces.shape

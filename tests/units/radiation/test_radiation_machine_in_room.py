@@ -12,7 +12,6 @@ from vibroacoustics.levels.bands import bands_between
 from vibroacoustics.machine.shell import Shell
 from vibroacoustics.radiation.exact import Mirror, green
 from vibroacoustics.radiation.patterns import rigid_body
-from vibroacoustics.radiation.revolution.profile import shell_profile
 from vibroacoustics.radiation.revolution.side import RevolutionSide
 from vibroacoustics.radiation.rooms import (
     Block,
@@ -34,7 +33,7 @@ from vibroacoustics.study.radiation import RadiationSettings
 SHELL = Shell(
     outer_diameter_m=0.165, height_m=0.417, centre_of_mass_height_m=0.19, floor_clearance_m=0.025
 )
-PROFILE = shell_profile(SHELL, RadiationSettings().body)
+PROFILE = SHELL.profile
 SETTINGS = RadiationSettings(
     room_solver="closed-form", maximum_frequency_hz=200.0, frequency_step_hz=50.0
 )

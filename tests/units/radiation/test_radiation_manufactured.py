@@ -5,8 +5,9 @@ import pytest
 from manufactured import Field, errors
 from radiation_parts import floor
 
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.radiation.arrays import Array
-from vibroacoustics.radiation.bodies import Body, block, checked_mesh, cylinder, sphere
+from vibroacoustics.radiation.bodies import Body, block, checked_mesh, sphere, turned
 from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.neglected_echo import neglected_echo
 from vibroacoustics.radiation.patterns import rigid_body
@@ -17,7 +18,7 @@ AROUND = np.array([[0.9, 0.3, 0.2], [-0.4, 0.8, 0.5], [0.2, -0.7, 0.9], [0.1, 0.
 CORNER = (floor(-0.22), Mirror(0, -1, -0.25), Mirror(1, -1, -0.3))
 
 
-def turned(body: Body, angle: float) -> Body:
+def tilted(body: Body, angle: float) -> Body:
     """About the y axis."""
     cosine, sine = np.cos(angle), np.sin(angle)
     turn = np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]])
@@ -26,7 +27,7 @@ def turned(body: Body, angle: float) -> Body:
 
 def ellipsoid() -> Body:
     ball = sphere(1.0)
-    return turned(Body(ball.vertices * np.array([0.14, 0.1, 0.12]), ball.faces), 0.4)
+    return tilted(Body(ball.vertices * np.array([0.14, 0.1, 0.12]), ball.faces), 0.4)
 
 
 def prism() -> Body:
@@ -45,11 +46,11 @@ def prism() -> Body:
     edges = [(first, (first + 1) % 6) for first in range(6)]
     sides = [face for a, b in edges for face in ((b, a, a + 6), (b, a + 6, b + 6))]
     body = checked_mesh(Body(vertices, np.array([*near, *far, *sides])), "prism")
-    return turned(body, 0.3)
+    return tilted(body, 0.3)
 
 
 BOX = block(np.array([-0.12, -0.09, -0.14]), np.array([0.12, 0.09, 0.14]))
-DOMED = cylinder(0.1, -0.14, 0.15, 0.04)
+DOMED = turned(capped_cylinder(0.1, -0.14, 0.15, 0.04))
 SHAPES = {
     "sphere": (sphere(0.12, (0.004, -0.003, 0.002)), (), (0.0, 0.0, 0.0)),
     "domed cylinder on the floor": (DOMED, (floor(-0.16),), (0.0, 0.0, 0.0)),

@@ -9,8 +9,9 @@ from sphere_sound import sphere_pressure
 from support import PEAK_MEMORY, in_child, radiated
 
 from vibroacoustics.base.errors import ParameterError, SolverError
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.radiation import near_run
-from vibroacoustics.radiation.bodies import Body, cylinder, join_bodies, sphere
+from vibroacoustics.radiation.bodies import Body, join_bodies, sphere, turned
 from vibroacoustics.radiation.box import BoxField
 from vibroacoustics.radiation.exact import Mirror, box_green
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
@@ -141,7 +142,7 @@ def test_sphere_off_the_origin_radiates_the_same():
 @pytest.mark.slow
 def test_pressure_does_not_depend_on_the_box():
     """Margins of three and of six cells: the absorbing layer moves along, and errs anew."""
-    body, wall = cylinder(0.0825, -0.2, 0.217), floor(-0.26)
+    body, wall = turned(capped_cylinder(0.0825, -0.2, 0.217)), floor(-0.26)
     rigid = Pattern("t", lambda at: np.array([1.0, 0.0, 1.0]) + 0.0 * at.position)
     results = []
     for margin in (0.06, 0.12):
@@ -154,7 +155,7 @@ def test_pressure_does_not_depend_on_the_box():
 
 
 def test_sliding_wall_radiates_nothing_without_a_run():
-    near = NearField(cylinder(0.0825, -0.2, 0.217), 0.0165, 1500.0)
+    near = NearField(turned(capped_cylinder(0.0825, -0.2, 0.217)), 0.0165, 1500.0)
     calls = []
     field = radiated(near, rigid_body("rz"), LOW_HZ, lambda *call: calls.append(call))
     assert not calls
@@ -215,7 +216,7 @@ def test_far_from_the_floor_the_image_alone_is_right():
 def test_translation_of_a_body_on_the_floor_displaces_air():
     """The bottom is not in the air: the top's volume velocity remains: a monopole."""
     wall = floor(-0.2)
-    near = NearField(cylinder(0.0825, -0.2, 0.0), 0.0165, 1500.0, (wall,))
+    near = NearField(turned(capped_cylinder(0.0825, -0.2, 0.0)), 0.0165, 1500.0, (wall,))
     low = np.array([20.0])
     field = radiated(near, rigid_body("tz"), low)
     simulated = pressure(near, field, [3.0, 0.0, -0.2], (wall,), low)
@@ -285,7 +286,7 @@ def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
         os.sched_setaffinity(0, {{min(os.sched_getaffinity(0))}})
         import numpy as np
         from vibroacoustics.radiation import near_run
-        from vibroacoustics.radiation.bodies import cylinder
+        from vibroacoustics.radiation.bodies import turned
         from vibroacoustics.radiation.machine_side import MachineSide, near_fields
         from vibroacoustics.radiation.near_memory import memory_bytes
         from vibroacoustics.radiation.exact import Mirror
@@ -295,7 +296,7 @@ def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
         from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
         # Short runs that would not be accepted: their length takes no memory.
         near_run._MOST_PASSAGES, near_run._NOT_QUIET = 2, 1.0
-        scene = Scene(cylinder(0.0825, -0.19, 0.227), (), (Mirror(2, -1, -0.21),))
+        scene = Scene(turned(capped_cylinder(0.0825, -0.19, 0.227)), (), (Mirror(2, -1, -0.21),))
         motions = [rigid_body(dof) for dof in RIGID_BODY_DOFS[:{patterns}]]
         frequency = np.linspace(25.0, 2000.0, {frequencies})
         microphones = [Microphones(np.array([[1.0, 0.2, 0.1], [-0.5, 0.8, 0.6]]))]

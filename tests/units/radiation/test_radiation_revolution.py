@@ -7,16 +7,12 @@ from ring_sources import hemisphere, ring_field
 from scipy import special
 from sphere_sound import sphere_pressure
 
+from vibroacoustics.base.revolution import capped_cylinder, polygon, sphere
 from vibroacoustics.radiation.exact import free_green, wavenumber
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.revolution.layers import layers
 from vibroacoustics.radiation.revolution.mesh import mesh
-from vibroacoustics.radiation.revolution.profile import (
-    above_floor,
-    capped_cylinder,
-    polygon,
-    sphere,
-)
+from vibroacoustics.radiation.revolution.profile import above_floor
 from vibroacoustics.radiation.revolution.radiator import (
     Radiator,
     null_points,

@@ -7,8 +7,8 @@ from ring_sources import hemisphere, ring_field
 from scipy import special
 from sphere_sound import sphere_pressure
 
+from vibroacoustics.base.revolution import capped_cylinder, polygon, sphere
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
-from vibroacoustics.radiation.revolution.profile import capped_cylinder, polygon, sphere
 from vibroacoustics.radiation.revolution.sampling import TOLERANCE, sample
 from vibroacoustics.radiation.revolution.side import RevolutionSide, error_of
 

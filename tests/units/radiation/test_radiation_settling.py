@@ -5,8 +5,9 @@ import pytest
 from support import radiated
 
 from vibroacoustics.base.errors import SolverError
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.radiation import near_run
-from vibroacoustics.radiation.bodies import cylinder
+from vibroacoustics.radiation.bodies import turned
 from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.near_field import NearField
@@ -16,7 +17,7 @@ from vibroacoustics.radiation.settling import Settling, spread_points, watched_f
 from vibroacoustics.radiation.task import Microphones
 
 FREQUENCY_HZ = np.array([50.0, 117.0, 500.0, 1000.0])
-CAN = cylinder(0.083, -0.11, 0.14, 0.03)
+CAN = turned(capped_cylinder(0.083, -0.11, 0.14, 0.03))
 
 
 def settled(decay, blocks, other=0.0):

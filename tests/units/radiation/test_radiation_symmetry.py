@@ -7,7 +7,8 @@ import pytest
 from radiation_parts import floor
 from support import radiated
 
-from vibroacoustics.radiation.bodies import Body, block, cylinder, join_bodies, sphere
+from vibroacoustics.base.revolution import capped_cylinder
+from vibroacoustics.radiation.bodies import Body, block, join_bodies, sphere, turned
 from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_grid import near_grid
@@ -15,7 +16,7 @@ from vibroacoustics.radiation.patterns import Pattern, rigid_body
 from vibroacoustics.radiation.recording import Recording
 from vibroacoustics.radiation.symmetry import symmetric_axes
 
-CAN = cylinder(0.083, -0.11, 0.14, 0.03)
+CAN = turned(capped_cylinder(0.083, -0.11, 0.14, 0.03))
 FOOT = block(np.array([-0.1, -0.03, -0.11]), np.array([0.0, 0.03, -0.07]))
 FREQUENCY_HZ = np.array([48.0, 117.0, 500.0, 1000.0])
 

@@ -6,8 +6,9 @@ from radiation_parts import floor, revolved
 from support import radiated
 
 from vibroacoustics.base.errors import ParameterError, SolverError
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.radiation import near_grid as near_grid_module
-from vibroacoustics.radiation.bodies import block, cylinder, join_bodies, sphere
+from vibroacoustics.radiation.bodies import block, join_bodies, sphere, turned
 from vibroacoustics.radiation.by_cut_cells import check_grids_agree
 from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.machine_side import Radiated, near_fields
@@ -17,7 +18,7 @@ from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import Scene
 from vibroacoustics.radiation.thin_walls import check_walls, solid_parts
 
-MACHINE = cylinder(0.0825, -0.19, 0.1)
+MACHINE = turned(capped_cylinder(0.0825, -0.19, 0.1))
 
 
 def cup(wall_m, radius_m=0.15, bottom_m=-0.26, height_m=0.5):

@@ -23,9 +23,10 @@ from shell_response import (
 from support import ROOT, whole_surface
 
 from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.machine.shell import Shell
 from vibroacoustics.machine.shell_structure import Joint, ShellStructure
-from vibroacoustics.radiation.bodies import cylinder
+from vibroacoustics.radiation.bodies import turned
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.transfer.shell_modes.elements import (
     NODE_FREEDOMS,
@@ -372,7 +373,9 @@ def test_twins_are_the_same_mode_turned(flat):
 
 def test_radiating_body_takes_a_mode_as_its_pattern(flat):
     """On the polygon of 128 sides outside the middle surface."""
-    body = cylinder(FLAT.radius_m, -FLAT.centre_of_mass_height_m, 0.417 - 0.19)
+    body = turned(
+        capped_cylinder(FLAT.cylinder.radius_m, -FLAT.centre_of_mass_height_m, 0.417 - 0.19)
+    )
     at = whole_surface(body, (np.linspace(-0.3, 0.3, 25),) * 3)
     oval = next(mode for mode in flat.modes if mode.name == "n2_1_cos")
     drum = next(mode for mode in flat.modes if mode.name == "n0_1_all")

@@ -91,7 +91,7 @@ def test_mobility_of_the_wall_is_the_sum_over_its_modes_and_reciprocal():
     angles = np.array([point.angle_rad for point in WALL.values()])
     heights = np.array([point.height_m for point in WALL.values()])
     points, normal = wall_points(angles, heights, path.radius_m)
-    np.testing.assert_allclose(np.hypot(*points[:, :2].T), study.machine.shell.radius_m)
+    np.testing.assert_allclose(np.hypot(*points[:, :2].T), study.machine.shell.cylinder.radius_m)
     omega, total = 2.0 * np.pi * FREQUENCY, 0.0
     for mode in path.modes:
         shape = (mode.velocity(points) * normal).sum(axis=1)

@@ -7,8 +7,9 @@ from typing import Final
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
 
+from ...base.revolution import Curve, Profile
 from ..arrays import Array
-from .profile import Curve, Profile
+from .profile import edges
 
 NODES: Final = 5
 """Nodes of an element: pressure and velocity are polynomials of degree four along it."""
@@ -52,8 +53,8 @@ def mesh(profile: Profile, longest_m: float, gradings: int) -> Mesh:
     """Elements of at most a length, with some gradings towards each edge of the profile."""
     coefficients = np.concatenate(
         [
-            _elements(curve, longest_m, *(gradings * int(edge) for edge in edges))
-            for curve, edges in zip(profile.curves, profile.edges(), strict=True)
+            _elements(curve, longest_m, *(gradings * int(edge) for edge in ends))
+            for curve, ends in zip(profile.curves, edges(profile), strict=True)
         ]
     )
     local, gauss = legendre.leggauss(NODES)

@@ -15,7 +15,7 @@ from ..box import Box, BoxField, closed_box
 from ..room_greens import check_receivers, room_greens
 from ..task import Microphones, Task
 from .over_ground import over_ground
-from .profile import shell_profile
+from .profile import body_profile
 from .sampling import Sampled
 from .side import Addition, RevolutionSide
 
@@ -111,7 +111,7 @@ def by_revolution(shell: Shell, task: Task) -> ByRevolution:
         A receiver lies on the wall, under the floor or, with k-Wave, too close; memory does not
         suffice; the body is no body of revolution.
     """
-    profile = shell_profile(shell, task.settings.body)
+    profile = body_profile(shell, task.settings.body)
     if profile is None:
         raise ParameterError("radiation.method: revolution needs a body of revolution")
     floor = next((wall.position_m for wall in task.scene.walls), None)

@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
 from ...base.errors import ParameterError
 from ...base.progress import Progress, no_progress
+from ...base.revolution import Profile
 from ...base.threads import in_threads, processors
 from ..arrays import Array, ComplexArray, IndexArray
 from ..patterns import Pattern
 from .mesh import mesh
 from .over_ground import AtFrequency
-from .profile import Profile, above_floor
+from .profile import above_floor, with_fewer_points
 from .radiator import Radiator, WallPressure
 from .sampling import Sampled, first_solved, interpolated, sample
 
@@ -72,7 +73,8 @@ class RevolutionSide:
         self.longest_m = longest
         self.floor_z_m = floor_z_m
         self.finer = Radiator(mesh(meridian, longest, _GRADINGS), patterns, floor_z_m)
-        self._coarser = mesh(meridian, _COARSENING * longest, _GRADINGS - 1)
+        coarser = with_fewer_points(meridian, longest)
+        self._coarser = mesh(coarser, _COARSENING * longest, _GRADINGS - 1)
         self._patterns = patterns
         _check_memory(self.finer)
         heights = self.finer.mesh.points[:, 1]

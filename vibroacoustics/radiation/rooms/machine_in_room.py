@@ -9,6 +9,7 @@ import xarray as xr
 
 from ...base.errors import ParameterError
 from ...base.progress import Progress, no_progress
+from ...base.revolution import Profile
 from ...base.threads import in_threads
 from ...base.vocabulary import RIGID_BODY_DOFS, check, stamp
 from ...machine.shell import Shell
@@ -17,7 +18,7 @@ from ..arrangements import hemisphere_positions, reference_box
 from ..arrays import Array, ComplexArray
 from ..band_limited import STENCIL_NODES, interpolation_weights
 from ..patterns import SurfaceMotion, rigid_body, surface_motion
-from ..revolution.profile import Profile, shell_profile
+from ..revolution.profile import body_profile
 from ..revolution.side import RevolutionSide
 from ..scene import machine_body
 from ..transfer_vectors import frequencies_hz
@@ -122,7 +123,7 @@ def placed(
     ParameterError
         As `room_vectors`.
     """
-    profile = shell_profile(shell, settings.body)
+    profile = body_profile(shell, settings.body)
     if profile is None:
         raise ParameterError(
             f'room: radiation.body.kind = "{settings.body.kind}": must be shell or sphere: a '

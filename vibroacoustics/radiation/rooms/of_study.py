@@ -85,8 +85,8 @@ def foot_m(settings: StudyRoom) -> Array:
 
 
 def machine_middle_m(settings: StudyRoom, shell: Shell) -> Array:
-    """Middle of the shell, shape (3,)."""
-    up = shell.floor_clearance_m + 0.5 * shell.height_m
+    """Centre of the shell's volume, shape (3,)."""
+    up = shell.profile.centroid_z_m - shell.floor_z_m
     return np.asarray(foot_m(settings) + np.array([0.0, 0.0, up]))
 
 

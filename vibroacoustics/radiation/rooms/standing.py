@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 
 from ...base.errors import ParameterError
+from ...base.revolution import Profile
 from ...machine.shell import Shell
 from ..arrays import Array
-from ..revolution.profile import Profile
 from .cutting import cut
 from .room import Block, Room
 
@@ -20,8 +20,6 @@ LEAST_GAP_M: Final = 0.03
 _SAME_LEVEL_M: Final = 1e-6
 _SIDES: Final = ((0, 0), (0, 1), (1, 0), (1, 1), (2, 1))
 """Axis and end of the box's sides but the lowest."""
-_MERIDIAN: Final = 400
-"""Points on each curve of the meridian that its volume is summed over."""
 
 
 @dataclass(frozen=True)
@@ -52,15 +50,14 @@ def standing(
         The foot is elsewhere, or the body meets walls or blocks or is too close to them.
     """
     foot_m = np.asarray(foot_m, dtype=float)
-    volume_m3, radius_m, top_z_m = _measures(profile)
-    height_m = top_z_m - shell.floor_z_m
+    radius_m, height_m = profile.radius_m, profile.top_z_m - shell.floor_z_m
     lower = foot_m - np.array([radius_m, radius_m, 0.0])
     upper = foot_m + np.array([radius_m, radius_m, height_m])
     gaps = _gaps(room, lower, upper)
     margins = {side: min(_MARGIN_M, gap / 2.0) for side, gap in gaps.items()}
     for (axis, end), margin in margins.items():
         (upper if end else lower)[axis] += margin if end else -margin
-    side_m = float(np.sqrt(volume_m3 / (top_z_m + shell.centre_of_mass_height_m)))
+    side_m = float(np.sqrt(profile.volume_m3 / profile.height_m))
     half = np.array([side_m / 2.0, side_m / 2.0, 0.0])
     block = Block("body of the machine", _point(foot_m - half), _point(foot_m + half, height_m))
     with_body, of_body = _with_body(room, block, spacing_m)
@@ -75,15 +72,6 @@ def check_listeners(standing: Standing, listeners: Mapping[str, Array]) -> None:
                 f"room.listeners.{name}: stands within {1e3 * standing.clearance_m:.0f} mm of the "
                 f"machine, in the box where its sound is handed to the room"
             )
-
-
-def _measures(profile: Profile) -> tuple[float, float, float]:
-    """Volume, m³, largest radius and height of the top about the centre of mass, m."""
-    t = np.linspace(0.0, 1.0, _MERIDIAN)
-    points = np.concatenate([curve(t) for curve in profile.curves])
-    radius, height = points.T
-    volume = np.pi * np.sum((radius[1:] ** 2 + radius[:-1] ** 2) / 2.0 * np.diff(height))
-    return float(volume), float(radius.max()), float(height.max())
 
 
 def _point(point: Array, more_z_m: float = 0.0) -> tuple[float, float, float]:

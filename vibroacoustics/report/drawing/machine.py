@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array, ComplexArray
+from ...base.revolution import shell_profile, sphere
 from ...base.vocabulary import REFERENCE_OPTION
 
 _ANGLE: Final = 2.0 * np.pi * np.arange(48) / 48
@@ -31,7 +32,7 @@ class Outline(NamedTuple):
 def outline(shell: Mapping[str, Any], body: Mapping[str, Any]) -> Outline:
     """Outline of the shell, or of the block or sphere that radiates in its stead.
 
-    A mesh is drawn as the shell's cylinder: the results do not hold its triangles.
+    A mesh is drawn as the shell: the results do not hold its triangles.
     """
     bottom = -shell["centre_of_mass_height_m"]
     floor = bottom - shell["floor_clearance_m"]
@@ -40,12 +41,11 @@ def outline(shell: Mapping[str, Any], body: Mapping[str, Any]) -> Outline:
         half_x, half_y = body["length_m"] / 2.0, body["width_m"] / 2.0
         side = rectangle(half_x, bottom, bottom + body["height_m"])
         return Outline(side, rectangle(half_x, -half_y, half_y), floor)
-    if kind == "sphere":
-        radius = body["diameter_m"] / 2.0
-        circle = radius * _CIRCLE
-        return Outline(circle + np.array([0.0, bottom + radius]), circle, floor)
-    radius = shell["outer_diameter_m"] / 2.0
-    return Outline(_cylinder(shell, radius, bottom), radius * _CIRCLE, floor)
+    radius = body["diameter_m"] / 2.0 if kind == "sphere" else 0.0
+    profile = sphere(radius, bottom + radius) if radius else shell_profile(shell)
+    right = profile.points()
+    side = np.concatenate([right, right[::-1] * [-1.0, 1.0]])
+    return Outline(side, profile.radius_m * _CIRCLE, floor)
 
 
 def feet_m(machine: Mapping[str, Any]) -> Array:
@@ -68,15 +68,6 @@ def feet_m(machine: Mapping[str, Any]) -> Array:
 def rectangle(half: float, lower: float, upper: float) -> Array:
     """Corners of a rectangle about the vertical axis, shape (4, 2)."""
     return np.array([(-half, lower), (half, lower), (half, upper), (-half, upper)])
-
-
-def _cylinder(shell: Mapping[str, Any], radius: float, bottom: float) -> Array:
-    """Half-ellipses as caps; flat ones where the domes have no height."""
-    dome, top = shell["dome_height_m"], bottom + shell["height_m"]
-    arc = np.linspace(0.0, np.pi, 25)
-    upper = np.column_stack([radius * np.cos(arc), top - dome + dome * np.sin(arc)])
-    lower = np.column_stack([-radius * np.cos(arc), bottom + dome - dome * np.sin(arc)])
-    return np.concatenate([upper, lower])
 
 
 NEEDED = ("force_order", "moment_order", "foot_force_order", "force_amplitude", "moment_amplitude")

@@ -65,7 +65,7 @@ def shapes(case: xr.Dataset) -> tuple[Shape, Shape]:
     ring = Shape(
         radius[station] * outward,
         field[station, :, :2],
-        f"ring {1e3 * (height[station] - height[0]):.0f} mm above the bottom",
+        f"ring {1e3 * (height[station] - height.min()):.0f} mm above the bottom",
     )
     opposite = (column + angle.size // 2) % angle.size
     near, far = (

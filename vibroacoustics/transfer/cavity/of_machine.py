@@ -52,7 +52,8 @@ def spaces_of(machine: Machine, path: ShellPath) -> Mapping[str, GasInShell]:
         bounds = annulus.inner_radius_m, annulus.lower_height_m, annulus.upper_height_m
         if bounds not in path.gas:
             inner, *faces = bounds
-            profile = annulus_profile(inner, machine.shell.radius_m - _thickness(path), *faces)
+            radius = machine.shell.cylinder.radius_m - _thickness(path)
+            profile = annulus_profile(inner, radius, *faces)
             path.gas[bounds] = _in_shell(profile, False, path)
         spaces[_ANNULUS] = path.gas[bounds]
     return spaces
@@ -74,9 +75,10 @@ def _annulus(annulus: SuctionAnnulus, space: GasInShell) -> DrivenGas:
 
 
 def _under_cap(shell: Shell, thickness_m: float, depth_m: float) -> Profile:
-    rim = shell.height_m - max(shell.dome_height_m, thickness_m) - shell.centre_of_mass_height_m
-    cap = max(shell.dome_height_m - thickness_m, 0.0)
-    return disc_profile(shell.radius_m - thickness_m, cap, depth_m, rim - depth_m)
+    size = shell.cylinder
+    rim = size.height_m - max(size.dome_height_m, thickness_m) - shell.centre_of_mass_height_m
+    cap = max(size.dome_height_m - thickness_m, 0.0)
+    return disc_profile(size.radius_m - thickness_m, cap, depth_m, rim - depth_m)
 
 
 def _thickness(path: ShellPath) -> float:

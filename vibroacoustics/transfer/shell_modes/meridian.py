@@ -106,11 +106,11 @@ def closed_meridian(shell: Shell, structure: ShellStructure, frequency_hz: float
     Raises
     ------
     ParameterError
-        The thickness or the span does not fit into the shell.
+        The thickness or the span does not fit into the shell, or it is no cylinder.
     """
-    half = structure.thickness_m / 2.0
-    radius, dome = shell.radius_m - half, max(shell.dome_height_m - half, 0.0)
-    lower, upper = half + dome, shell.height_m - half - dome
+    half, size = structure.thickness_m / 2.0, shell.cylinder
+    radius, dome = size.radius_m - half, max(size.dome_height_m - half, 0.0)
+    lower, upper = half + dome, size.height_m - half - dome
     if radius < 5.0 * structure.thickness_m or upper - lower < 5.0 * structure.thickness_m:
         raise ParameterError(
             f"thickness_mm = {2e3 * half:g} mm: wall of {2e3 * radius:g} mm diameter and "
