@@ -121,12 +121,12 @@ def has_impacts(loads: dict[str, va.Loads]) -> bool:
 def effective_share(chain: Chain, samples: list) -> float:
     """Effective over all samples, with the published level and the first prior."""
     evidence = Evidence(chain[NominalSound])
-    data, priors = evidence.published.data, evidence.published.priors[:1]
+    published = evidence.published._replace(priors=evidence.published.priors[:1])
     sounds = [sampled.sound for sampled in sounds_of(chain, samples, lambda _: None)]
     machine = chain.study.machine
     weights = [
         logsumexp(
-            evidence.log_weights(sound, with_sample(machine, machine, sample), number, data, priors)
+            evidence.log_weights(sound, with_sample(machine, machine, sample), number, published)
         )
         for number, (sound, sample) in enumerate(zip(sounds, samples, strict=True))
     ]

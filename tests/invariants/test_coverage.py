@@ -175,7 +175,7 @@ class Worlds:
         for name, level_db in levels_db.items():
             which = slice(None) if name == "every" else self.chain.axes.sources.index(name)
             gain[:, which] *= 10.0 ** (level_db / 10.0)
-        return lambda number: Discrepancy(gain, np.ones(1))
+        return lambda number: Discrepancy(gain, np.ones(1), np.ones((1, len(GAIN_BANDS))))
 
     def discrepant(self, first=0):
         """Those that the inference expects; of `first` on, none that it has itself."""

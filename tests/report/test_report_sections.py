@@ -60,6 +60,7 @@ BUILT_IN = [
     "baseline",
     "live",
     "sources",
+    "measured-spectrum",
     "paths",
     "structure-borne",
     "in-room",
@@ -82,6 +83,7 @@ BUILT_IN = [
 ]
 NOT_HERE = {
     "example",
+    "measured-spectrum",
     "run-up",
     "evidence",
     "live",

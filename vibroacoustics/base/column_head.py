@@ -133,10 +133,11 @@ class Head:
         return [cell for number, cell in enumerate(self.cells) if cell and number not in taken]
 
     @property
-    def fit(self) -> tuple[int, int, int]:
-        """Measure by which a head is found: its columns, its line, what is unknown in it."""
+    def fit(self) -> tuple[int, int, int, int]:
+        """Measure by which a head is found: columns, line, what is unknown, units that differ."""
         fitting = len(self.columns) - len(self.missing)
-        return fitting, -self.row, -len(self.unknown) if self.columns else len(self.cells)
+        unknown = -len(self.unknown) if self.columns else len(self.cells)
+        return fitting, -self.row, unknown, -sum(bool(column.problem) for column in self.columns)
 
     @property
     def numeric(self) -> list[Column]:

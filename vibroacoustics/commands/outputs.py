@@ -39,6 +39,7 @@ REPORT_FILES: Final = (
             "feet",
             "figures",
             "inputs",
+            "measured_spectrum",
             "path_bands",
             "path_motions",
             "path_orders",

@@ -126,10 +126,9 @@ def _samples(study: Study, radiation: Radiation) -> Iterator[MachineSample]:
     for number, times in zip(index.tolist(), count.tolist(), strict=True):
         sound, machine = ensemble.batch.sounds[number], ensemble.batch.machines[number]
         pairs = evidence.pairs_of(sound, machine, number)
-        discrepancy = evidence.discrepancy(number).some(pairs.discrepancy)
-        square = evidence.unmodelled_pa2(pairs)
+        discrepancy, noise = pairs.discrepancy, evidence.unmodelled_pa2(pairs, machine)
         unmodelled = dict(
-            zip(study.options, _unmodelled(chain, number, discrepancy, square), strict=True)
+            zip(study.options, _unmodelled(chain, number, discrepancy, noise), strict=True)
         )
         yield MachineSample(
             times * pairs.weight[0],
@@ -139,11 +138,11 @@ def _samples(study: Study, radiation: Radiation) -> Iterator[MachineSample]:
         )
 
 
-def _unmodelled(chain: Chain, number: int, discrepancy: Discrepancy, square: Array) -> Array:
+def _unmodelled(chain: Chain, number: int, discrepancy: Discrepancy, noise: Array) -> Array:
     """Mean square beside the modelled sound, (option, pair, speed, receiver), Pa²."""
     study, nominal, ensemble = chain.study, chain[NominalSound], chain[Bank]
     machine, axes = ensemble.batch.machines[number], nominal.axes
-    unmodelled = [remaining(study, axes, machine, power) for power in square.tolist()]
+    unmodelled = [remaining(study, axes, machine, of_pair) for of_pair in noise]
     sounds: list[dict[CaseKey, SourceSound]] = [{}] * len(unmodelled)
     if nominal.points:
         cases = chain.at(ensemble.samples[number])[Cases]

@@ -135,17 +135,29 @@ def log_weights(modelled: Array, unmodelled: Array, data: Sequence[Datum], prior
 
     Parameters
     ----------
-    modelled : A-weighted bands of all modelled sources, shape (discrepancy, band), Pa²
-    unmodelled : A-weighted bands of unmodelled noise at the published level, shape (band,), Pa²
-    data : that weigh the sample
+    modelled, unmodelled, data : see `log_likelihood`
     prior : of the level of unmodelled noise
     """
-    bands = modelled[:, None] + power_of_level(LEVELS_DB)[:, None] * unmodelled
-    weights = np.broadcast_to(prior.log_density, bands.shape[:2]).copy()
+    return prior.log_density + log_likelihood(modelled, unmodelled, data)
+
+
+def log_likelihood(modelled: Array, unmodelled: Array, data: Sequence[Datum]) -> Array:
+    """Logarithm of the likelihood, shape (discrepancy, level of unmodelled noise).
+
+    Parameters
+    ----------
+    modelled : A-weighted bands of all modelled sources, shape (discrepancy, band), Pa²
+    unmodelled : A-weighted bands of unmodelled noise at the published level, shape (band,) or
+        (discrepancy, band), Pa²
+    data : that weigh the sample
+    """
+    noise = np.atleast_2d(unmodelled)[:, None]
+    bands = modelled[:, None] + power_of_level(LEVELS_DB)[:, None] * noise
+    likelihood = np.zeros(bands.shape[:2])
     for datum in data:
-        weights += datum.log_likelihood(bands)
-    weights[np.isnan(bands).any(axis=2)] = -np.inf
-    return weights
+        likelihood += datum.log_likelihood(bands)
+    likelihood[np.isnan(bands).any(axis=2)] = -np.inf
+    return likelihood
 
 
 def log_weight_of_points(over_db: Array, deviation_db: float, prior: Prior) -> Array:

@@ -19,7 +19,8 @@ from .continuous import noise_levels
 from .labelled import level_variables
 from .lines import line_pressure
 from .measured_points import BASELINE_BANDS, MeasuredPoint, PointKey, evidence
-from .remainder import remainder, remaining
+from .remainder import in_spectrum, remainder, remaining
+from .spectrum_data import spectrum_data
 
 Sound = dict[CaseKey, SourceSound]
 
@@ -51,9 +52,11 @@ class NominalSound:
 
     def weighing(self) -> "NominalSound":
         """Return the receivers and cases alone whose levels weigh samples."""
-        measured = evidence(self.points)
+        measured, spectrum = evidence(self.points), spectrum_data(self.study)
         names = [self.study.catalogue_receiver, *(name for name, _ in measured)]
         keys = [self.study.catalogue_case, *((speed, REFERENCE_OPTION) for _, speed in measured)]
+        if spectrum is not None:
+            names, keys = [*names, spectrum.receiver], [*keys, spectrum.case]
         axes = replace(self.axes, receivers=list(dict.fromkeys(names)))
         return replace(self, axes=axes, sound={key: self.sound[key] for key in keys})
 
@@ -75,7 +78,8 @@ class NominalSound:
         study, axes, points, sound = self.study, self.axes, self.points, self.sound
         replaced = any(receiver == study.catalogue_receiver for receiver, _ in points)
         unmodelled = remainder(study, axes, sound, replaced or bool(study.ranges))
-        residual = remaining(study, axes, study.machine, unmodelled)
+        noise_pa2 = in_spectrum(study.machine, unmodelled)
+        residual = remaining(study, axes, study.machine, noise_pa2)
         lines, noise = line_pressure(axes, received), noise_levels(axes, received, residual)
         residual = with_baseline(study, axes, points, sound, residual)
         measured = baseline_variables(study, axes, points, sound)

@@ -56,7 +56,7 @@ def remainder(
     return float(max(rest, 0.0))
 
 
-def remaining(study: Study, axes: LevelAxes, machine: Machine, rest: float) -> Array:
+def remaining(study: Study, axes: LevelAxes, machine: Machine, noise: Array) -> Array:
     """Unmodelled noise by third octave, A-weighted, (speed, option, band), Pa².
 
     The bands are `REMAINDER_BANDS`. It grows with speed, and each band passes the insertion loss
@@ -66,19 +66,23 @@ def remaining(study: Study, axes: LevelAxes, machine: Machine, rest: float) -> A
     ----------
     study : options and speed of the published level
     axes : speeds
-    machine : growth and spectrum of the unmodelled noise
-    rest : the unmodelled noise at the published speed without an option, Pa²
+    machine : growth of the unmodelled noise
+    noise : the unmodelled noise at the published speed without an option, shape (band,), Pa²
     """
     growth = machine.remainder.speed_factor(np.array(axes.speeds), study.catalogue_speed_rpm)
     factor = remaining_factor(study.options, REMAINDER_MIDDLE_HZ)
-    spectrum = rest * machine.remainder.spectrum(REMAINDER_MIDDLE_HZ)
-    return np.asarray(growth[:, None, None] * factor * spectrum)
+    return np.asarray(growth[:, None, None] * factor * noise)
+
+
+def in_spectrum(machine: Machine, square: float) -> Array:
+    """Return unmodelled noise of a mean square in `REMAINDER_BANDS`, shape (band,), Pa²."""
+    return np.asarray(square * machine.remainder.spectrum(REMAINDER_MIDDLE_HZ))
 
 
 def unmodelled_bands(study: Study, machine: Machine) -> Array:
     """Unmodelled noise at the published level, A-weighted, in `GAIN_BANDS`, shape (band,), Pa²."""
     square = REFERENCE_PRESSURE_PA**2 * power_of_level(published_of(study).level_dba)
-    return in_gain_bands(square * machine.remainder.spectrum(REMAINDER_MIDDLE_HZ))
+    return in_gain_bands(in_spectrum(machine, square))
 
 
 def in_gain_bands(remaining: Array) -> Array:

@@ -35,7 +35,7 @@ class Deviating(NamedTuple):
         gain band)
     sounds : mean squares of every case, by discrepancy
     machine : of the sample
-    unmodelled : noise at the published point, A-weighted, shape (discrepancy,), Pa²
+    unmodelled : noise at the published point, A-weighted, shape (discrepancy, band), Pa²
     """
 
     received: Mapping[CaseKey, ReceivedSound]
@@ -157,9 +157,7 @@ def sample_levels(study: Study, axes: LevelAxes, order_hz: Array, sample: Deviat
     -------
     variables of the vocabulary, the first axis is the discrepancy
     """
-    noise = [
-        remaining(study, axes, sample.machine, square) for square in sample.unmodelled.tolist()
-    ]
+    noise = [remaining(study, axes, sample.machine, of_pair) for of_pair in sample.unmodelled]
     points = points_of(study, axes)
     residual = np.array(
         [
@@ -181,7 +179,7 @@ def sample_levels(study: Study, axes: LevelAxes, order_hz: Array, sample: Deviat
         "noise_band_level": level(lines.noise),
         "sources_band_level": level(lines.band),
         "unmodelled_band_level": level(unmodelled),
-        "level_unmodelled": level(sample.unmodelled),
+        "level_unmodelled": level(sample.unmodelled.sum(axis=-1)),
     }
     if not points:
         levels["total_band_level"] = level(lines.band + unmodelled[:, :, :, None])

@@ -173,8 +173,15 @@ class PublishedForce(Part):
     source: str
 
 
+class MeasuredSpectrum(Part):
+    microphone: str
+    speed_rpm: Number
+    deviation_db: Number
+
+
 class Evidence(Part):
     forces: list[PublishedForce] = []
+    spectrum: MeasuredSpectrum | None = None
 
 
 class ShellBody(Part):

@@ -112,7 +112,7 @@ def _sound(
     received = {
         key: with_discrepancy(of_case, chosen.gain[key]) for key, of_case in sample.received.items()
     }
-    unmodelled = remaining(chain.study, axes, sample.machine, float(sample.unmodelled[chosen.pair]))
+    unmodelled = remaining(chain.study, axes, sample.machine, sample.unmodelled[chosen.pair])
     noise = noise_levels(axes, received, unmodelled)
     nominal = chain.results["line"].values.tolist()
     lines = line_pressure(axes, received, nominal)

@@ -66,9 +66,8 @@ def deviating(chain: Chain, ensemble: Bank, number: int) -> tuple[Deviating, Pai
     sound = by_source(study, axes, received)
     at_published, machine = ensemble.batch.sounds[number], ensemble.batch.machines[number]
     pairs = evidence.pairs_of(at_published, machine, number)
-    discrepancy = evidence.discrepancy(number).some(pairs.discrepancy)
-    gains, sounds = discrepancy.gains(sound), discrepancy.sounds(sound)
-    noise = evidence.unmodelled_pa2(pairs)
+    gains, sounds = pairs.discrepancy.gains(sound), pairs.discrepancy.sounds(sound)
+    noise = evidence.unmodelled_pa2(pairs, machine)
     return Deviating(received, gains, sounds, machine, noise), pairs, sampled
 
 

@@ -21,6 +21,18 @@ SPEED_TOLERANCE: Final = 0.02
 """A speed this share outside those that were measured is taken for the nearest of them."""
 
 
+def wrong_third_octave(band_hz: float) -> str | None:
+    """Return why a frequency is not the nominal middle of a third octave; None where it is."""
+    in_range = LOWEST_HZ <= band_hz <= HIGHEST_HZ
+    exact = power_of_level(float(third_octave_number(np.asarray(band_hz)))) if in_range else 1.0
+    if in_range and abs(band_hz / exact - 1.0) < ROUNDED:
+        return None
+    return (
+        f"band_hz = {band_hz:g} Hz: must be the middle of a third octave from "
+        f"{LOWEST_HZ:g} to {HIGHEST_HZ:g} Hz"
+    )
+
+
 class BaselineSpectrum(Parameters):
     """Unweighted levels of the third octaves at a microphone and a speed."""
 
@@ -34,13 +46,7 @@ class BaselineSpectrum(Parameters):
     """Whether the orders that were measured are taken off already."""
 
     def contradictions(self) -> Contradictions:
-        for band in self.band_hz:
-            exact = power_of_level(float(third_octave_number(np.asarray(band))))
-            if not (LOWEST_HZ <= band <= HIGHEST_HZ and abs(band / exact - 1.0) < ROUNDED):
-                yield (
-                    f"band_hz = {band:g} Hz: must be the middle of a third octave from "
-                    f"{LOWEST_HZ:g} to {HIGHEST_HZ:g} Hz"
-                )
+        yield from filter(None, map(wrong_third_octave, self.band_hz))
 
 
 class BaselineOrders(Parameters):

@@ -38,6 +38,7 @@ def check_consistent(study: StudyTables) -> None:
     _raise_all(partial(_check_fits, study, name, one) for name, one in study.options.items())
     checks = (
         _check_catalogue, _check_orders, _check_sources, _check_sound_power, _check_room,
+        _check_spectrum,
     )  # fmt: skip
     _raise_all(
         (
@@ -66,6 +67,43 @@ def _check_measured(study: StudyTables) -> None:
         names, speeds = list(study.receivers), study.operation.speed_rpm
         if problems := list(study.measured.problems(names, speeds)):
             raise ValueError(*problems)
+
+
+def _check_spectrum(study: StudyTables) -> None:
+    """Refuse a measured spectrum that does not fit the study, or weighs nothing."""
+    spectrum, operation = study.evidence.spectrum, study.operation
+    if spectrum is None:
+        return
+    points = (operation.point, study.catalogue_point)
+    problems = [
+        f"evidence.spectrum.{problem}"
+        for problem in spectrum.problems(
+            list(study.receivers),
+            operation.speed_rpm,
+            points,
+            study.radiation.maximum_frequency_hz,
+        )
+    ]
+    if study.machine.overall_noise is None:
+        problems.append(
+            "evidence.spectrum: needs machine.overall_noise, relative to which unmodelled noise "
+            "is sampled"
+        )
+    if not study.ranges:
+        problems.append(
+            "evidence.spectrum: no value that the study reads has a range, so that no samples "
+            "are weighted; name its sources"
+        )
+    if study.measured is not None and study.measured.baseline is not None:
+        problems.append("evidence.spectrum: omit it or measured.baseline, which weighs alone")
+    at_published = spectrum.operating_point not in (None, operation.point)
+    if at_published and spectrum.speed_rpm != study.catalogue_speed_rpm:
+        problems.append(
+            f"evidence.spectrum.speed_rpm = {spectrum.speed_rpm:g} rpm: at the point of the "
+            f"published level it must be {study.catalogue_speed_rpm:g} rpm"
+        )
+    if problems:
+        raise ValueError(*problems)
 
 
 def _check_catalogue(study: StudyTables) -> None:

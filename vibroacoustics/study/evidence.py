@@ -1,8 +1,9 @@
-"""What is published of a machine, and of others of its kind, to hold results against."""
+"""What is published or measured of a machine, to hold results against."""
 
 from pydantic import Field
 
 from ..base.parameters import Parameters
+from .measured_spectrum import MeasuredSpectrum
 
 
 class PublishedForce(Parameters):
@@ -19,6 +20,8 @@ class PublishedForce(Parameters):
 
 
 class Evidence(Parameters):
-    """Published values beside which a report sets its results."""
+    """Published values beside which a report sets its results, and a measured spectrum."""
 
     forces: tuple[PublishedForce, ...] = ()
+    spectrum: MeasuredSpectrum | None = None
+    """It weighs the samples together with the published level."""

@@ -1,4 +1,4 @@
-"""Published values of a study, from CSV files."""
+"""Published and measured values of a study, from CSV files."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,10 +10,12 @@ from ..base.csv_form import number_form
 from ..base.csv_rows import read_lines
 from ..base.errors import ParameterError
 from .evidence import Evidence
+from .file_names import resolve_file_names
 from .reader import Reader
 from .toml_files import beside
 
 MAXIMUM_BYTES: Final = 1_000_000
+_SPECTRUM: Final = "spectrum"
 FORCES: Final = Layout(
     ("speed_rpm", "force_1x_n", "deviation_n"),
     texts=("part", "source"),
@@ -23,6 +25,8 @@ FORCES: Final = Layout(
 
 def take_evidence(content: dict[str, Any], reader: Reader) -> dict[str, Any]:
     """Take the table `evidence` out of a study: names of CSV files become their rows.
+
+    The table of a measured spectrum is in SI, its file relative to the study's.
 
     Raises
     ------
@@ -38,6 +42,12 @@ def take_evidence(content: dict[str, Any], reader: Reader) -> dict[str, Any]:
         if key not in Evidence.model_fields:
             allowed = ", ".join(Evidence.model_fields)
             raise ParameterError(f"{file}: evidence.{key}: unknown key; allowed {allowed}")
+        if key == _SPECTRUM:
+            if not isinstance(name, Mapping):
+                raise ParameterError(f"{file}: evidence.{key} = {name!r}: must be a table")
+            rows[key] = reader.to_si(name, ("evidence", key))
+            resolve_file_names(rows[key], reader, ("evidence", key))
+            continue
         if not isinstance(name, str):
             raise ParameterError(f"{file}: evidence.{key} = {name!r}: must be a file name")
         rows[key] = _rows(beside(file, name))

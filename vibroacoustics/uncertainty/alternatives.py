@@ -9,28 +9,29 @@ from scipy.special import logsumexp
 
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import level_of_power, power_of_level
+from ..base.decibel import level_of_power
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import stamped
-from ..levels.agreement import Datum, Prior, effective_samples
+from ..levels.agreement import effective_samples
 from ..levels.energy import UNMODELLED
 from ..levels.nominal import Sound
+from ..levels.published import Published
 from ..machine.machine import Machine
 from ..results.estimates import QUANTILES
 from .evidence import PAIRS, Evidence
 
 LEVEL_ALONE: Final = "level alone"
 OTHER_PRIOR: Final = "other prior"
+WITHOUT_SPECTRUM: Final = "without the spectrum"
 _LEAST_WEIGHT: Final = 1e-4
 """Relative to the largest one: samples of less weight do not change a share."""
 
 
 class _Alternative(NamedTuple):
-    """Published data and prior of the unmodelled noise."""
+    """Data and one prior of the unmodelled noise."""
 
     name: str
-    data: Sequence[Datum]
-    prior: Prior
+    published: Published
 
 
 class _Statistics(NamedTuple):
@@ -85,10 +86,16 @@ def alternative_variables(
 
 def _alternatives(evidence: Evidence) -> list[_Alternative]:
     """Alternatives to all data with the first prior that the study has."""
-    data, priors = evidence.published.data, evidence.published.priors
-    less = [_Alternative(LEVEL_ALONE, data[:1], priors[0])] if len(data) > 1 else []
-    other = [_Alternative(OTHER_PRIOR, data, priors[1])] if len(priors) > 1 else []
-    return [*less, *other]
+    every, (first, *others) = evidence.published, evidence.published.priors
+    without = every._replace(spectrum=None, priors=(first,))
+    alone = without._replace(data=every.data[:1])
+    chosen: list[tuple[str, Published]] = []
+    if len(every.data) > 1 or every.spectrum is not None:
+        chosen.append((LEVEL_ALONE, alone))
+    if len(every.data) > 1 and every.spectrum is not None:
+        chosen.append((WITHOUT_SPECTRUM, without))
+    chosen += [(OTHER_PRIOR, every._replace(priors=(prior,))) for prior in others]
+    return [_Alternative(*each) for each in chosen]
 
 
 def _statistics(
@@ -99,7 +106,7 @@ def _statistics(
     alternative: _Alternative,
 ) -> _Statistics:
     of_pairs = [
-        evidence.log_weights(*sample, number, alternative.data, [alternative.prior])
+        evidence.log_weights(*sample, number, alternative.published)
         for number, sample in enumerate(zip(sounds, machines, strict=True))
     ]
     log_weight = [logsumexp(each) for each in of_pairs]
@@ -126,7 +133,7 @@ def _parts(
 ) -> Array:
     """Energy of sources, with half of their interference, and unmodelled noise, (pair, part)."""
     pairs, mutual = evidence.pairs(log_weights, number), evidence.mutual(sound)
-    root = np.sqrt(evidence.discrepancy(number).gain[pairs.discrepancy])
+    root = np.sqrt(pairs.discrepancy.gain)
     of_sources = np.einsum("ksi,kti,sti->ks", root, root, mutual)
-    noise = evidence.unmodelled(machine).sum() * power_of_level(pairs.unmodelled_db)
+    noise = evidence.unmodelled_pa2(pairs, machine).sum(axis=1)
     return np.asarray(np.column_stack([of_sources, noise]))

@@ -22,18 +22,17 @@ _MOST: Final = 1000
 
 
 def conflict_variables(
-    data: Sequence[Datum], bands: Array, weight: Array, generator: np.random.Generator
+    data: Sequence[Datum], expected: Array, weight: Array, generator: np.random.Generator
 ) -> xr.Dataset:
     """Label the data, what is expected of them, and the tails of the prior predictive.
 
     Parameters
     ----------
-    data : published ones
-    bands : A-weighted, of the machine, of samples with a solution, shape (sample, band), Pa²
+    data : published and measured ones
+    expected : of each sample with a solution, shape (datum, sample)
     weight : of the samples before the data, shape (sample,)
     generator : of random numbers
     """
-    expected = np.array([datum.predicted(bands) for datum in data])
     values, deviations = (
         np.array([getattr(datum, name) for datum in data]) for name in ("value", "deviation")
     )

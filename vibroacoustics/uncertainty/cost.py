@@ -85,10 +85,11 @@ def _expected(evidence: Evidence, sounds: Sequence[Sound], was_cached: bool) -> 
     most = min(MOST_ROUNDS * wanted, MOST_SAMPLES)
     if not was_cached:
         return min(_LEAST_BATCHES * wanted, most), min(_MOST_BATCHES * wanted, most)
-    published, machine = evidence.published, evidence.nominal.study.machine
+    machine = evidence.nominal.study.machine
+    published = evidence.published._replace(priors=evidence.published.priors[:1])
     log_weight = np.array(
         [
-            logsumexp(evidence.log_weights(sound, machine, n, published.data, published.priors[:1]))
+            logsumexp(evidence.log_weights(sound, machine, n, published))
             for n, sound in enumerate(sounds)
         ]
     )

@@ -7,7 +7,8 @@ The level of source s in third octave i deviates by
 with normal deviations of zero mean: one common to all sources, one of each source, and one of each
 band with the correlation exp(-octaves). They are the same for all options, speeds and microphones
 of a sample, so that most of them cancels in changes. What an option adds to the sound of a source
-deviates by d_r besides (Kennedy and O'Hagan 2001, J. R. Stat. Soc. B 63, 425).
+deviates by d_r besides (Kennedy and O'Hagan 2001, J. R. Stat. Soc. B 63, 425). Where a measured
+spectrum weighs, bands of unmodelled noise deviate as e_s,i: its smooth shape is assumed.
 """
 
 from collections.abc import Mapping
@@ -26,8 +27,10 @@ from ..study.uncertainty import Uncertainty
 
 DISCREPANCIES: Final = 50
 """Number of a sample."""
-_KEPT: Final = 512
-"""Samples whose discrepancies are kept, 75 kB each: several steps ask for them in turn."""
+WITH_SPECTRUM: Final = 200
+"""Number of a sample where a measured spectrum weighs: few agree with all of its octaves."""
+_KEPT: Final = 128
+"""Samples whose discrepancies are kept, 75 or 350 kB each: several steps ask for them in turn."""
 _OCTAVES: Final[Array] = np.arange(len(GAIN_BANDS)) / 3.0
 _CORRELATED: Final[Array] = np.linalg.cholesky(np.exp(-np.abs(_OCTAVES[:, None] - _OCTAVES)))
 """Factor of the correlation of the bands."""
@@ -41,14 +44,18 @@ class Discrepancy:
     ----------
     gain : factors on the power of sources, shape (discrepancy, source, band)
     added : factors on what options add, shape (discrepancy,)
+    unmodelled : factors on unmodelled noise, 1 without a measured spectrum, (discrepancy, band)
     """
 
     gain: Array
     added: Array
+    unmodelled: Array
 
     @classmethod
     @lru_cache(maxsize=_KEPT)
-    def of(cls, settings: Uncertainty, sources: int, number: int) -> "Discrepancy":
+    def of(
+        cls, settings: Uncertainty, sources: int, number: int, with_spectrum: bool = False
+    ) -> "Discrepancy":
         """Return the discrepancies of the sample of a number, the same at each call.
 
         Parameters
@@ -56,18 +63,25 @@ class Discrepancy:
         settings : standard deviations and seed
         sources : number of sources of sound
         number : of the sample
+        with_spectrum : whether a measured spectrum weighs; bands of unmodelled noise deviate too
         """
+        count, bands = WITH_SPECTRUM if with_spectrum else DISCREPANCIES, len(GAIN_BANDS)
         normal = np.random.default_rng((settings.seed, number)).standard_normal
-        path = settings.path_deviation_db * normal((DISCREPANCIES, 1, 1))
-        source = settings.source_deviation_db * normal((DISCREPANCIES, sources, 1))
-        white = normal((DISCREPANCIES, sources, len(GAIN_BANDS)))
+        path = settings.path_deviation_db * normal((count, 1, 1))
+        source = settings.source_deviation_db * normal((count, sources, 1))
+        white = normal((count, sources, bands))
         band = settings.band_deviation_db * (white @ _CORRELATED.T)
-        added = settings.added_deviation_db * normal(DISCREPANCIES)
-        return cls(power_of_level(path + source + band), power_of_level(added))
+        added = settings.added_deviation_db * normal(count)
+        unmodelled: Array = np.zeros((count, bands))
+        if with_spectrum:
+            white = normal((count, bands))
+            unmodelled = settings.band_deviation_db * (white @ _CORRELATED.T)
+        levels_db = (path + source + band, added, unmodelled)
+        return cls(*map(power_of_level, levels_db))
 
-    def some(self, index: IndexArray) -> "Discrepancy":
+    def some(self, index: IndexArray | slice) -> "Discrepancy":
         """Return the discrepancies of some numbers."""
-        return Discrepancy(self.gain[index], self.added[index])
+        return Discrepancy(self.gain[index], self.added[index], self.unmodelled[index])
 
     def sounds(self, sound: Mapping[CaseKey, SourceSound]) -> list[dict[CaseKey, SourceSound]]:
         """Return the sound of a sample with each discrepancy.

@@ -1,4 +1,4 @@
-"""Samples with their discrepancies beside published data or a measured baseline."""
+"""Samples with their discrepancies beside published and measured data of the machine."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,10 +11,17 @@ from scipy.special import logsumexp
 from ..base.arrays import Array, IndexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import power_of_level
-from ..levels.agreement import LEVELS_DB, Datum, Prior, log_weight_of_points, log_weights
+from ..levels.agreement import LEVELS_DB, log_likelihood, log_weight_of_points, log_weights
+from ..levels.by_source import gain_band_number
 from ..levels.nominal import NominalSound, Sound
 from ..levels.published import Published, published_of
-from ..levels.remainder import over_published, unmodelled_bands
+from ..levels.remainder import (
+    REMAINDER_MIDDLE_HZ,
+    in_spectrum,
+    over_published,
+    unmodelled_bands,
+)
+from ..levels.spectrum_data import SpectrumData
 from ..machine.machine import Machine
 from .discrepancy import Discrepancy
 
@@ -27,12 +34,12 @@ class Pairs(NamedTuple):
 
     Attributes
     ----------
-    discrepancy : its number, shape (pair,)
+    discrepancy : of each pair
     unmodelled_db : level of unmodelled noise relative to the published one, shape (pair,)
     weight : relative to the first prior, shape (prior, pair)
     """
 
-    discrepancy: IndexArray
+    discrepancy: Discrepancy
     unmodelled_db: Array
     weight: Array
 
@@ -50,7 +57,7 @@ class Evidence:
 
     @cached_property
     def published(self) -> Published:
-        """Published data of the machine."""
+        """Published and measured data of the machine."""
         return published_of(self.nominal.study)
 
     def modelled_db(self, sounds: Sequence[Sound]) -> Array:
@@ -59,26 +66,44 @@ class Evidence:
 
     def discrepancy(self, number: int) -> Discrepancy:
         """Return the discrepancies of the sample of a number."""
-        study = self.nominal.study
-        return Discrepancy.of(study.uncertainty, len(self.nominal.axes.sources), number)
+        settings, sources = self.nominal.study.uncertainty, len(self.nominal.axes.sources)
+        return Discrepancy.of(settings, sources, number, self.published.spectrum is not None)
 
-    def mutual(self, sound: Sound) -> Array:
-        """Mutual energies at the published point, shape (source, source, band), Pa²."""
-        study = self.nominal.study
-        receiver = list(self.nominal.axes.receivers).index(study.catalogue_receiver)
-        return sound[study.catalogue_case].mutual[:, :, receiver]
+    def mutual(self, sound: Sound, spectrum: SpectrumData | None = None) -> Array:
+        """Mutual energies at the published point or a spectrum's, (source, source, band), Pa²."""
+        study, name = self.nominal.study, self.nominal.study.catalogue_receiver
+        case = study.catalogue_case
+        if spectrum is not None:
+            name, case = spectrum.receiver, spectrum.case
+        receiver = list(self.nominal.axes.receivers).index(name)
+        return sound[case].mutual[:, :, receiver]
 
     def unmodelled(self, machine: Machine) -> Array:
         """Unmodelled noise of a sample at the published level, A-weighted, shape (band,), Pa²."""
         return unmodelled_bands(self.nominal.study, machine)
 
+    def growth(self, machine: Machine, spectrum: SpectrumData | None) -> float:
+        """Unmodelled noise at a spectrum's speed relative to the published one; 1 without one."""
+        published_rpm = self.nominal.study.catalogue_speed_rpm
+        speed_rpm = published_rpm if spectrum is None else spectrum.case[0]
+        return float(machine.remainder.speed_factor(np.array(speed_rpm), published_rpm))
+
+    def expected(
+        self, sound: Sound, machine: Machine, power: float, spectrum: SpectrumData | None
+    ) -> Array:
+        """Bands of the machine without discrepancy, A-weighted, shape (band,), Pa².
+
+        Parameters
+        ----------
+        sound, machine : of the sample
+        power : of unmodelled noise relative to the published level
+        spectrum : at whose point; at the published one where it is None
+        """
+        noise = power * self.growth(machine, spectrum) * self.unmodelled(machine)
+        return np.asarray(self.mutual(sound, spectrum).sum(axis=(0, 1)) + noise)
+
     def log_weights(
-        self,
-        sound: Sound,
-        machine: Machine,
-        number: int,
-        data: Sequence[Datum],
-        priors: Sequence[Prior],
+        self, sound: Sound, machine: Machine, number: int, published: Published
     ) -> Array:
         """Logarithms of the weights of a sample, shape (prior, discrepancy, unmodelled level).
 
@@ -87,13 +112,18 @@ class Evidence:
         sound : of the sample, at the cases that weigh
         machine : of the sample
         number : of the sample
-        data : published ones that weigh
-        priors : of the level of unmodelled noise
+        published : data that weigh, and priors of the level of unmodelled noise
         """
         of_sample, study = self.discrepancy(number), self.nominal.study
-        modelled = with_gain(self.mutual(sound), of_sample.gain)
-        unmodelled = self.unmodelled(machine)
-        weights = np.array([log_weights(modelled, unmodelled, data, prior) for prior in priors])
+        modelled, priors = with_gain(self.mutual(sound), of_sample.gain), published.priors
+        unmodelled = self.unmodelled(machine) * of_sample.unmodelled
+        weights = np.array(
+            [log_weights(modelled, unmodelled, published.data, prior) for prior in priors]
+        )
+        if published.spectrum is not None:
+            modelled = with_gain(self.mutual(sound, published.spectrum), of_sample.gain)
+            unmodelled = self.growth(machine, published.spectrum) * unmodelled
+            weights += log_likelihood(modelled, unmodelled, published.spectrum.data)
         if study.baseline is None or not self.nominal.points:
             return weights
         relative = np.array(
@@ -106,17 +136,18 @@ class Evidence:
         return np.nan_to_num(weights, nan=-np.inf) + np.array(measured)[..., None]
 
     def pairs_of(self, sound: Sound, machine: Machine, number: int) -> Pairs:
-        """Return pairs of a sample with all published data; parameters as `log_weights`."""
-        published = self.published
-        of_sample = self.log_weights(sound, machine, number, published.data, published.priors)
-        return self.pairs(of_sample, number)
+        """Return pairs of a sample with all data; parameters as `log_weights`."""
+        return self.pairs(self.log_weights(sound, machine, number, self.published), number)
 
-    def unmodelled_pa2(self, pairs: Pairs) -> Array:
-        """Return the unmodelled noise of pairs, A-weighted, shape (pair,), Pa²; 0 without data."""
+    def unmodelled_pa2(self, pairs: Pairs, machine: Machine) -> Array:
+        """Return the unmodelled noise of pairs, A-weighted, (pair, band), Pa²; 0 without data.
+
+        The bands are `REMAINDER_BANDS`.
+        """
         level = self.published.level_dba + pairs.unmodelled_db
-        return np.asarray(
-            REFERENCE_PRESSURE_PA**2 * power_of_level(level) * bool(self.published.data)
-        )
+        square = REFERENCE_PRESSURE_PA**2 * power_of_level(level) * bool(self.published.data)
+        factor = pairs.discrepancy.unmodelled[:, gain_band_number(REMAINDER_MIDDLE_HZ)]
+        return np.asarray(factor * square[:, None] * in_spectrum(machine, 1.0))
 
     def pairs(self, log_weights: Array, number: int) -> Pairs:
         """Return pairs in proportion to their weights with the first prior, in random order.
@@ -133,7 +164,8 @@ class Evidence:
         cell = order[systematic(weight, PAIRS, rng.uniform())]
         discrepancy, level = np.divmod(cell, LEVELS_DB.size)
         level_db = LEVELS_DB[level] + rng.uniform(-0.5, 0.5, PAIRS)  # within the step
-        return Pairs(discrepancy, level_db, np.exp(flat[:, cell] - flat[0, cell]))
+        of_pairs = self.discrepancy(number).some(discrepancy)
+        return Pairs(of_pairs, level_db, np.exp(flat[:, cell] - flat[0, cell]))
 
 
 def systematic(weight: Array, count: int, start: float) -> IndexArray:

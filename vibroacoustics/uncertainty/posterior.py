@@ -12,6 +12,7 @@ from ..base.decibel import power_of_level
 from ..base.progress import Progress
 from ..levels.agreement import LEVELS_DB
 from ..levels.nominal import Sound
+from ..levels.spectrum_data import SpectrumData
 from ..study.samples import batches_of_samples, with_sample
 from ..study.sampling import Sample
 from .alternatives import alternative_variables
@@ -20,6 +21,7 @@ from .conflict import conflict_variables
 from .evidence import Evidence
 from .hammer_test import HammerTest
 from .share_variables import level_shares
+from .spectrum_variables import spectrum_variables
 
 
 def posterior(
@@ -53,7 +55,7 @@ def posterior(
         sounds = sounds_of(batch, before, expected)
         machines = [with_sample(study.machine, study.machine, sample) for sample in batch]
         weights = [
-            evidence.log_weights(sound, machine, before + n, published.data, published.priors)
+            evidence.log_weights(sound, machine, before + n, published)
             for n, (sound, machine) in enumerate(zip(sounds, machines, strict=True))
         ]
         log_weight = np.reshape(
@@ -83,13 +85,23 @@ def _beside_data(evidence: Evidence, ensemble: Bank, before: Array) -> xr.Datase
     generator = np.random.default_rng(evidence.nominal.study.uncertainty.seed)
     prior = np.exp(published.priors[0].log_density)
     power = power_of_level(generator.choice(LEVELS_DB, len(sounds), p=prior))
-    bands = np.array(
-        [
-            evidence.mutual(sound).sum(axis=(0, 1)) + factor * evidence.unmodelled(machine)
-            for sound, factor, machine in zip(sounds, power.tolist(), machines, strict=True)
+
+    def expected(spectrum: SpectrumData | None) -> Array:
+        rows = [
+            evidence.expected(sounds[n], machines[n], power[n], spectrum) for n in solved.tolist()
         ]
-    )
-    conflict = conflict_variables(published.data, bands[solved], before[solved], generator)
+        return np.array(rows)
+
+    spectrum, weight = published.spectrum, before[solved]
+    data, bands = published.data, expected(None)
+    values = [datum.predicted(bands) for datum in data]
+    if spectrum is not None:
+        bands = expected(spectrum)
+        data = (*data, *spectrum.data)
+        values += [datum.predicted(bands) for datum in spectrum.data]
+    results = conflict_variables(data, np.array(values), weight, generator)
     if not ensemble.suffices:
-        return conflict
-    return conflict.merge(alternative_variables(evidence, sounds, machines, before))
+        return results
+    if spectrum is not None:
+        results = results.merge(spectrum_variables(evidence, spectrum, ensemble, bands, weight))
+    return results.merge(alternative_variables(evidence, sounds, machines, before))

@@ -27,13 +27,13 @@ class SampleBands:
     study : with this speed alone, and its options
     axes : of the levels
     discrepancy : the one of the sample
-    unmodelled_pa2 : mean square of unmodelled noise where the level is published, A-weighted
+    unmodelled_pa2 : unmodelled noise where the level is published, A-weighted, shape (band,)
     """
 
     study: Study
     axes: LevelAxes
     discrepancy: Discrepancy
-    unmodelled_pa2: float
+    unmodelled_pa2: Array
 
     @classmethod
     def of_pair(
@@ -56,9 +56,10 @@ class SampleBands:
         """
         number, row = pair
         batch = ensemble.batch
-        pairs = evidence.pairs_of(batch.sounds[number], batch.machines[number], number)
-        discrepancy = evidence.discrepancy(number).some(pairs.discrepancy[row : row + 1])
-        return cls(study, axes, discrepancy, float(evidence.unmodelled_pa2(pairs)[row]))
+        machine = batch.machines[number]
+        pairs = evidence.pairs_of(batch.sounds[number], machine, number)
+        discrepancy = pairs.discrepancy.some(slice(row, row + 1))
+        return cls(study, axes, discrepancy, evidence.unmodelled_pa2(pairs, machine)[row])
 
     def of(self, received: Mapping[CaseKey, ReceivedSound], machine: Machine) -> Array:
         """Compute A-weighted mean squares in `GAIN_BANDS`, (option, receiver, band), Pa².

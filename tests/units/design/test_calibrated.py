@@ -116,7 +116,8 @@ def test_mounts_of_designs_take_the_place_of_sampled_ones():
     sample = one.machine.without(frozenset({("mounts", "vertical_stiffness_n_per_m")}))
     changed = sound_of(study, sample)
     before = sound_of(problem.space.study, one.machine.values)[2900.0, "none"][1]
-    deviation = Discrepancy(one.machine.deviation.gain, one.machine.deviation.added)
+    parts = one.machine.deviation
+    deviation = Discrepancy(parts.gain, parts.added, np.ones((len(parts.added), 1)))
     received, sound = changed[2900.0, option]
     gain = deviation.gains({(2900.0, option): sound, (2900.0, "none"): before})[2900.0, option]
     expected = lines_of(received, gain, 17)

@@ -81,7 +81,9 @@ def sample(axes):
     growth = SimpleNamespace(
         speed_factor=lambda rpm, published: (rpm / published) ** 3, spectrum=spectrum
     )
-    return Deviating(received, gain, sounds, SimpleNamespace(remainder=growth), UNMODELLED)
+    middle_hz = np.array([band.middle_hz for band in REMAINDER_BANDS])
+    unmodelled = UNMODELLED[:, None] * spectrum(middle_hz)
+    return Deviating(received, gain, sounds, SimpleNamespace(remainder=growth), unmodelled)
 
 
 @pytest.fixture(scope="module")

@@ -95,7 +95,8 @@ def test_what_an_option_adds_deviates_besides_and_what_it_takes_away_does_not():
         (SPEED, "louder"): sound_at(4.0, 2.0, added=3.0),
         (SPEED, "quieter"): sound_at(1.0, 2.0),
     }
-    discrepancy = Discrepancy(np.full((1, 2, len(GAIN_BANDS)), 10.0), np.array([100.0]))
+    gain, even = np.full((1, 2, len(GAIN_BANDS)), 10.0), np.ones((1, len(GAIN_BANDS)))
+    discrepancy = Discrepancy(gain, np.array([100.0]), even)
     (heard,) = discrepancy.sounds(sound)
     assert heard[SPEED, REFERENCE_OPTION].alone[:, 0] == pytest.approx([40.0, 20.0])
     assert heard[SPEED, "louder"].alone[:, 0] == pytest.approx([40.0, 10.0 * (2.0 + 300.0)])
@@ -115,7 +116,8 @@ def evidence_of(settings):
     machine = SimpleNamespace(overall_noise=noise, remainder=remainder)
     study = SimpleNamespace(
         machine=machine, uncertainty=settings, baseline=None, catalogue_receiver="front",
-        catalogue_case=(SPEED, REFERENCE_OPTION),
+        catalogue_case=(SPEED, REFERENCE_OPTION), evidence=SimpleNamespace(spectrum=None),
+        catalogue_speed_rpm=SPEED,
     )  # fmt: skip
     axes = SimpleNamespace(receivers=["front"], sources=["low", "high"])
     return Evidence(SimpleNamespace(study=study, axes=axes, points={})), machine
@@ -125,11 +127,10 @@ def test_pairs_are_picked_as_their_weights_say():
     """Without discrepancy, modelled 6 dB below: the rest of 56 dB(A) is at -1.3 dB."""
     evidence, machine = evidence_of(NONE)
     sound = {(SPEED, REFERENCE_OPTION): sound_at(0.25 * SQUARE, 0.0)}
-    data, prior = evidence.published.data, evidence.published.priors[:1]
-    exact = np.exp(evidence.log_weights(sound, machine, 0, data, prior))[0].sum(axis=0)
-    priors = evidence.published.priors
+    published = evidence.published
+    exact = np.exp(evidence.log_weights(sound, machine, 0, published))[0].sum(axis=0)
     sampled = [
-        evidence.pairs(evidence.log_weights(sound, machine, number, data, priors), number)
+        evidence.pairs(evidence.log_weights(sound, machine, number, published), number)
         for number in range(200)
     ]
     levels = np.concatenate([one.unmodelled_db for one in sampled])
@@ -147,14 +148,15 @@ def test_a_sample_without_solution_has_no_weight_beside_a_baseline():
     evidence.nominal.points = {"front": None}
     evidence.nominal.relative_to_measured = lambda _: np.array([0.0])
     evidence.nominal.study.baseline = SimpleNamespace(tolerance_db=2.0)
-    data, priors = evidence.published.data, evidence.published.priors
-    weight = {}
+    published, weight = evidence.published, {}
     for energy in (np.nan, 0.25 * SQUARE):
         sound = {(SPEED, REFERENCE_OPTION): sound_at(energy, 0.0)}
-        weight[energy] = np.exp(evidence.log_weights(sound, machine, 0, data, priors))
+        weight[energy] = np.exp(evidence.log_weights(sound, machine, 0, published))
     found, without = weight[0.25 * SQUARE], weight[np.nan]
     assert without.tolist() == np.zeros(without.shape).tolist()
-    measured = [np.exp(log_weight_of_points(np.zeros((1, 1)), 2.0, prior)) for prior in priors]
+    measured = [
+        np.exp(log_weight_of_points(np.zeros((1, 1)), 2.0, prior)) for prior in published.priors
+    ]
     expected = np.broadcast_to(measured, found.shape[:2])
     np.testing.assert_allclose(found.sum(axis=2), expected, rtol=1e-12)
 
@@ -168,7 +170,8 @@ def test_conflict_is_the_tail_of_the_prior_predictive():
     """Levels of 60 ± 3 dB beside 56 ± 2: the predictive is normal, and so is its density."""
     rng = np.random.default_rng(0)
     bands = 4e-10 * 10.0 ** (rng.normal(60.0, 3.0, (4000, 1)) / 10.0)
-    found = conflict_variables([LEVEL], bands, np.ones(4000), rng)
+    expected_db = LEVEL.predicted(bands)[None]
+    found = conflict_variables([LEVEL], expected_db, np.ones(4000), rng)
     tail = norm.cdf(-4.0 / np.hypot(3.0, 2.0))
     assert found["datum_tail"].values == pytest.approx([tail], rel=0.05)
     assert found["conflict_tail"].item() == pytest.approx(2.0 * tail, abs=0.05)  # both sides
@@ -182,6 +185,6 @@ def test_data_that_exclude_each_other_conflict_together_only():
     bands = rng.normal(0.0, 3.0, (2000, 1))
     for values, low, high in (((0.0, 0.0), 0.9, 1.0), ((3.0, -3.0), 0.0, 0.001)):
         data = [Datum(str(n), one, 0.5, lambda b: b[:, 0]) for n, one in enumerate(values)]
-        found = conflict_variables(data, bands, np.ones(2000), rng)
+        found = conflict_variables(data, np.repeat(bands.T, 2, axis=0), np.ones(2000), rng)
         assert found["datum_tail"].min() > 0.1
         assert low <= found["conflict_tail"].item() <= high

@@ -181,14 +181,11 @@ def chain_total(chain, changed):
     batch, number = ensemble.batch, chosen.number
     pairs = evidence.pairs_of(batch.sounds[number], batch.machines[number], number)
     one = slice(chosen.pair, chosen.pair + 1)
-    gains = (
-        evidence.discrepancy(number)
-        .some(pairs.discrepancy[one])
-        .gains(by_source(study, axes, received))
-    )
+    gains = pairs.discrepancy.some(one).gains(by_source(study, axes, received))
     lines = lines_of(received[key], gains[key], 1).weighted[0, :, 1]
     machine = with_sample(study.machine, study.machine, sample)
-    rest = remaining(study, axes, machine, float(evidence.unmodelled_pa2(pairs)[chosen.pair]))
+    noise = evidence.unmodelled_pa2(pairs, machine)[chosen.pair]
+    rest = remaining(study, axes, machine, noise)
     at = axes.speeds.index(key[0]), axes.options.index(key[1])
     return 10.0 * np.log10((lines + rest[at].sum()) / 4e-10)
 

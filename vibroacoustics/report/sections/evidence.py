@@ -7,7 +7,7 @@ import xarray as xr
 
 from ...base import rounding
 from ...base.registry import register
-from ...base.vocabulary import PUBLISHED_LEVEL, PUBLISHED_SHARE
+from ...base.vocabulary import PUBLISHED_SHARE
 from ...results.bands import Band, percent
 from ...results.stored_study import parameters
 from ...results.validation import (
@@ -100,8 +100,8 @@ def conflict_table(results: xr.Dataset) -> Table:
             expected = Band(*quantiles.values.tolist()).middle_and_ends(_number(name))
         word = "conflict" if tail < CONFLICT else "no conflict"
         rows.append((name, published, expected, rounding.fixed(tail, 3), word))
-    head = ("Datum", "Published", "Expected by the model", "Tail of the prior", "")
-    caption = "Published data beside the prior predictive distribution, median (80 % interval)"
+    head = ("Datum", "Published or measured", "Expected by the model", "Tail of the prior", "")
+    caption = "Data beside the prior predictive distribution, median (80 % interval)"
     return Table(caption, head, tuple(rows), frozenset({0, 4}))
 
 
@@ -117,7 +117,7 @@ def _number(name: str) -> Callable[[float], str]:
 
 
 def _unit(results: xr.Dataset, name: str) -> str:
-    if name == PUBLISHED_LEVEL:
+    if name != PUBLISHED_SHARE:
         return " dB(A)"
     below_hz = parameters(results)["machine"]["overall_noise"]["spectral_share"]["below_hz"]
     return f" of the energy below {below_hz:g} Hz"

@@ -172,7 +172,8 @@ def most_valuable(results: xr.Dataset) -> str:
             best = _best(here)
             if float(here["perfect_information"]) >= SMALLEST_DB and best is not None:
                 return named(str(results["uncertain_parameter"].values[best]))
-    if not has_samples(results) or "baseline_band_level" in results:
+    measured = "baseline_band_level" in results or "spectrum_measured" in results
+    if measured or not has_samples(results):
         return ""
     if overall_noise(results) is None:
         return "the A-weighted level at a microphone, as none is published"

@@ -4,7 +4,6 @@ from typing import Final
 
 from ...machine.machine import MACHINES
 from ...machine.option import OPTIONS
-from ..evidence import Evidence
 from ..loading import FILLED_IN
 from ..machine_file import POINTS
 from ..study import Study
@@ -49,9 +48,9 @@ def study_schema() -> Schema:
                 "without": {"type": "array", "items": {"type": "string"}},
             }
         ),
-        "evidence": _table(dict.fromkeys(Evidence.model_fields, _FILE)),
     }
     _with_judgements(properties["options"]["additionalProperties"])
+    definitions["Evidence"]["properties"]["forces"] = _FILE
     scoring = definitions["Scoring"]["properties"]
     del scoring["published"]
     scoring["published_table"] = _FILE

@@ -25,7 +25,7 @@ from ...figures.sources import changing_options, option_third_octaves, source_th
 from ...figures.stacked import stacked_lines, stacked_third_octaves
 from ...remainder import remainder_band
 from ...tables import DataTable, Table, data_table
-from .. import Section
+from .. import Section, text
 from .words import UNMODELLED, certainty_sentences, ranked, source_share, unmodelled_share
 
 
@@ -78,7 +78,11 @@ def source_table(results: xr.Dataset) -> Table:
 
 LEAST: Final = 0.01
 """Smaller shares are in uncertainty.csv."""
-_WORDS = {"level alone": "published level alone", "other prior": "second prior"}
+_WORDS = {
+    "level alone": "published level alone",
+    "without the spectrum": "all published data",
+    "other prior": "second prior",
+}
 
 
 def alternatives_table(results: xr.Dataset) -> Table | None:
@@ -95,7 +99,10 @@ def alternatives_table(results: xr.Dataset) -> Table | None:
         here, name = unmodelled_share(results, speed), UNMODELLED
         if part in results["sound_source"].values:
             here, name = source_share(results, part, speed), source_name(results, part)
-        shares = [here, *(_share(results, alternative, part) for alternative in alternatives)]
+        shares = [
+            here,
+            *(alternative_share(results, alternative, part) for alternative in alternatives),
+        ]
         rows.append((f"Share of {name}", *(share.in_percent() for share in shares)))
     effective = ", ".join(
         f"{_effective(results, name):.0f} with {_WORDS[name]}" for name in alternatives
@@ -106,13 +113,17 @@ def alternatives_table(results: xr.Dataset) -> Table | None:
 
 
 def spectrum_sentence(results: xr.Dataset) -> str:
-    """Return how far the published spectral share changes shares; empty without one."""
-    if "alternative" not in results or "level alone" not in results["alternative"].values:
+    """Return how far the published spectral share changes shares; empty without one.
+
+    A measured spectrum has a section of its own.
+    """
+    alternatives = results.get("alternative", xr.DataArray([])).values
+    if "level alone" not in alternatives or "spectrum_measured" in results:
         return ""
     speed, sources = nearest_speed(results), list(map(str, results["sound_source"].values))
 
     def change(source: str) -> float:
-        alone = _share(results, "level alone", source).middle
+        alone = alternative_share(results, "level alone", source).middle
         return abs(source_share(results, source, speed).middle - alone)
 
     source = max(sources, key=change)
@@ -120,11 +131,12 @@ def spectrum_sentence(results: xr.Dataset) -> str:
     return (
         f"With the published spectral share {name} make "
         f"{source_share(results, source, speed).in_percent()} of the energy, with the level alone "
-        f"{_share(results, 'level alone', source).in_percent()}."
+        f"{alternative_share(results, 'level alone', source).in_percent()}."
     )
 
 
-def _share(results: xr.Dataset, alternative: str, part: str) -> Band:
+def alternative_share(results: xr.Dataset, alternative: str, part: str) -> Band:
+    """Return the share of a part of the energy with less evidence or another prior."""
     known = estimate(results, "alternative_share", alternative=alternative, energy_part=part)
     return written(known, _effective(results, alternative))
 
@@ -172,7 +184,7 @@ def _alternatives(results: xr.Dataset) -> list[Block]:
     named = "; ".join(f"{which} prior {what}" for which, what in priors)
     return [
         table,
-        Text(spectrum_sentence(results)),
+        *text(spectrum_sentence(results)),
         Text(f"Level of unmodelled noise before the data: {named}.", "note"),
     ]
 

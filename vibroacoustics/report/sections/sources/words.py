@@ -73,6 +73,7 @@ def samples_sentence(results: xr.Dataset) -> str:
         how = "by the likelihood of the measured baseline"
     elif overall_noise(results) is not None:
         how = f"by the likelihood of the published level{elsewhere(results)}"
+        how += " and of the measured spectrum" if "spectrum_measured" in results else ""
     else:
         how = "by the hammer test" if "shell_weight" in results else "equally"
         why = ", as no level of the machine is published"
