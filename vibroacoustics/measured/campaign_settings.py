@@ -292,6 +292,10 @@ class Campaign(Parameters):
 def load_campaign(path: str | Path) -> Campaign:
     """Read the settings of a campaign; docs/campaigns.md has their tables.
 
+    Parameters
+    ----------
+    path : TOML file
+
     Raises
     ------
     ParameterError

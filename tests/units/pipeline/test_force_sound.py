@@ -150,6 +150,7 @@ def test_what_is_wrong_is_one_line(tmp_path, values, words):
     assert len(lines) == (2 if "microphones" in values else 1), lines  # one missing, one unknown
 
 
+@pytest.mark.filterwarnings("ignore:.*usual is")
 @pytest.mark.parametrize(
     ("values", "words"),
     [({"operation.stopping": True}, "leave out operation.stopping"),

@@ -170,6 +170,7 @@ def test_as_many_orders_as_the_highest_frequency_holds(many):
     assert many["order_frequency"].sel(speed=3500.0, order=57) == pytest.approx(57 * 3500 / 60)
 
 
+@pytest.mark.filterwarnings("ignore:.*usual is")
 def test_orders_need_crank_angles(tmp_path):
     operation = "speed_rpm = [1000.0, 2900.0]\ncrank_angle_samples = 300"
     with pytest.raises(ParameterError, match=r"crank_angle_samples = 300: .*300.*1000 rpm"):
@@ -257,6 +258,7 @@ def test_time_series_of_many_speeds_only_on_request(folder, tmp_path, many):
     assert again.read_text() == page
 
 
+@pytest.mark.filterwarnings("ignore:.*usual is")
 def test_result_above_2_gib_is_refused_before_the_second_speed(tmp_path, monkeypatch):
     told, motions = [], []
     study = study_at(

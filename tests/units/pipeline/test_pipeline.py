@@ -100,6 +100,7 @@ OF_OTHER_JOBS = (
     "predicted_", "blocked_", "validation_", "inversion_", "shell_", "best_design",
     "structure_borne_", "level_both_ways", "gas_frequency", "room_", "hemisphere_",
     "measured_", "background_", "mean_position_", "environment_", "slider_", "polar_",
+    "spectrum_", "run_speed",
 )  # fmt: skip
 """Of measurements, a test of the shell, a search of designs, a plate, gas, a room, sliders."""
 
