@@ -98,7 +98,8 @@ def _lines(path: str | Path, layout: Layout) -> Iterator[tuple[dict[str, Any], s
     """Values of each limit by column, without blank cells, and its line."""
     columns = read_layouts(path, [layout], MAXIMUM_BYTES)
     values: dict[str, Sequence[Any]] = dict(columns.texts)
-    values |= {n: [None if isnan(v) else v for v in each.tolist()] for n, each in columns.numbers.items()}
+    for name, numbers in columns.numbers.items():
+        values[name] = [None if isnan(number) else number for number in numbers.tolist()]
     for row, cells in enumerate(zip(*values.values(), strict=True)):
         named = zip(values, cells, strict=True)
         yield {name: cell for name, cell in named if cell not in ("", None)}, columns.origin(row)
