@@ -72,6 +72,7 @@ class Firefox:
             "script.callFunction",
             functionDeclaration=f"async () => JSON.stringify(await (async () => {{{script}}})())",
             awaitPromise=True,
+            userActivation=True,  # free to start sound
             target={"context": self._tab},
         )
         assert given["type"] == "success", given

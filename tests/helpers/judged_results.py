@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from vibroacoustics.base.units import shaft_frequency_hz
-from vibroacoustics.base.vocabulary import WEIGHTINGS, stamp
+from vibroacoustics.base.vocabulary import VARIABLES, WEIGHTINGS, stamp
 from vibroacoustics.levels.changes import AMPLITUDES, FORCES, JUDGED, change_variables, changes_of
 from vibroacoustics.levels.labelled import level_changes
 from vibroacoustics.results.estimates import estimated
@@ -27,7 +27,11 @@ def judged(results: xr.Dataset) -> xr.Dataset:
         "order_level": results["order_level"].transpose(*PLACE, "order", "weighting").values,
     }
     changes = level_changes(levels, results["option"].values.tolist().index("none"))
-    made = {name: stamp(name, values, place) for name, values in changes.items()}
+    coords = {**place, "order": results["order"].values}
+    made = {
+        name: stamp(name, values, {dim: coords[dim] for dim in VARIABLES[name].dims})
+        for name, values in changes.items()
+    }
     foot = results["foot_force_amplitude"].max("foot").transpose("speed", "option", "order")
     coords = {name: results[name].values for name in foot.dims}
     made["largest_foot_force"] = stamp("largest_foot_force", foot.values, coords)

@@ -5,6 +5,9 @@ from typing import Final
 REFERENCE_PRESSURE_PA: Final = 20e-6
 """Reference sound pressure, Pa (ISO 1683)."""
 
+REFERENCE_BY_UNIT: Final = {"Pa": REFERENCE_PRESSURE_PA, "m/s²": 1e-6, "m/s": 1e-9, "N": 1e-6}
+"""Reference of a level by the unit of the quantity, in this unit (ISO 1683)."""
+
 REFERENCE_POWER_W: Final = 1e-12
 """Reference sound power, W (ISO 1683)."""
 

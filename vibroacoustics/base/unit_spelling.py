@@ -18,6 +18,8 @@ _OTHERS: Final = {
     "m/(N s)": ("m/s/N", "(m/s)/N", "m/Ns", "m/(Ns)"),
     "mm/(N s)": ("mm/s/N", "(mm/s)/N", "mm/Ns", "mm/(Ns)"),
     "µPa": ("uPa",),
+    "mbar": ("hPa",),
+    "µbar": ("ubar",),
     "µm": ("um",),
     "N m": ("Nm",),
     "rpm": ("RPM", "1/min", "r/min", "min-1", "U/min"),

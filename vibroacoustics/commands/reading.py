@@ -272,7 +272,8 @@ class SpeedOptions:
     ] = None
     tacholess_machine: Annotated[
         Path | None,
-        "Machine file, .toml: find the speed in the signal within the slip of its induction motor.",
+        "Machine file, .toml: find the speed in the signal by its motor: the slip of an induction "
+        "motor, or the limits of --tacholess; its poles and teeth are the comb.",
     ] = None
 
     def source(self) -> "SpeedSource":
@@ -295,10 +296,8 @@ class SpeedOptions:
         )
         from .arguments import chosen, line_points, order_numbers
 
-        without_tacho = [
-            option is not None
-            for option in (self.tacholess, self.tacholess_machine, self.tacholess_line)
-        ]
+        tacholess = self.tacholess is not None or self.tacholess_machine is not None
+        without_tacho = [tacholess, self.tacholess_line is not None]
         by_channel = self.speed_channel is not None and not any(without_tacho)
         sources = sum([self.rpm is not None, by_channel, *without_tacho])
         if sources != 1:
@@ -336,7 +335,8 @@ class SpeedOptions:
         from ..study.loading import load_machine
         from .arguments import order_numbers
 
-        speed = speed_of_machine(load_machine(file), self.speed_channel, self.mains)
+        machine = load_machine(file)
+        speed = speed_of_machine(machine, self.speed_channel, self.mains, self.tacholess)
         return (
             speed if self.comb is None else replace(speed, comb=order_numbers(self.comb, "--comb"))
         )

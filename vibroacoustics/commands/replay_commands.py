@@ -27,13 +27,16 @@ def replay_command(
     ],
     option: Annotated[str, "Balancing option of the study."],
     pair: Annotated[
-        list[str], "CHANNEL=RESPONSE: microphone of the study for a channel; may be repeated."
+        list[str], "CHANNEL=RESPONSE: microphone or motion of the study for a channel; repeatable."
     ],
     speed: SpeedOptions,
     bandwidth: Annotated[
         float | None, "Full width at -3 dB of what belongs to an order, Hz; default: automatic."
     ] = None,
     orders_only: Annotated[bool, "Accept an option that changes the noise too."] = False,
+    shaft_ratio: Annotated[
+        float, "Speed of the study's shaft over that of the recorded one, as of a gear or belt."
+    ] = 1.0,
     reading: Reading,
     out: FileOut = None,
     plugin: Plugins = None,
@@ -48,5 +51,7 @@ def replay_command(
     target = printing.target(out or Path("reports") / recording_file.stem)
     results, _ = outputs.open_run(results_file)
     recording = reading.at_once(recording_file, plugin)
-    replayed = replay(recording, results, option, pairs, source, bandwidth, orders_only, progress)
+    replayed = replay(
+        recording, results, option, pairs, source, bandwidth, orders_only, shaft_ratio, progress
+    )
     return target.outcome(analysis_with_sounds(replayed), replayed.summary, "replay.nc")

@@ -1,6 +1,7 @@
-"""Sounds of a recording before and after the replay of an option, at one scale."""
+"""Sounds of a recording before and after the replay of an option, at one scale a unit."""
 
 from dataclasses import replace
+from typing import Final
 
 import numpy as np
 
@@ -11,6 +12,9 @@ from ..report.file_names import file_name
 from ..report.replay import analysis_of_replay
 from ..sound.files import at_gain, wav_bytes
 from ..sound.gain import next_full_scale
+
+_IN_NAMES: Final = {"Pa": "Pa", "m/s²": "m_s2", "m/s": "m_s", "N": "N"}
+"""Units in names of files."""
 
 
 def analysis_with_sounds(replayed: Replay) -> Analysis:
@@ -31,17 +35,23 @@ def analysis_with_sounds(replayed: Replay) -> Analysis:
             f"sample rate = {replayed.sample_rate_hz:g} Hz: must be a whole number for WAV files; "
             "give --sample-rate"
         )
-    highest = max(float(np.max(np.abs(each))) for each in (replayed.before, replayed.after))
-    scale = next_full_scale(highest)
-    sounds, contents = {}, {}
+    units = replayed.summary["channel_unit"].values.astype(str)
+    scales = {
+        unit: next_full_scale(max(float(np.max(np.abs(each[units == unit])))
+                                  for each in (replayed.before, replayed.after)))
+        for unit in dict.fromkeys(units)
+    }  # fmt: skip
+    sounds: dict[str, dict[str, str]] = {}
+    contents = {}
     channels = [str(name) for name in replayed.summary["channel"].values]
-    for word, signals in (("before", replayed.before), ("after", replayed.after)):
-        for channel, signal in zip(channels, signals, strict=True):
-            name = f"{file_name(channel)}_{word}_{scale:g}Pa.wav"
-            contents[name] = wav_bytes(at_gain(signal, scale), rate_hz, scale)
-            sounds[f"{channel}, {word}"] = name
+    for channel, unit, *signals in zip(
+        channels, units, replayed.before, replayed.after, strict=True
+    ):
+        scale, sounds[channel] = scales[unit], {}
+        for word, signal in zip(("before", "after"), signals, strict=True):
+            name = f"{file_name(channel)}_{word}_{scale:g}{_IN_NAMES[unit]}.wav"
+            contents[name] = wav_bytes(at_gain(signal, scale), rate_hz, scale, unit)
+            sounds[channel][word] = name
     if len(contents) < 2 * len(channels):
         raise ParameterError("pair: two channels have the same name of a file; replay one")
-    ordered = {f"{channel}, {word}": sounds[f"{channel}, {word}"]
-               for channel in channels for word in ("before", "after")}  # fmt: skip
-    return replace(analysis_of_replay(replayed.summary, ordered), further=contents)
+    return replace(analysis_of_replay(replayed.summary, sounds), further=contents)

@@ -85,9 +85,11 @@ def level_changes(levels: Mapping[str, Array], reference: int) -> dict[str, Arra
     every = {
         "change_total": levels["level_total"],
         "change_modelled": levels["level_modelled"][..., a],
-        "change_1x": levels["order_level"][..., 1, z],
     }
-    return {name: one - one[..., [reference], :] for name, one in every.items()}
+    changes = {name: values - values[..., [reference], :] for name, values in every.items()}
+    orders = levels["order_level"][..., z]
+    order_change = orders - orders[..., [reference], :, :]
+    return {**changes, "order_change": order_change, "change_1x": order_change[..., 1]}
 
 
 def source_levels(

@@ -1,6 +1,7 @@
-"""Ratios of a study's shaft orders with and without an option, at a microphone."""
+"""Ratios of a study's shaft orders with and without an option, in a response of the study."""
 
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Final
 
 import numpy as np
@@ -13,10 +14,14 @@ from ..base.errors import ParameterError, SchemaError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..orders.ratio_over_speed import used_speeds
 from ..results.estimates import interval, is_sampled
+from ..results.order_comparison import NEGLIGIBLE, channel_orders, channel_units
 
 LARGEST_RATIO_DB: Final = 20.0
+PRESSURE_UNIT: Final = "Pa"
+"""Unit of the responses at microphones."""
 _SAME_RATIO: Final = 1e-3
 """Distance of a ratio from 1, 0.01 dB or 0.06°, below which an order is not changed."""
+_SAME_ORDER: Final = 1e-6
 _SAME_NOISE_DB: Final = 0.1
 _LEAST_PA2: Final = REFERENCE_PRESSURE_PA**2 * 1e-2
 """Noise of a band below -20 dB counts as none."""
@@ -44,7 +49,7 @@ class OrderRatio:
 
 @dataclass(frozen=True)
 class OptionRatios:
-    """What an option changes at a microphone.
+    """What an option changes in a response.
 
     Attributes
     ----------
@@ -59,32 +64,38 @@ class OptionRatios:
 
 
 def option_ratios(
-    results: xr.Dataset, option: str, receiver: str, lowest_rpm: float, highest_rpm: float
+    results: xr.Dataset, option: str, response: str, lowest_rpm: float, highest_rpm: float
 ) -> OptionRatios:
     """Ratios of complex peaks, summed over all sources, in the sample that the results show.
 
     Parameters
     ----------
     results : of a run
-    option, receiver : names in the results
-    lowest_rpm, highest_rpm : of the recording; ratios at other speeds are not judged
+    option : name in the results
+    response : microphone, or channel of the study as `channel_orders` names it
+    lowest_rpm, highest_rpm : of the study's shaft in the recording; ratios at other speeds are not
+        judged
 
     Raises
     ------
     ParameterError
-        The results hold no such option or microphone, or lack speeds of the recording.
+        The results hold no such option or response, lack speeds of the recording, or hold two
+        changed lines at one order.
     SchemaError
         The results hold no sound.
     """
-    check_names(results, option, receiver)
+    check_names(results, option, response)
     results = results.sortby("speed")
-    pressure = results["pressure_line"].sel(receiver=receiver).sum("sound_source")
-    before = pressure.sel(option=REFERENCE_OPTION).transpose("line", "speed").values
-    after = pressure.sel(option=option).transpose("line", "speed").values
+    before, after = (_peaks(results, name, response) for name in (REFERENCE_OPTION, option))
+    largest = max(float(np.max(np.abs(peaks[peaks["line_order"] != 0.0].values), initial=0.0))
+                  for peaks in (before, after))  # fmt: skip
+    before, after = (peaks.where(abs(peaks) > NEGLIGIBLE * largest, 0.0)
+                     for peaks in (before, after))  # fmt: skip
     speeds = results["speed"].values.astype(float)
     used = used_speeds(speeds, lowest_rpm, highest_rpm)
     orders, unchanged = [], {}
-    rows = zip(results["line"].values, results["line_order"].values, before, after, strict=True)
+    rows = zip(before["line"].values, before["line_order"].values, before.values, after.values,
+               strict=True)  # fmt: skip
     for name, order, old, new in rows:
         if order == 0.0 or np.all(np.abs(new - old)[used] <= _SAME_RATIO * np.abs(old[used])):
             continue
@@ -93,56 +104,97 @@ def option_ratios(
             unchanged[str(name)] = reason
             continue
         ratio = new / np.where(old == 0.0, 1.0, old)
-        ends = _interval(results, option, receiver, float(order), np.abs(ratio))
+        ends = _interval(results, option, response, float(order), np.abs(ratio))
         orders.append(OrderRatio(str(name), float(order), ratio, *ends))
+    _check_apart(orders)
     return OptionRatios(speeds, tuple(orders), unchanged)
 
 
-def check_names(results: xr.Dataset, option: str, receiver: str) -> None:
-    """Refuse an option or a microphone that results do not hold.
+def _peaks(results: xr.Dataset, option: str, response: str) -> xr.DataArray:
+    """Complex peaks of all sources together, (line, speed), with the coordinate `line_order`."""
+    if response in results["receiver"].values:
+        at_option = results["pressure_line"].sel(receiver=response, option=option)
+        return at_option.sum("sound_source").transpose("line", "speed")
+    orders = channel_orders(results, option).sel(channel=response).rename(order="line")
+    names = [f"order {order:g}" for order in orders["line"].values]
+    labelled = orders.assign_coords(line=names, line_order=("line", orders["line"].values))
+    return labelled.transpose("line", "speed")
+
+
+def _check_apart(orders: list[OrderRatio]) -> None:
+    """Refuse lines of two shafts at one order, which a recording cannot separate."""
+    for first, second in combinations(orders, 2):
+        if abs(first.order - second.order) <= _SAME_ORDER * first.order:
+            raise ParameterError(
+                f"results: lines {first.line!r} and {second.line!r} are both at order "
+                f"{first.order:g} of the shaft: a recording cannot separate them"
+            )
+
+
+def response_units(results: xr.Dataset) -> dict[str, str]:
+    """Unit of each response of a study by its name: microphones, and channels of `channel_orders`.
 
     Raises
     ------
-    ParameterError
-        There is no such option or microphone, or the option is the reference.
     SchemaError
         The results hold no sound.
     """
     if "pressure_line" not in results:
         raise SchemaError("the results hold no sound at microphones: run the study again")
+    microphones = dict.fromkeys(map(str, results["receiver"].values), PRESSURE_UNIT)
+    if "force_order" not in results:
+        return microphones
+    return {**microphones, **channel_units(channel_orders(results))}
+
+
+def check_names(results: xr.Dataset, option: str, response: str) -> None:
+    """Refuse an option or a response that results do not hold.
+
+    Raises
+    ------
+    ParameterError
+        There is no such option or response, or the option is the reference.
+    SchemaError
+        The results hold no sound.
+    """
+    responses = list(response_units(results))
     options = [str(name) for name in results["option"].values if name != REFERENCE_OPTION]
-    receivers = [str(name) for name in results["receiver"].values]
-    for word, value, labels in (("option", option, options), ("response", receiver, receivers)):
+    for word, value, labels in (("option", option, options), ("response", response, responses)):
         if value not in labels:
             raise ParameterError(f"{word} = {value}: must be one of {', '.join(labels)}")
 
 
-def changed_noise_bands(results: xr.Dataset, option: str, receiver: str) -> list[float]:
+def changed_noise_bands(results: xr.Dataset, option: str, response: str) -> list[float]:
     """Third octaves, Hz, in which the noise with an option differs by 0.1 dB or more.
+
+    Results hold noise at microphones alone. Another response is judged by all of them.
 
     Parameters
     ----------
     results : of a run; without noise, none changes
-    option, receiver : names in the results
+    option, response : names in the results
     """
     if "noise_band_level" not in results:
         return []
-    receivers = results.sel(receiver=receiver)
+    every = results["receiver"].values
+    microphones = results.sel(receiver=[response] if response in every else every)
     squares = [
-        _square(receivers, name, each)
+        _square(microphones, name, each)
         for each in (option, REFERENCE_OPTION)
         for name in ("noise_band_level", "unmodelled_band_level")
     ]
     with_option, without = (np.maximum(sum(squares[n : n + 2]), _LEAST_PA2) for n in (0, 2))
-    change_db = np.max(np.abs(level_of_power(with_option / without)), axis=0)
+    change_db = np.max(np.abs(level_of_power(with_option / without)), axis=(0, 1))
     return [float(band) for band in results["noise_band"].values[change_db >= _SAME_NOISE_DB]]
 
 
 def _square(results: xr.Dataset, name: str, option: str) -> Array:
-    """Mean square by speed and third octave, Pa²; of the sample that the lines are of."""
+    """Mean square (receiver, speed, third octave), Pa²; of the sample that the lines are of."""
     sampled = f"representative_{name}"
     level = results[sampled if sampled in results else name].sel(option=option)
-    return REFERENCE_PRESSURE_PA**2 * power_of_level(level.transpose("speed", "noise_band").values)
+    dims = [dim for dim in ("receiver", "speed", "noise_band") if dim in level.dims]
+    square = REFERENCE_PRESSURE_PA**2 * power_of_level(level.transpose(*dims).values)
+    return square if "receiver" in dims else square[None]
 
 
 def _reason(order: float, before: ComplexArray, after: ComplexArray) -> str:
@@ -158,12 +210,14 @@ def _reason(order: float, before: ComplexArray, after: ComplexArray) -> str:
 
 
 def _interval(
-    results: xr.Dataset, option: str, receiver: str, order: float, size: Array
+    results: xr.Dataset, option: str, response: str, order: float, size: Array
 ) -> tuple[Array | None, Array | None]:
-    """Factors to the ends of the interval; of the first order, the one that results hold."""
-    if order != 1.0 or not is_sampled(results, "change_1x"):
+    """Factors to the ends of the interval of an order, of all samples at a microphone."""
+    if not is_sampled(results, "order_change") or response not in results["receiver"].values:
         return None, None
-    ends = interval(results, "change_1x").sel(option=option, receiver=receiver)
+    if order not in results["order"].values:
+        return None, None
+    ends = interval(results, "order_change").sel(option=option, receiver=response, order=order)
     low, high = (amplitude_of_level(ends[end].values) for end in ("low", "high"))
     size = np.where(size > 0.0, size, 1.0)
     return np.minimum(low / size, 1.0), np.maximum(high / size, 1.0)

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, ComplexArray
-from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.constants import REFERENCE_BY_UNIT
 from ..base.decibel import level_of_power, power_of_level
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
@@ -22,10 +22,18 @@ from ..orders.vold_kalman_equations import Track
 from ..recordings import LabelledBlocks
 from ..results import provenance
 from ..study.order_analysis import SpeedSource
-from .option_ratios import OptionRatios, OrderRatio, changed_noise_bands, check_names, option_ratios
+from .option_ratios import (
+    PRESSURE_UNIT,
+    OptionRatios,
+    OrderRatio,
+    changed_noise_bands,
+    check_names,
+    option_ratios,
+    response_units,
+)
 
-UNIT: Final = "Pa"
-"""Unit of the responses at microphones."""
+SHAFT_RATIOS: Final = (0.01, 100.0)
+_UNWEIGHTED: Final = WEIGHTINGS.index("Z")
 _LEAST_BANDWIDTH_HZ: Final = 1.0
 _BELOW_NOISE: Final = "below the recording's noise"
 
@@ -36,7 +44,7 @@ class Replay(NamedTuple):
     Attributes
     ----------
     summary : levels of orders and of the whole; attribute `unchanged`: reasons by channel and line
-    before, after : sound pressure where the speed is known, Pa, shape (channel, time)
+    before, after : where the speed is known, in the unit of each channel, shape (channel, time)
     sample_rate_hz : of both
 
     Examples
@@ -55,7 +63,7 @@ class Replay(NamedTuple):
 
 
 class _Line(NamedTuple):
-    """Mean squares of an order, Pa².
+    """Mean squares of an order, in the channel's unit squared.
 
     Attributes
     ----------
@@ -86,6 +94,7 @@ def replay(
     speed: SpeedSource,
     bandwidth_hz: float | None = None,
     orders_only: bool = False,
+    shaft_ratio: float = 1.0,
     progress: Progress = no_progress,
 ) -> Replay:
     """Change the orders of a recording as an option of a study changes them.
@@ -99,18 +108,20 @@ def replay(
     recording : from `read_recording` or `label_recording`
     results : of a run
     option : name in the results
-    pairs : microphone of the study by channel of the recording
+    pairs : response of the study by channel of the recording: a microphone, or a channel as
+        `compare` names it, such as `foot acceleration rear_left z`
     speed : where the recording's speed comes from
     bandwidth_hz : full width at -3 dB of what belongs to an order at most; None for √s where the
         highest changed order rises by s Hz/s, 1 Hz at least
     orders_only : whether an option that changes the noise is accepted
+    shaft_ratio : speed of the study's shaft over that of the recorded shaft, 0.01 to 100
     progress : called with the advance
 
     Raises
     ------
     ParameterError
-        A name is unknown, units differ, the study lacks speeds, the option changes the noise, or
-        the bandwidth does not fit.
+        A name is unknown, units differ, the study lacks speeds or holds two lines at one order, the
+        option changes the noise, or bandwidth or ratio does not fit.
 
     Examples
     --------
@@ -127,23 +138,27 @@ def replay(
     """
     with provenance.naming(recording.attrs):
         _check(recording, results, option, pairs, orders_only)
+        if not SHAFT_RATIOS[0] <= shaft_ratio <= SHAFT_RATIOS[1]:
+            raise ParameterError(f"shaft_ratio = {shaft_ratio:g}: must be 0.01 to 100")
         rate_hz = float(recording.attrs["sample_rate_hz"])
-        of_shaft = recorded_speed(LabelledBlocks(recording), speed)
+        recorded = recorded_speed(LabelledBlocks(recording), speed)
+        motion = recorded.motion.geared(shaft_ratio)
         signals = [_samples(recording, channel) for channel in pairs]
-        part = _known_part(of_shaft.motion, rate_hz, signals[0].size)
+        part = _known_part(motion, rate_hz, signals[0].size)
         before, after, lines, reasons = [], [], [], {}
-        for number, (channel, receiver) in enumerate(pairs.items()):
+        for number, (channel, response) in enumerate(pairs.items()):
             progress("replay", number, len(pairs))
-            ratios = option_ratios(results, option, receiver, *_speeds(of_shaft.motion))
-            width = _bandwidth(of_shaft.motion, ratios.orders, bandwidth_hz)
-            changed = _changed(signals[number], rate_hz, of_shaft.motion, ratios, width)
+            ratios = option_ratios(results, option, response, *_speeds(motion))
+            width = _bandwidth(motion, ratios.orders, bandwidth_hz)
+            changed = _changed(signals[number], rate_hz, motion, ratios, width)
             before.append(signals[number][part])
             after.append(changed[0][part])
             lines.append(changed[1])
             reasons[channel] = {**ratios.unchanged, **changed[2]}
         about = {
             **provenance.of_recording(recording.attrs, "replay"),
-            **of_shaft.attributes(),
+            **recorded.attributes(),
+            "shaft_ratio": shaft_ratio,
             "option": option,
             "pairs": canonical_json(dict(pairs)),
             "unchanged": canonical_json(reasons),
@@ -154,7 +169,8 @@ def replay(
             "replayed_to_s": part.stop / rate_hz,
         }
         sounds = (np.array(before), np.array(after))
-        summary = _summary(list(pairs), *sounds, rate_hz, lines)
+        units = {channel: response_units(results)[response] for channel, response in pairs.items()}
+        summary = _summary(units, *sounds, rate_hz, lines)
         return Replay(summary.assign_attrs(about), *sounds, rate_hz)
 
 
@@ -169,15 +185,21 @@ def _check(
     units = dict(zip(recording["channel"].values, recording["channel_unit"].values, strict=True))
     if not pairs:
         raise ParameterError("pair: none given; give --pair CHANNEL=RESPONSE")
-    for channel, receiver in pairs.items():
+    for channel, response in pairs.items():
         if channel not in units:
             names = ", ".join(map(str, units))
             raise ParameterError(f"pair: no channel {channel!r}; there are {names}")
-        check_names(results, option, receiver)
-        if units[channel] != UNIT:
+        check_names(results, option, response)
+        unit = response_units(results)[response]
+        if units[channel] != unit:
             raise ParameterError(
-                f"pair {channel}={receiver}: channel {channel} is in {units[channel]}, the "
-                f"response in {UNIT}: the units must agree"
+                f"pair {channel}={response}: channel {channel} is in {units[channel]}, the "
+                f"response in {unit}: the units must agree"
+            )
+        if unit not in REFERENCE_BY_UNIT:
+            allowed = ", ".join(REFERENCE_BY_UNIT)
+            raise ParameterError(
+                f"pair {channel}={response}: unit {unit}: must be one of {allowed}"
             )
     bands = _noise_changes(results, option, pairs)
     if bands and not orders_only:
@@ -189,8 +211,8 @@ def _check(
 
 
 def _noise_changes(results: xr.Dataset, option: str, pairs: Mapping[str, str]) -> set[float]:
-    """Third octaves in which the noise changes at any of the microphones, Hz."""
-    every = (changed_noise_bands(results, option, receiver) for receiver in pairs.values())
+    """Third octaves in which the noise changes in any of the responses, Hz."""
+    every = (changed_noise_bands(results, option, response) for response in pairs.values())
     return {band for bands in every for band in bands}
 
 
@@ -293,9 +315,14 @@ def _line(
 
 
 def _summary(
-    channels: list[str], before: Array, after: Array, rate_hz: float, lines: list[list[_Line]]
+    units: Mapping[str, str],
+    before: Array,
+    after: Array,
+    rate_hz: float,
+    lines: list[list[_Line]],
 ) -> xr.Dataset:
-    """Levels of orders and of all sound."""
+    """Levels of orders and of whole channels; units by channel."""
+    channels = list(units)
     names = list(dict.fromkeys(line.name for of_channel in lines for line in of_channel))
     variables: dict[str, Any] = {
         name: np.full((len(channels), len(names)), np.nan)
@@ -304,47 +331,56 @@ def _summary(
             "replayed_line_change", "replayed_line_change_low", "replayed_line_change_high",
         )
     }  # fmt: skip
+    reference = np.array([REFERENCE_BY_UNIT[unit] for unit in units.values()])
     for row, of_channel in enumerate(lines):
         for line in of_channel:
-            for name, value in _levels(line).items():
+            for name, value in _levels(line, reference[row]).items():
                 variables[name][row, names.index(line.name)] = value
     labelled = stamped(variables, {"channel": channels, "line": names})
     old, new = (np.array([_squares(each, rate_hz) for each in x]) for x in (before, after))
     wider = np.array([sum((line.wider for line in each), np.zeros((2, 3))) for each in lines])
+    squares = {
+        "recorded_total_level": old,
+        "replayed_total_level": new,
+        "replayed_total_level_low": new + wider[:, 0],
+        "replayed_total_level_high": new + wider[:, 1],
+    }
+    is_sound = np.array([[unit == PRESSURE_UNIT] for unit in units.values()])
+    has_weighting = is_sound | (np.arange(len(WEIGHTINGS)) == _UNWEIGHTED)
     totals = {
-        "recorded_total_level": _level(old),
-        "replayed_total_level": _level(new),
-        "replayed_total_level_low": _level(new + wider[:, 0]),
-        "replayed_total_level_high": _level(new + wider[:, 1]),
+        name: np.where(has_weighting, _level(square, reference[:, None]), np.nan)
+        for name, square in squares.items()
     }
     labelled = labelled.merge(stamped(totals, {"channel": channels, "weighting": list(WEIGHTINGS)}))
+    labelled = labelled.assign_coords(channel_unit=("channel", list(units.values())))
     return check(label_coordinates(labelled))
 
 
-def _levels(line: _Line) -> dict[str, float]:
+def _levels(line: _Line, reference: float) -> dict[str, float]:
     """Levels of a line that is audible; of another one, level and noise alone."""
     levels = {
-        "recorded_line_level": float(_level(line.before)),
-        "recorded_line_noise_level": float(_level(line.noise)),
+        "recorded_line_level": float(_level(line.before, reference)),
+        "recorded_line_noise_level": float(_level(line.noise, reference)),
     }
     if line.before < line.noise:
         return levels
     change = line.after / line.before
     levels["replayed_line_change"] = float(level_of_power(change))
-    levels["replayed_line_level"] = float(_level(line.after))
+    levels["replayed_line_level"] = float(_level(line.after, reference))
     if line.has_interval:
         levels["replayed_line_change_low"] = float(level_of_power(line.low / line.before))
         levels["replayed_line_change_high"] = float(level_of_power(line.high / line.before))
     return levels
 
 
-def _level(square_pa2: Array | float) -> Array:
-    ratio: Array = np.asarray(square_pa2, dtype=float) / REFERENCE_PRESSURE_PA**2
+def _level(square: Array | float, reference: Array | float) -> Array:
+    """Level of mean squares, dB; the reference is in the same unit."""
+    ratio: Array = np.asarray(square, dtype=float) / np.asarray(reference, dtype=float) ** 2
     return np.asarray(level_of_power(ratio))
 
 
 def _squares(signal: Array, rate_hz: float) -> Array:
-    """Mean square by weighting over the whole signal, Pa², from one transform."""
+    """Mean square by weighting over the whole signal, from one transform."""
     hertz = np.asarray(np.fft.rfftfreq(signal.size, 1.0 / rate_hz)[1:], dtype=float)
     square = 2.0 * np.abs(np.fft.rfft(signal)[1:]) ** 2 / signal.size**2
     gains = np.array([power_of_level(WEIGHTING[name](hertz)) for name in WEIGHTINGS])

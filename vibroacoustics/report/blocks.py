@@ -207,9 +207,17 @@ class Sound:
 
 @dataclass(frozen=True)
 class Sounds:
-    """Sounds to compare, one below the other; their files are beside the page."""
+    """Sounds to compare, one below the other; their files are beside the page.
+
+    Attributes
+    ----------
+    sounds : two for a blind test
+    blind : whether the page has a blind test (ABX) of the two
+    block : kind of block
+    """
 
     sounds: tuple[Sound, ...]
+    blind: bool = False
     block: Literal["sounds"] = field(default="sounds", kw_only=True, repr=False)
 
 

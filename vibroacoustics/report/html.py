@@ -11,9 +11,9 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from ..base.visible import visible
-from .blocks import Live, Part, Text, drawn
+from .blocks import Live, Part, Sounds, Text, drawn
 from .charts.svg import Picture
-from .live.assets import live_script, live_style, packed, unpacking_script
+from .live.assets import blind_script, live_script, live_style, packed, unpacking_script
 
 
 def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = "") -> bytes:
@@ -40,6 +40,7 @@ def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = ""
     if live is not None:
         style += live_style(live.panel)
         unpacking, script = unpacking_script(), live_script(live.panel)
+    blind = blind_script() if any(_blind(parts)) else ""
     template = environment.get_template("report.html.j2")
     page = template.render(
         title=title,
@@ -49,15 +50,17 @@ def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = ""
         style=style,
         unpacking=unpacking,
         packed=packed(script.encode()),
-        policy=_policy(style, unpacking, script, plays=_plays(parts)),
+        blind=blind,
+        policy=_policy(style, unpacking, script, blind, plays=bool(_blind(parts))),
         results_sha256=results_sha256,
     )
     return visible(page).encode()
 
 
-def _plays(parts: Sequence[Part]) -> bool:
-    """Whether a page has sounds."""
-    return any(block.block == "sounds" for part in parts for block in part.blocks)
+def _blind(parts: Sequence[Part]) -> list[bool]:
+    """Whether there is a blind test, of all sounds of a page."""
+    blocks = (block for part in parts for block in part.blocks)
+    return [block.blind for block in blocks if isinstance(block, Sounds)]
 
 
 def _policy(style: str, *scripts: str, plays: bool = False) -> str:

@@ -14,35 +14,46 @@ from .blocks import Bullets, Part, Sound, Sounds, Text
 from .tables import DataTable, Table, columns_of, data_table, known
 
 _SUMMARY_WEIGHTING: Final = "A"
+_UNWEIGHTED: Final = "Z"
+"""Weighting of vibration."""
 _MOST_LINES: Final = 12
 """Lines of one reason that are named; all are in the CSV."""
+_SCALE: Final = (
+    "A and B have one scale. In the blind test X is A or B at random: say ten times which. The "
+    "score states how often guessing alone gives as many right answers or more; at 5 % or less the "
+    "change is audible to you."
+)
 _SURE: Final = (
     "Certain are the orders' levels before, all other sound, and that no unmodelled noise is "
     "assumed: it is the recording's own.",
-    "Uncertain is each ratio: it is that of the study's machine, in one of its samples. An "
-    "interval (80 % of the samples) is known of order 1 only, where the study has samples; that "
-    "of the total level comes from it alone.",
+    "Uncertain is each ratio: it is that of the study's machine, in one of its samples. Where the "
+    "study has samples, the change of each order at a microphone has an interval of 80 % of them. "
+    "That of the total level has all orders at one end of theirs: it is too wide rather than too "
+    "narrow.",
     "An order of the recording may have a further source that the study lacks. It is changed as if "
     "it had none.",
 )
 
 
-def analysis_of_replay(summary: xr.Dataset, sounds: Mapping[str, str]) -> Analysis:
-    """Return levels before and after, what stays, and the sounds.
+def analysis_of_replay(summary: xr.Dataset, sounds: Mapping[str, Mapping[str, str]]) -> Analysis:
+    """Return levels before and after, what stays, and the sounds with a blind test.
 
     Parameters
     ----------
     summary : of `replay`
-    sounds : file of each sound, beside the page, by name
+    sounds : files beside the page, by channel and by `before` and `after`
     """
     totals, lines = _totals(summary), _lines(summary)
     stays, about = Bullets(tuple(_stays(summary))), Bullets(tuple(_facts(summary)))
-    played = tuple(Sound(name, file) for name, file in sounds.items())
+    played = tuple(
+        Sounds(tuple(Sound(f"{channel}, {word}", file) for word, file in files.items()), blind=True)
+        for channel, files in sounds.items()
+    )
     return Analysis(
         "replay",
         about=f"The recording with the option {summary.attrs['option']} of a study in place.",
         parts=(
-            Part("sounds", "Sounds", (Sounds(played), Text("Both have one scale.", "note"))),
+            Part("sounds", "Sounds", (*played, Text(_SCALE, "note"))),
             Part("levels", "Levels", (totals, lines)),
             Part("stays", "What stays", (stays,)),
             Part("certainty", "Assumptions and limits", (Bullets(_SURE), about)),
@@ -86,8 +97,11 @@ def _totals(summary: xr.Dataset) -> Table:
         )
         for channel in _channels(summary)
         for weighting in map(str, summary["weighting"].values)
+        if np.isfinite(
+            float(summary["recorded_total_level"].sel(channel=channel, weighting=weighting))
+        )
     )
-    caption = "Level over the whole recording, dB re 20 µPa"
+    caption = f"Level over the whole recording, {_references(summary)}"
     return Table(caption, ("Channel", "weighting", "before", "after"), rows, frozenset({0, 1}))
 
 
@@ -100,7 +114,8 @@ def _lines(summary: xr.Dataset) -> Table:
         after = _number(summary, "replayed_line_level", None, **selection)
         rows.append((channel, line, before, after, _number(summary, _CHANGE, ends, **selection)))
     head = ("Channel", "Line", "before, dB", "after, dB", "change, dB")
-    return Table("Changed orders, dB re 20 µPa", head, tuple(rows), frozenset({0, 1}))
+    caption = f"Changed orders, {_references(summary)}"
+    return Table(caption, head, tuple(rows), frozenset({0, 1}))
 
 
 _CHANGE: Final = "replayed_line_change"
@@ -116,6 +131,19 @@ def _changed(summary: xr.Dataset) -> Iterable[tuple[str, str]]:
 
 def _channels(summary: xr.Dataset) -> list[str]:
     return [str(name) for name in summary["channel"].values]
+
+
+_REFERENCES: Final = {"Pa": "20 µPa", "m/s²": "1 µm/s²", "m/s": "1 nm/s", "N": "1 µN"}
+"""References of levels by unit (ISO 1683)."""
+
+
+def _references(summary: xr.Dataset) -> str:
+    """References of the levels in words, by channel where they differ."""
+    units = dict(zip(_channels(summary), map(str, summary["channel_unit"].values), strict=True))
+    if len(set(units.values())) == 1:
+        return f"dB re {_REFERENCES[next(iter(units.values()))]}"
+    each = (f"{_REFERENCES[unit]} ({channel})" for channel, unit in units.items())
+    return f"dB re {', '.join(each)}"
 
 
 def _unchanged(summary: xr.Dataset) -> dict[str, dict[str, str]]:
@@ -144,6 +172,8 @@ def _facts(summary: xr.Dataset) -> Iterable[str]:
     attrs = summary.attrs
     begin, end = attrs["replayed_from_s"], attrs["replayed_to_s"]
     yield f"Speed: {attrs['speed_source']}."
+    if attrs["shaft_ratio"] != 1.0:
+        yield f"The study's shaft has {attrs['shaft_ratio']:g} times the recorded speed."
     yield f"Part of the recording in which the speed is known: {begin:.3g} to {end:.4g} s."
     yield f"Bandwidth of an order: at most {attrs['bandwidth_hz']:.3g} Hz."
     pairs = json.loads(attrs["pairs"]).items()
@@ -153,13 +183,15 @@ def _facts(summary: xr.Dataset) -> Iterable[str]:
 def _sentences(summary: xr.Dataset) -> Iterable[str]:
     ends = ("replayed_total_level_low", "replayed_total_level_high")
     for channel in _channels(summary):
-        selection = {"channel": channel, "weighting": _SUMMARY_WEIGHTING}
+        is_sound = summary["channel_unit"].sel(channel=channel) == "Pa"
+        weighting, unit = (_SUMMARY_WEIGHTING, "dB(A)") if is_sound else (_UNWEIGHTED, "dB")
+        selection = {"channel": channel, "weighting": weighting}
         before = _number(summary, "recorded_total_level", None, **selection)
         after = _number(summary, "replayed_total_level", ends, **selection)
         count = sum(each == channel for each, _ in _changed(summary))
         orders = "1 order" if count == 1 else f"{count} orders"
         yield (
-            f"{channel}: {before} dB(A) before, {after} dB(A) with {summary.attrs['option']}; "
+            f"{channel}: {before} {unit} before, {after} {unit} with {summary.attrs['option']}; "
             f"{orders} changed."
         )
 
@@ -188,7 +220,7 @@ def _total_data(summary: xr.Dataset) -> DataTable:
         "after_low_db": summary["replayed_total_level_low"],
         "after_high_db": summary["replayed_total_level_high"],
     }
-    return data_table(("channel", "weighting"), columns)
+    return _without_gaps(data_table(("channel", "weighting"), columns))
 
 
 def _unchanged_data(summary: xr.Dataset) -> DataTable:

@@ -109,7 +109,8 @@ def channel_orders(result: xr.Dataset, option: str = REFERENCE_OPTION) -> xr.Dat
     """Complex peaks (channel, speed, order) of a result with `channel_unit`.
 
     A study's channels are named by what they are and where: `pressure NAME`, `force x`,
-    `moment x`, `foot force NAME x`; `velocity tx` and `acceleration tx` of the centre of mass.
+    `moment x`, `foot force NAME x`; `velocity tx` and `acceleration tx` of the centre of mass;
+    `foot velocity NAME x` and `foot acceleration NAME x`.
 
     Raises
     ------
@@ -127,10 +128,26 @@ def channel_orders(result: xr.Dataset, option: str = REFERENCE_OPTION) -> xr.Dat
     parts = [_named(_by_order(chosen, variable), word, unit) for variable, word, unit in _SIMULATED]
     velocity = chosen["velocity_order"].sum("source")
     translation = velocity.sel(dof=[name for name in velocity["dof"].values if name[0] == "t"])
-    parts.append(_named(translation, "velocity", "m/s"))
     pulsation = 2j * np.pi * result["order_frequency"]
-    parts.append(_named(translation * pulsation, "acceleration", "m/s²"))
+    moving = [("", translation)]
+    if "foot_position" in result.coords:
+        moving.append(("foot ", _foot_velocity(velocity, result["foot_position"])))
+    for word, values in moving:
+        parts.append(_named(values, f"{word}velocity", "m/s"))
+        parts.append(_named(values * pulsation, f"{word}acceleration", "m/s²"))
     return xr.concat(parts, "channel")
+
+
+def _foot_velocity(velocity: xr.DataArray, position: xr.DataArray) -> xr.DataArray:
+    """Velocity v + w × r of the feet as parts of the rigid housing, m/s."""
+    axes = {"axis": position["axis"].values}
+    translated, turned = (
+        velocity.sel(dof=[f"{kind}{axis}" for axis in axes["axis"]]).rename(dof="axis")
+        .assign_coords(axes)
+        for kind in "tr"
+    )  # fmt: skip
+    motion = translated + xr.cross(turned, position.reset_coords(drop=True), dim="axis")
+    return motion.transpose("foot", "axis", ...)
 
 
 def _recorded(result: xr.Dataset) -> xr.DataArray:

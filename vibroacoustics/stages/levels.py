@@ -30,11 +30,11 @@ class Levels(Stage):
     gives = (
         NominalSound, "pressure_line", "order_level", "noise_band_level", "unmodelled_band_level",
         "total_band_level", "sources_band_level", "level_modelled", "level_unmodelled",
-        "level_total", "residual_level",
-        "change_1x", "change_modelled", "change_total", "force_change_1x", "moment_change_1x",
-        "foot_force_change_1x", "increase_probability", "decrease_probability", "source_level",
-        "source_band_level", "source_share", "unmodelled_share", "baseline_*", "tone_*",
-        "decisive_audibility", "tonal_adjustment", "largest_tone_excess", "any_tone_probability",
+        "level_total", "residual_level", "order_change", "change_1x", "change_modelled",
+        "change_total", "force_change_1x", "moment_change_1x", "foot_force_change_1x",
+        "increase_probability", "decrease_probability", "source_level", "source_band_level",
+        "source_share", "unmodelled_share", "baseline_*", "tone_*", "decisive_audibility",
+        "tonal_adjustment", "largest_tone_excess", "any_tone_probability",
     )  # fmt: skip
 
     def run(self, chain: Chain) -> Given:

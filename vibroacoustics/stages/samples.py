@@ -46,11 +46,11 @@ class Samples(Stage):
         "reported_figure", "force_change_1x", "moment_change_1x", "foot_force_change_1x",
         "order_level", "level_modelled", "level_total", "level_unmodelled", "residual_level",
         "noise_band_level", "unmodelled_band_level", "total_band_level",
-        "sources_band_level", "change_1x",
-        "change_modelled", "change_total", "increase_probability", "decrease_probability",
-        "source_level", "source_band_level", "source_share", "unmodelled_share", "tone_level",
-        "tone_excess", "largest_tone_excess", "tone_audibility", "decisive_audibility",
-        "tonal_adjustment", "tone_probability", "any_tone_probability",
+        "sources_band_level", "order_change", "change_1x", "change_modelled", "change_total",
+        "increase_probability", "decrease_probability", "source_level", "source_band_level",
+        "source_share", "unmodelled_share", "tone_level", "tone_excess", "largest_tone_excess",
+        "tone_audibility", "decisive_audibility", "tonal_adjustment", "tone_probability",
+        "any_tone_probability",
     )  # fmt: skip
 
     def applies(self, study: Study) -> bool:

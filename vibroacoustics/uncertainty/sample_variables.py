@@ -33,7 +33,7 @@ from .evidence import PAIRS, Pairs
 _KEPT: Final = ("source_level", "level_modelled", "level_total", "level_unmodelled")
 """Levels that are kept by sample, the A-weighted ones."""
 _LARGE: Final = frozenset({
-    "order_level", "source_band_level", "noise_band_level", "unmodelled_band_level",
+    "order_level", "order_change", "source_band_level", "noise_band_level", "unmodelled_band_level",
     "total_band_level", "sources_band_level", "tone_level", "tone_excess",
     "tone_audibility",
 })  # fmt: skip

@@ -83,12 +83,51 @@ def test_envelope_page_and_tables(done):
     assert page.count("<audio controls") == 2
     assert 'src="mic_before_0.5Pa.wav"' in page
     assert "media-src 'self'" in page
-    unchanged = envelope["tables"]["replay_unchanged"]
-    assert "below the recording's noise" in unchanged["reason"]
+    assert page.count('data-blind="panel"') == 1
+    assert envelope["tables"]["replay_unchanged"]["reason"] == []  # orders above 1 are rounding
+
+
+def test_an_accelerometer_on_a_foot(folder, study, tmp_path):
+    """Beside a microphone: its own scale, unit, reference and ratio, that of the rigid body."""
+    response = "foot acceleration rear_left z"
+    outcome = command_here(
+        *words(folder, "--pair", f"foot={response}", "--out", tmp_path / "out", "--json")
+    )
+    assert outcome.returncode == 0, outcome.stderr
+    file = "foot_after_0.1m_s2.wav"
+    names = sorted(path.name for path in (tmp_path / "out").glob("foot*.wav"))
+    assert names == [file, "foot_before_0.1m_s2.wav"]
+    read = va.read_recording(tmp_path / "out" / file)["signal"]
+    assert read["channel_unit"].values == ["m/s²"]
+    velocity = study["velocity_order"].sum("source").isel(speed=0).sel(order=1)
+    motion = velocity.transpose("option", "dof").values
+    offset = study["foot_position"].sel(foot="rear_left").values
+    vertical = motion[:, 2] + motion[:, 3] * offset[1] - motion[:, 4] * offset[0]  # v + w × r
+    peaks = dict(zip(study["option"].values.tolist(), vertical, strict=True))
+    change = 20.0 * np.log10(abs(peaks[OPTION] / peaks["none"]))
+    envelope = json.loads(outcome.stdout)
+    lines = envelope["tables"]["replay_lines"]
+    rows = dict(zip(zip(lines["channel"], lines["line"], strict=True), lines["change_db"],
+                    strict=True))  # fmt: skip
+    assert rows["foot", "order 1"] == pytest.approx(change, abs=0.01)
+    before = dict(zip(lines["channel"], lines["before_db"], strict=True))
+    levels = {"mic": 2e-5, "foot": 1e-6}
+    for channel, reference in levels.items():
+        expected = 20.0 * np.log10(0.05 / np.sqrt(2.0) / reference)
+        assert before[channel] == pytest.approx(expected, abs=0.01)
+    totals = envelope["tables"]["replay_totals"]
+    held = dict(zip(zip(totals["channel"], totals["weighting"], strict=True), totals["before_db"],
+                    strict=True))  # fmt: skip
+    assert held["foot", "A"] is None
+    assert held["foot", "Z"] - held["mic", "Z"] == pytest.approx(20.0 * np.log10(20.0), abs=1e-6)
+    page = (tmp_path / "out" / "replay.html").read_text(encoding="utf-8")
+    assert "dB re 20 µPa (mic), 1 µm/s² (foot)" in page
 
 
 REFUSED = {
     "unit": ({"pair": f"foot={RESPONSE}"}, "channel foot is in m/s², the response in Pa"),
+    "moment": ({"pair": "foot=moment x"}, "the response in N m: the units must agree"),
+    "ratio": ({"further": ("--shaft-ratio", "0")}, "shaft_ratio = 0: must be 0.01 to 100"),
     "response": ({"pair": "mic=rear"}, "response = rear: must be one of front_1m"),
     "pair": ({"pair": "mic"}, "--pair 'mic': must be NAME=VALUE"),
     "option": ({"option": "x"}, "option = x: must be one of counterweight-half"),
@@ -98,6 +137,8 @@ REFUSED = {
 
 @pytest.mark.parametrize(("changed", "message"), REFUSED.values(), ids=REFUSED)
 def test_refused_in_one_line_without_files(folder, tmp_path, changed, message):
-    outcome = command_here(*words(folder, "--out", tmp_path / "out", **changed))
+    further = changed.get("further", ())
+    changed = {name: value for name, value in changed.items() if name != "further"}
+    outcome = command_here(*words(folder, "--out", tmp_path / "out", *further, **changed))
     assert_refused(outcome, message)
     assert not (tmp_path / "out").exists()

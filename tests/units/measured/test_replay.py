@@ -4,7 +4,6 @@ import json
 
 import numpy as np
 import pytest
-import xarray as xr
 from replay_study import ratio, replay_study
 
 from vibroacoustics import NominalSpeed, SpeedChannel, TacholessSpeed, label_recording, replay
@@ -114,25 +113,64 @@ def test_ratios_are_those_of_all_sources_together():
     np.testing.assert_allclose(first.ratio, 3.0 * ratio(1.0, np.array([2900.0])))
 
 
-def test_the_interval_of_the_first_order_is_that_of_the_study():
+def test_each_order_has_the_interval_of_the_study():
+    """Ends of the total are those of all orders together."""
     results = replay_study([2900.0])
-    change = 20.0 * np.log10(0.6)
-    for suffix, value in (("_10_percent", -2.0), ("", 0.0), ("_90_percent", 3.0)):
-        results[f"change_1x{suffix}"] = xr.full_like(
-            results["noise_band_level"].isel(noise_band=0, drop=True), change + value
-        )
     replayed = replay(recorded(EVEN), results, "ring", PAIR, NominalSpeed(2900.0))
-    line = replayed.summary.sel(channel="mic", line="order 1")
-    assert line["replayed_line_change"].item() == pytest.approx(change, abs=0.01)
-    assert line["replayed_line_change_low"].item() == pytest.approx(change - 2.0, abs=0.01)
-    assert line["replayed_line_change_high"].item() == pytest.approx(change + 3.0, abs=0.01)
+    gain = np.abs([ratio(order, 2900.0) for order in (1.0, 2.0, 3.0)])
+    change = 20.0 * np.log10(gain)
+    lines = replayed.summary.sel(channel="mic", line=["order 1", "order 2", "order 3"])
+    np.testing.assert_allclose(lines["replayed_line_change"], change, atol=0.01)
+    np.testing.assert_allclose(lines["replayed_line_change_low"], change - 2.0, atol=0.01)
+    np.testing.assert_allclose(lines["replayed_line_change_high"], change + 3.0, atol=0.01)
     totals = replayed.summary.sel(channel="mic", weighting="Z")
-    others = np.mean(replayed.after[0] ** 2) - 0.5 * (0.5 * 0.6) ** 2
-    louder = others + 0.5 * (0.5 * 0.6) ** 2 * 10.0**0.3
-    expected = 10.0 * np.log10(louder / 4e-10)
-    assert totals["replayed_total_level_high"].item() == pytest.approx(expected, abs=0.02)
-    second = replayed.summary.sel(channel="mic", line="order 2")
-    assert np.isnan(second["replayed_line_change_low"])
+    orders = 0.5 * np.sum((np.array([0.5, 0.3, 0.2]) * gain) ** 2)
+    for end, more in (("low", -2.0), ("high", 3.0)):
+        square = np.mean(replayed.after[0] ** 2) + orders * (10.0 ** (more / 10.0) - 1.0)
+        expected = 10.0 * np.log10(square / 4e-10)
+        assert totals[f"replayed_total_level_{end}"].item() == pytest.approx(expected, abs=0.02)
+
+
+def test_results_without_samples_have_no_interval():
+    results = replay_study([2900.0]).drop_vars(
+        ["order_change", "order_change_10_percent", "order_change_90_percent"]
+    )
+    replayed = replay(recorded(EVEN), results, "ring", PAIR, NominalSpeed(2900.0))
+    assert replayed.summary["replayed_line_change_low"].isnull().all()
+
+
+def test_a_recorded_shaft_that_is_geared_to_the_study():
+    """A tacho shaft at 1160 rpm drives the study's shaft by 2.5: its orders are those of 2900."""
+    results = replay_study([2900.0])
+    wanted = replay(recorded(EVEN), results, "ring", PAIR, NominalSpeed(2900.0))
+    geared = replay(
+        recorded(EVEN), results, "ring", PAIR, NominalSpeed(1160.0), shaft_ratio=2.5
+    )  # fmt: skip
+    np.testing.assert_allclose(geared.after, wanted.after, atol=1e-9)
+    with pytest.raises(ParameterError, match="add to its speed_rpm: 1160"):
+        replay(recorded(EVEN), results, "ring", PAIR, NominalSpeed(1160.0))
+
+
+def test_lines_of_two_shafts_at_one_order_are_refused():
+    results = replay_study([2900.0])
+    results["line_order"][3] = 2.0
+    results["line"] = [*results["line"].values[:3], "pump 1", *results["line"].values[4:]]
+    with pytest.raises(ParameterError, match="'order 2' and 'pump 1' are both at order 2 of"):
+        replay(recorded(EVEN), results, "ring", PAIR, NominalSpeed(2900.0))
+
+
+def test_an_order_of_another_shaft_is_replayed_by_its_ratio():
+    """Line `order 3` belongs to a shaft 1.37 times as fast, its second order."""
+    results = replay_study([2900.0])
+    results["line_order"][3] = 2.74
+    angle = shaft(EVEN)
+    second = 0.1 * np.cos(2.74 * angle)
+    mic = sound(EVEN) + second + NOISE
+    recording = label_recording([mic], RATE, ["mic"], ["Pa"])
+    replayed = replay(recording, results, "ring", PAIR, NominalSpeed(2900.0))
+    gain = ratio(3.0, 2900.0)
+    wanted = sound(EVEN, (1.0, 2.0)) + np.real(0.1 * gain * np.exp(2.74j * angle)) + NOISE
+    assert np.std(replayed.after[0] - wanted) < 0.01 * np.std(wanted - mic)
 
 
 def test_noise_bands_that_change():
@@ -154,6 +192,7 @@ REFUSED = {
     "response": ({"pairs": {"mic": "rear"}}, "response = rear: must be one of front"),
     "option": ({"option": "none"}, "option = none: must be one of ring, hood"),
     "no pair": ({"pairs": {}}, "pair: none given"),
+    "ratio": ({"shaft_ratio": 0.0}, "shaft_ratio = 0: must be 0.01 to 100"),
     "bandwidth": ({"bandwidth_hz": 20.0}, "bandwidth = 20 Hz: must be above 0 and up to 6.04 Hz"),
 }
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+import pandas as pd
 import pytest
 import pyuff
 import scipy.io
@@ -85,6 +86,20 @@ def universal(binary: int):
     return write
 
 
+def table(path: Path) -> None:
+    """Times and channels by pandas, with its digits."""
+    columns = {"time [s]": np.arange(300) / RATE_HZ, "microphone [Pa]": HALF[0],
+               "foot [m/s²]": HALF[1]}  # fmt: skip
+    pd.DataFrame(columns).to_csv(path, index=False)
+
+
+def stamped_table(path: Path) -> None:
+    """Time stamps of pandas in nanoseconds."""
+    times = pd.Timestamp("2026-02-19 09:51:39") + pd.to_timedelta(np.arange(300) / RATE_HZ, "s")
+    columns = {"microphone [Pa]": HALF[0], "foot [m/s²]": HALF[1]}
+    pd.DataFrame(columns, index=pd.Index(times, name="time")).to_csv(path)
+
+
 def tdms(path: Path) -> None:
     with TdmsWriter(str(path)) as writer:
         named = zip(NAMES, HALF, UNITS, strict=True)
@@ -110,6 +125,8 @@ KINDS = {
     "a.uff": (universal(0), {}, 1e-5),
     "binary.uff": (universal(1), {}, 1e-7),
     "a.tdms": (tdms, {}, 0.0),
+    "times.csv": (table, {}, 1e-15),
+    "stamps.csv": (stamped_table, {}, 1e-15),
 }
 """Writer, options and tolerance by the name of a file."""
 RESCALED = {"a.xlsx": xlsx, "testlab.mat": simcenter, "testlab_seven.mat": simcenter_hdf5}

@@ -11,6 +11,7 @@ from support import tiny_run
 from vibroacoustics import analyse_orders, compare, label_recording
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
+from vibroacoustics.declaration.vibration import vibration
 from vibroacoustics.report.compared.orders import (
     compared_data,
     compared_facts,
@@ -34,6 +35,13 @@ OF_A_STUDY = [
     ),
     *(f"velocity t{axis}" for axis in "xyz"),
     *(f"acceleration t{axis}" for axis in "xyz"),
+    *(
+        f"foot {quantity} {end}_{side} {axis}"
+        for quantity in ("velocity", "acceleration")
+        for end in ("front", "rear")
+        for side in ("left", "right")
+        for axis in "xyz"
+    ),
 ]
 
 
@@ -86,6 +94,19 @@ def test_acceleration_leads_velocity_by_a_quarter(study):
         1j * pulsation * lines.sel(channel="velocity tx"),
         rtol=ROUNDING,
     )
+
+
+def test_motion_of_the_feet_is_that_of_the_data_sheet(study):
+    """Root mean square over all orders, by the function of declared values."""
+    lines = channel_orders(study).isel(speed=0)
+    for of_foot in vibration(study.sel(option="none").isel(speed=0), {}):
+        for quantity, expected in (
+            ("velocity", of_foot.velocity_rms_m_per_s),
+            ("acceleration", of_foot.acceleration_rms_m_per_s2),
+        ):
+            channel = f"foot {quantity} {of_foot.point} {of_foot.direction}"
+            found = np.sqrt(0.5 * np.sum(abs(lines.sel(channel=channel).values) ** 2))
+            assert found == pytest.approx(expected, rel=1e-9), channel
 
 
 def test_a_study_against_itself_differs_by_nothing(study):

@@ -89,6 +89,17 @@ def test_the_change_is_the_median_of_changes_and_not_the_change_of_medians(resul
     assert abs(results["change_modelled"].transpose(*PLACE) - of_medians).max() > 1e-3
 
 
+def test_changes_of_orders_hold_that_of_the_first(results):
+    """And have an interval at the second; orders that no source has do not change."""
+    for suffix in ("", "_10_percent", "_90_percent", "_nominal"):
+        change = results[f"order_change{suffix}"].transpose(..., "order").sel(order=1, drop=True)
+        first = results[f"change_1x{suffix}"].transpose(*change.dims)
+        np.testing.assert_allclose(change, first, atol=1e-4)  # in single precision
+    second = results.sel(order=2).drop_sel(option="none")
+    width = second["order_change_90_percent"] - second["order_change_10_percent"]
+    assert float(width.max()) > 0.01
+
+
 def test_changes_of_forces_are_medians_in_db(results, weight):
     none = results["option"].values.tolist().index("none")
     for name in ("force", "moment", "foot_force"):

@@ -38,6 +38,13 @@ def live_script(panel: str = "sliders") -> str:
 
 
 @cache
+def blind_script() -> str:
+    """Script of the blind tests of a page's sounds, as one function."""
+    parts = "\n".join(map(_read, ("abx.js", "blind_sounds.js")))
+    return f'(() => {{\n"use strict";\n{parts}}})();\n'
+
+
+@cache
 def live_style(panel: str = "sliders") -> str:
     """Style of uPlot and of a panel."""
     return "\n".join(map(_read, ("uPlot.min.css", "live.css", *_STYLES[panel])))

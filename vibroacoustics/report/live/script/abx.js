@@ -29,4 +29,9 @@ class Abx {
     }
     return sum / 2 ** this.done;
   }
+
+  get score() {
+    const by = this.done ? `; by guessing as many or more in ${(100 * this.chance).toFixed(1)} %` : "";
+    return `${this.right} of ${this.done} right, ${this.trials} in all${by}`;
+  }
 }

@@ -56,8 +56,7 @@ Object.assign(Panel.prototype, {
   score() {
     const { abx } = this;
     ["abx-X", "abx-is-A", "abx-is-B"].forEach((name) => { this.at(name).disabled = abx.finished; });
-    const by = abx.done ? `; by guessing as many or more in ${(100 * abx.chance).toFixed(1)} %` : "";
-    this.at("abx-score").textContent = `${abx.right} of ${abx.done} right, ${abx.trials} in all${by}`;
+    this.at("abx-score").textContent = abx.score;
   },
 
   // Where it can be read.
