@@ -20,8 +20,9 @@ class Lanchester(Option):
     needs: ClassVar[type[Capability]] = Slider
     share_ratio: float = Field(ge=0.0, le=2.0)
     """Share of the oscillating mass moment that both balance together."""
-    radius_m: float = Field(gt=0.0, le=1.0)
-    """Of the centre of mass of each weight from its shaft."""
+    radius_m: float | None = Field(default=None, gt=0.0, le=1.0)
+    """Distance of the centre of mass of each weight from its shaft; that of the machine's
+    counterweights where it is none."""
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
         """First-order balancer: together the weights make a force along the stroke only.
@@ -33,10 +34,11 @@ class Lanchester(Option):
         and left out.
         """
         slider = machine.require(Slider)
-        mass = 0.5 * self.share_ratio * slider.mass_kg * slider.amplitude_m / self.radius_m
+        radius_m = slider.planes.radius_m if self.radius_m is None else self.radius_m
+        mass = 0.5 * self.share_ratio * slider.mass_kg * slider.amplitude_m / radius_m
         crank_angle = revolution.rotation.crank_angle
         parts = tuple(
-            circling("balancer", mass, -self.radius_m, slider.height_m, angle, slider.frame)
+            circling("balancer", mass, -radius_m, slider.height_m, angle, slider.frame)
             for angle in (crank_angle, -crank_angle)
         )
         return Added(parts, {"added_mass_kg": 2.0 * mass})

@@ -6,22 +6,25 @@ from typing import ClassVar
 import numpy as np
 from pydantic import Field
 
+from ..base.errors import ParameterError
 from ..base.parameters import Parameters
 from ..base.registry import register
 from ..machine.machine import Machine
 from ..machine.option import Option
 from ..mechanics.added import Added, FurtherRing, RingForce
-from ..mechanics.capabilities import Capability, OldhamRing
+from ..mechanics.capabilities import Capability, OldhamRing, Slider
 from ..mechanics.moving_parts import MovingPart, Revolution, path
 
 
 class TwinRing(Parameters):
     """A second ring with the piece that it keeps from turning."""
 
-    mass_kg: float = Field(gt=0.0, le=100.0)
-    stroke_ratio: float = Field(gt=0.0, le=10.0)
+    mass_kg: float | None = Field(default=None, gt=0.0, le=100.0)
+    """Mass of the machine's ring where it is none."""
+    stroke_ratio: float = Field(default=1.0, gt=0.0, le=10.0)
     """Stroke amplitude of the twin over that of the ring."""
-    distance_below_ring_m: float = Field(ge=-2.0, le=2.0)
+    distance_below_ring_m: float | None = Field(default=None, ge=-2.0, le=2.0)
+    """Down to the machine's lower counterweight where it is none."""
     driven_inertia_kg_m2: float | None = Field(default=None, gt=0.0, le=10.0)
     """Piece on the eccentric about its centre; as the orbiting scroll where it is none."""
     drag_n_m: float = Field(default=0.0, ge=0.0, le=100.0)
@@ -45,13 +48,19 @@ class TwinRing(Parameters):
         revolution : of it
         moment_n_m : of a spring on the driven piece
         on_ring : force of a spring on the twin
+
+        Raises
+        ------
+        ParameterError
+            Neither the option nor the machine gives its height.
         """
         ring = machine.require(OldhamRing)
+        mass_kg = ring.mass_kg if self.mass_kg is None else self.mass_kg
         amplitude = self.stroke_ratio * ring.stroke_m
-        height_m = ring.height_m - self.distance_below_ring_m
+        height_m = self._height_m(machine, ring)
         course = path(-amplitude * np.cos(revolution.rotation.crank_angle), 0.0, height_m)
         twin = FurtherRing(
-            self.mass_kg,
+            mass_kg,
             amplitude,
             height_m,
             self.driven_inertia_kg_m2,
@@ -59,10 +68,22 @@ class TwinRing(Parameters):
             on_ring,
         )
         return Added(
-            (MovingPart("balancer", self.mass_kg, course),),
-            {"added_mass_kg": self.mass_kg},
+            (MovingPart("balancer", mass_kg, course),),
+            {"added_mass_kg": mass_kg},
             rings=(twin,),
         )
+
+    def _height_m(self, machine: Machine, ring: OldhamRing) -> float:
+        """Height of the twin above the centre of mass at rest."""
+        if self.distance_below_ring_m is not None:
+            return ring.height_m - self.distance_below_ring_m
+        slider = machine.capability(Slider)
+        if slider is None:
+            raise ParameterError(
+                "distance_below_ring_mm: is missing; the machine has no counterweights to place "
+                "the second ring by"
+            )
+        return slider.planes.lower_height_m
 
 
 @register

@@ -1,9 +1,11 @@
 """Commands for studies: curves, run, check, radiation, new. Heavy imports wait until they run."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
 
 from ..base.errors import ParameterError
 from ..base.fault import collected
@@ -203,17 +205,57 @@ def radiation_command(
 
 @command("new", "Studies", "oldham-scroll --out my_machine", computes=False)
 def new_command(
-    kind: Annotated[str, "KIND: Kind of machine."],
+    kind: Annotated[str, "KIND: Kind of machine."] = "",
     out: Annotated[Path | None, "Folder of the files; default: KIND."] = None,
+    included: Annotated[
+        str | None,
+        typer.Option(
+            "--with", help="`sources`: sources of sound of the kind, with samples of their ranges."
+        ),
+    ] = None,
+    level: Annotated[
+        float | None,
+        "Level of your machine at 1 m of a catalogue or measured, dB(A); default: none.",
+    ] = None,
+    listed: Annotated[
+        bool, typer.Option("--list", help="Print the kinds, each with its sources; write nothing.")
+    ] = False,
 ) -> Outcome:
     """Write a commented machine file and study to begin with, and their schemas."""
-    from ..base.errors import StorageError
-    from ..results.files import only_writer, replace_all, write
     from . import starter
 
-    folder = out or Path(kind)
-    files = starter.starting_files(kind)
+    if listed:
+        sources = {name: ", ".join(kinds) for name, kinds in starter.kinds()}
+        lines = [f"{name}: {words or 'no sources'}" for name, words in sources.items()]
+        return Outcome(
+            "\n".join(lines), tables={"kinds": {"kind": [*sources], "sources": [*sources.values()]}}
+        )
+    if not kind:
+        raise ParameterError("new: KIND is missing; `vibroacoustics new --list` prints the kinds")
+    if included not in (None, "sources"):
+        raise ParameterError(f"--with {included}: unknown; allowed sources")
+    files = starter.starting_files(kind, included is not None, level)
     files |= {f"{starter.SCHEMAS_NAME}/{name}": text for name, text in starter.schemas().items()}
+    folder = out or Path(kind)
+    _write_new(folder, files)
+    study = folder / starter.STUDY_NAME
+    return Outcome(
+        f"next: vibroacoustics check {study}; vibroacoustics run {study}",
+        {f"written {name}": folder / name for name in files},
+    )
+
+
+def _write_new(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write files of which none exists.
+
+    Raises
+    ------
+    StorageError
+        One exists already; nothing is written.
+    """
+    from ..base.errors import StorageError
+    from ..results.files import only_writer, replace_all, write
+
     with only_writer(folder) as staged:
         for name in files:
             if staged.target.status(name) is not None:
@@ -221,8 +263,3 @@ def new_command(
         for name, content in files.items():
             write(staged, name, content)
         replace_all(staged)
-    study = folder / starter.STUDY_NAME
-    return Outcome(
-        f"next: vibroacoustics check {study}; vibroacoustics run {study}",
-        {f"written {name}": folder / name for name in files},
-    )

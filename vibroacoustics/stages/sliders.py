@@ -12,6 +12,7 @@ from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.axes import LevelAxes
 from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
+from ..study.coarse import omits_sliders
 from ..study.sampling import Sample
 from ..study.selection import at_speeds
 from ..study.study import Study
@@ -41,7 +42,8 @@ class Sliders(Stage):
     gives = ("slider_*",)
 
     def applies(self, study: Study) -> bool:
-        return bool(study.ranges) and study.baseline is None
+        omitted = bool(study.coarsened) and omits_sliders(study)
+        return bool(study.ranges) and study.baseline is None and not omitted
 
     def run(self, chain: Chain) -> Given:
         chosen = chain.get(Representative)

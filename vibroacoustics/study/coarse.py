@@ -36,14 +36,15 @@ def coarse(study: Study) -> Study:
     """
     changes = [
         change
-        for part in (_speeds, _room, _waves_in_room, _grid, _samples)
+        for part in (_speeds, _room, _waves_in_room, _grid, _samples, _sliders)
         if (change := part(study)) is not None
     ]
     values: dict[str, Any] = {}
     for changed, _ in changes:
         values |= changed
     words = tuple(words for _, words in changes)
-    return study.replace(values).marked_coarse(words) if values else study
+    coarser = study.replace(values) if values else study
+    return coarser.marked_coarse(words) if words else study
 
 
 _Change = tuple[dict[str, Any], str] | None
@@ -116,6 +117,16 @@ def _samples(study: Study) -> _Change:
         f"error of {after:.2f} instead of {before:.2f} standard deviations of the level"
     )
     return {"uncertainty.random_samples": fewer}, words
+
+
+def omits_sliders(study: Study) -> bool:
+    """Return whether a coarse run omits sliders: a revolution of the machine takes long."""
+    return bool(study.ranges) and not study.machine.runs_up
+
+
+def _sliders(study: Study) -> _Change:
+    words = "no sliders of parameters, as a revolution of the machine takes long"
+    return ({}, words) if omits_sliders(study) else None
 
 
 def standard_error_of_end(samples: int) -> float:

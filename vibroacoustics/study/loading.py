@@ -1,7 +1,8 @@
 """TOML to a validated `Study`. Every refusal is one line: file, field, value, unit, range."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from copy import deepcopy
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -10,6 +11,7 @@ from ..base.fault import FaultError, collected
 from ..machine.machine import Machine
 from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
+from .automatic import fill_in_automatic
 from .baseline import BaselineSettings
 from .baseline_files import read_baseline
 from .evidence_files import read_published_table, take_evidence
@@ -27,12 +29,15 @@ from .machine_file import (
 from .plausible import warn_of_doubts
 from .ranges import is_used, ranges_of, tables_used
 from .reader import Reader
+from .record import ParameterRecord
 from .samples import warn_of_contradictions
 from .structure_borne import StructureBorne
 from .study import Study
 from .title_tables import take_titles
 from .toml_files import Written, beside, read_toml, read_with_base
-from .wording import validated
+from .wording import checked, first_lines, validated
+
+_Redesign = tuple[Machine, Reader, list[ParameterRecord]]
 
 
 def load_study(path: str | Path, without: Collection[str] = ()) -> Study:
@@ -87,46 +92,51 @@ def _study_of(written: Written) -> Study:
     machine_file, overrides, without = _machine_table(content, reader)
     changes: dict[tuple[str, ...], Any] = {("machine", "override"): overrides}
     points = operating_points(machine_file)
-    point = _point_named(content, ("operation", "point"), points, reader)
-    machine, machine_reader = read_machine(machine_file, changes, reader, point, without)
-    machine_records = machine_reader.records
-    catalogue_point = _point_named(content, ("catalogue_point",), points, reader)
+    point, catalogue_point = (
+        reader.tried(partial(_point_named, content, keys, points, reader))
+        for keys in (("operation", "point"), ("catalogue_point",))
+    )
+    read = reader.tried(lambda: read_machine(machine_file, changes, reader, point, without))
     at_catalogue = None
     if catalogue_point not in (None, point):
-        at_catalogue, _ = read_machine(machine_file, changes, reader, catalogue_point, without)
-    redesigns = {
-        name: read_redesign(
-            machine_file, {**changes, change_of(name): change}, reader, point, without
+        at_catalogue = reader.tried(
+            lambda: read_machine(machine_file, changes, reader, catalogue_point, without)
         )
-        for name, change in take_changes(content, path)
-    }
-    _read_published(content, reader)
+    redesigns = _redesigns(
+        content,
+        reader,
+        lambda own: read_redesign(machine_file, {**changes, **own}, reader, point, without),
+    )
+    reader.tried(lambda: _read_published(content, reader))
     _resolve_file_names(content, reader)
     for name in FILLED_IN:
         if name in content:
             del content[name]
             reader.problems.append(f"{path}: {name}: unknown key")
-    given, evidence = take_given(content, reader), take_evidence(content, reader)
+    given = reader.tried(lambda: take_given(content, reader))
+    evidence = reader.tried(lambda: take_evidence(content, reader))
     content = reader.to_si(content, ())
     for name in _WITH_DATA_FILES:
         if isinstance(content.get(name), dict):
             resolve_file_names(content[name], reader, (name,))
-    _read_measured(content, reader)
-    plate = _plate(content, reader)
-    if plate is not None:
-        machine, at_catalogue = plate.under(machine), at_catalogue and plate.under(at_catalogue)
-    content.update(machine=machine, source_file=path.name, given=given, evidence=evidence)
-    content["titles"] = titles
-    if machine.overall_noise is None and isinstance(content.get("receivers"), dict):
-        content.setdefault("catalogue_receiver", next(iter(content["receivers"]), ""))
-    content["catalogue_machine"] = at_catalogue
-    for name, (redesigned, _, change_records) in redesigns.items():
-        content["options"][name]["machine"] = (
-            redesigned if plate is None else plate.under(redesigned)
-        )
-        machine_records += change_records
+    reader.tried(lambda: _read_measured(content, reader))
+    plate = reader.tried(lambda: _plate(content, reader))
+    content.update(source_file=path.name, given=given, evidence=evidence, titles=titles)
+    for name, (redesigned, _, _) in redesigns.items():
+        content["options"][name]["machine"] = _under(plate, redesigned)
     validate_kinds(content, "options", OPTIONS, reader)
     validate_kinds(content, "sources", SOURCES, reader)
+    if read is None:
+        raise _refused_with_machine(content, reader)
+    machine, machine_reader = _under(plate, read[0]), read[1]
+    machine_records = machine_reader.records
+    for _, _, change_records in redesigns.values():
+        machine_records += change_records
+    content["machine"] = machine
+    content["catalogue_machine"] = at_catalogue and _under(plate, at_catalogue[0])
+    if machine.overall_noise is None and isinstance(content.get("receivers"), dict):
+        content.setdefault("catalogue_receiver", next(iter(content["receivers"]), ""))
+    fill_in_automatic(content, machine)
     if reader.problems:
         validated(Study, content, reader)  # raises, with what else is wrong
     used = tables_used(content, machine)
@@ -140,6 +150,43 @@ def _study_of(written: Written) -> Study:
         warn_of_doubts(redesigned, redesigned_reader)
     warn_of_contradictions(study)
     return study
+
+
+def _redesigns(
+    content: dict[str, Any],
+    reader: Reader,
+    read: Callable[[dict[tuple[str, ...], Any]], _Redesign],
+) -> dict[str, _Redesign]:
+    """Machines of the options that change values; options that are refused are taken out.
+
+    Parameters
+    ----------
+    content : of the study
+    reader : gets what is refused
+    read : the machine with a further table of changes, by its keys
+    """
+    redesigns = {}
+    for name, change in take_changes(content, reader):
+        redesigned = reader.tried(partial(read, {change_of(name): change}))
+        if redesigned is None:
+            del content["options"][name]
+        else:
+            redesigns[name] = redesigned
+    return redesigns
+
+
+def _under(plate: StructureBorne | None, machine: Machine) -> Machine:
+    return machine if plate is None else plate.under(machine)
+
+
+def _refused_with_machine(content: dict[str, Any], reader: Reader) -> ParameterError:
+    """Return the refusal of a study whose machine is refused, with what else is wrong with it."""
+    try:
+        checked(Study, content, reader)
+    except ParameterError as error:
+        lacking = f"{reader.path}: machine"  # which is refused already
+        reader.problems += [line for line in error.args if not line.startswith(lacking)]
+    return ParameterError(*first_lines(reader.problems))
 
 
 def load_machine(path: str | Path) -> Machine:

@@ -112,8 +112,11 @@ def change_of(option: str) -> tuple[str, ...]:
     return ("options", option, "change")
 
 
-def take_changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict[str, Any]]]:
-    """Take the table `change` out of each option that changes values of the machine."""
+def take_changes(content: Mapping[str, Any], reader: Reader) -> list[tuple[str, dict[str, Any]]]:
+    """Take the table `change` out of each option that changes values of the machine.
+
+    An option without one gets an empty one; that is among the problems of the reader.
+    """
     options = content.get("options")
     changes = []
     for name, option in (options if isinstance(options, dict) else {}).items():
@@ -121,10 +124,11 @@ def take_changes(content: Mapping[str, Any], path: Path) -> list[tuple[str, dict
         if not isinstance(kind, str) or kind not in OPTIONS or not OPTIONS[kind].changes_machine:
             continue
         if "machine" in option:  # filled in here, not by a file
-            raise ParameterError(f"{path}: options.{name}.machine: unknown key")
+            reader.problems.append(f"{reader.path}: options.{name}.machine: unknown key")
+            del option["machine"]
         if "change" not in option:
-            raise ParameterError(f"{path}: options.{name}.change: is missing")
-        changes.append((name, option.pop("change")))
+            reader.problems.append(f"{reader.path}: options.{name}.change: is missing")
+        changes.append((name, option.pop("change", {})))
     return changes
 
 

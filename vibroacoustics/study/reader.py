@@ -1,9 +1,9 @@
 """Values of one file in SI, with the record of where each comes from."""
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 from ..base.errors import ParameterError
 from ..base.units import si_key, split_key
@@ -11,6 +11,7 @@ from .example import unmarked
 from .record import ParameterRecord
 from .toml_files import is_quantity, shown_key
 
+Result = TypeVar("Result")
 QUANTITY_KEYS: Final = {"value", "source", "range"}
 
 
@@ -51,6 +52,14 @@ class Reader:
         except ParameterError as error:
             self.problems += error.args
             return _frozen(value["value"] if is_quantity(value) else value)
+
+    def tried(self, read: Callable[[], Result]) -> Result | None:
+        """Return what a part of the reading gives; None where it is refused, with its problems."""
+        try:
+            return read()
+        except ParameterError as error:
+            self.problems += error.args
+            return None
 
     def file(self, keys: tuple[str, ...]) -> Path:
         """The file that gives the value of these keys."""

@@ -1,22 +1,24 @@
 """`new`: files to begin with, also from an installed package in an empty folder."""
 
+import html
 import os
+import re
 import subprocess
 import sys
 import tomllib
 import zipfile
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from support import ROOT, assert_refused, command_here, made_up_radiation
 
 from vibroacoustics import pipeline
-from vibroacoustics.commands.starter import STUDIES, starting_files
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.commands.starter import STUDIES, WITH_SOURCES, starting_files, study_for
 from vibroacoustics.machine.machine import MACHINES
+from vibroacoustics.report import render
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.study.study import Study
 
 SHIPPED = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"][
     "wheel"
@@ -89,24 +91,78 @@ def test_every_kind_has_a_study() -> None:
     assert set(STUDIES) == built_in
 
 
-@pytest.mark.parametrize("kind", STUDIES)
-def test_study_says_what_the_shipped_one_says(kind: str, tmp_path: Path) -> None:
-    for name, content in starting_files(kind).items():
+@pytest.mark.parametrize(
+    ("kind", "with_sources"),
+    [*((kind, False) for kind in STUDIES), *((kind, True) for kind in WITH_SOURCES)],
+)
+@pytest.mark.filterwarnings("ignore:.*contradict themselves")
+def test_study_has_the_machine_and_nothing_of_its_publication(
+    kind: str, with_sources: bool, tmp_path: Path
+) -> None:
+    for name, content in starting_files(kind, with_sources).items():
         (tmp_path / name).write_bytes(content)
-    shipped, new = (
-        load_study(ROOT / "pipelines" / STUDIES[kind]),
-        load_study(tmp_path / "study.toml"),
-    )
+    shipped = load_study(ROOT / "pipelines" / study_for(kind, with_sources))
+    new = load_study(tmp_path / "study.toml")
     assert new.machine.kind == kind
     assert new.machine.shell == shipped.machine.shell
-    assert list(new.options) == list(shipped.options)
-    assert _values(new) == _values(shipped) or kind == "table"  # names of files differ
-    is_assumed = kind != "oldham-scroll"  # whose catalogue gives a level
-    assert (new.machine.overall_noise is None) == is_assumed
-    assert new.catalogue_receiver == shipped.catalogue_receiver
-    assert new.ranges == shipped.ranges
+    assert new.machine.housing == shipped.machine.housing
+    assert set(new.options) <= set(shipped.options)
+    assert len(new.options) >= 2
+    assert set(new.sources) == set(shipped.sources)
+    assert new.machine.overall_noise is None
+    assert not new.machine.errata
     assert not new.evidence.forces
-    assert "../" not in (tmp_path / "study.toml").read_text()
+    for file in (tmp_path / "study.toml", tmp_path / "machine.toml"):
+        text = file.read_text()
+        assert "../" not in text
+        assert shipped.machine.name not in text
+        assert shipped.title not in text
+
+
+def test_level_of_the_machine(tmp_path: Path) -> None:
+    for name, content in starting_files("oldham-scroll", True, 61.5).items():
+        (tmp_path / name).write_bytes(content)
+    noise = load_study(tmp_path / "study.toml").machine.overall_noise
+    assert noise is not None
+    assert (noise.level_dba, noise.distance_m) == (61.5, 1.0)
+    with pytest.raises(ParameterError, match=r"--level = 200 dB\(A\): must be above 0 to 140"):
+        starting_files("oldham-scroll", True, 200.0)
+
+
+def test_kind_without_sources_is_refused(tmp_path: Path) -> None:
+    outcome = command_here("new", "table", "--with", "sources", "--out", tmp_path / "out")
+    assert_refused(outcome, "--with sources", "table", "oldham-scroll")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("kind", ["oldham-scroll", "table"])
+def test_report_of_an_own_machine_says_nothing_of_another(kind: str, tmp_path: Path) -> None:
+    """Own values and sources: no source, name or erratum of a shipped file is in the report."""
+    own = re.compile(r'source = "[^"]*"')
+    for name, content in starting_files(kind).items():
+        text = content.decode()
+        if name in ("study.toml", "machine.toml"):
+            text = own.sub('source = "own measurement"', text)
+            text = re.sub(r"(?m)^#(?!:schema).*\n", "", text)
+        (tmp_path / name).write_text(text)
+    results = pipeline.run(load_study(tmp_path / "study.toml"), radiation=made_up_radiation)
+    files = render(results)
+    shown = "\n".join(
+        content.decode()
+        for name, content in files.items()
+        if name.endswith((".html", ".csv", ".md"))
+    )
+    shipped = ROOT / "pipelines" / STUDIES[kind]
+    study = load_study(shipped)
+    foreign = {record.source for record in study.records if len(record.source) > 12}
+    foreign |= {
+        study.machine.name,
+        study.title,
+        *(erratum.finding for erratum in study.machine.errata),
+    }
+    assert len(foreign) > 20
+    shown = html.unescape(shown)
+    assert [words for words in sorted(foreign) if words in shown] == []
 
 
 def test_the_scores_tell_the_options_apart(tmp_path: Path) -> None:
@@ -117,13 +173,6 @@ def test_the_scores_tell_the_options_apart(tmp_path: Path) -> None:
     scores = results["score"].isel(scoring_method=0).values
     assert np.ptp(scores) > 0.2
     assert len(set(scores.round(2))) == len(scores)
-
-
-def _values(study: Study) -> list[dict[str, Any]]:
-    """Options and machine, but for the level and what it leaves."""
-    level = {"overall_noise", "remainder"}
-    options = [option.model_dump(exclude={"machine": level}) for option in study.options.values()]
-    return [*options, study.machine.model_dump(exclude=level)]
 
 
 def test_nothing_is_overwritten(tmp_path: Path) -> None:

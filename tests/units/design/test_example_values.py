@@ -5,11 +5,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support import made_up_radiation
+from support import ROOT, made_up_radiation
 
 from vibroacoustics import pipeline
 from vibroacoustics.commands.example_values import count_lines, ranking, ranking_table
-from vibroacoustics.commands.starter import starting_files
 from vibroacoustics.design.example import Effect, Figures, moves_of, planned, ranked
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.record import ParameterRecord
@@ -23,11 +22,8 @@ KEPT = {
 
 
 @pytest.fixture(scope="module")
-def study(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    folder = tmp_path_factory.mktemp("new")
-    for name, content in starting_files("oldham-scroll").items():
-        (folder / name).write_bytes(content)
-    study = load_study(folder / "study.toml")
+def study() -> Study:
+    study = load_study(ROOT / "pipelines" / "copeland_thesis.toml")
     records = tuple(
         record.model_copy(update={"example": record.field in KEPT}) for record in study.records
     )

@@ -482,7 +482,7 @@ def test_sources_do_not_change_the_moving_parts(results, without):
     heard |= {"increase_probability", "decrease_probability", "sources_band_level"}
     heard |= {"evidence_simulation", "evidence_inputs"}
     heard |= {name for name in map(str, without.data_vars) if "tone_" in name}
-    heard |= {"decisive_audibility", "tonal_adjustment"}
+    heard |= {"decisive_audibility", "tonal_adjustment", "order_change"}
     shown = ("run_up_", "polar_", "deflection", "line_energy", "band_energy", "section_force")
     heard |= {name for name in map(str, without.data_vars) if name.startswith(shown)}
     heard |= {name for name, array in without.data_vars.items() if "path_speed" in array.dims}

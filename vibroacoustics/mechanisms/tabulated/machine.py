@@ -29,13 +29,17 @@ STROKE = Field(gt=0.0, le=1.0)
 
 
 class SlidingMass(Parameters):
-    """A mass that slides to and fro with the crank."""
+    """A mass that slides to and fro with the crank; without mass and stroke that of the forces."""
 
-    mass_kg: float = PART_MASS
-    amplitude_m: float = STROKE
+    mass_kg: float | None = Field(default=None, gt=0.0, le=100.0)
+    amplitude_m: float | None = Field(default=None, gt=0.0, le=1.0)
     """Half its stroke."""
     height_m: float = HEIGHT
     """Along the shaft, from the origin of the shaft's axes."""
+
+    def contradictions(self) -> Contradictions:
+        if (self.mass_kg is None) != (self.amplitude_m is None):
+            yield "mass_kg, amplitude_mm: give both or none"
 
 
 class Ring(Parameters):
@@ -45,6 +49,21 @@ class Ring(Parameters):
     amplitude_m: float = STROKE
     """Half its stroke."""
     height_m: float = HEIGHT
+
+
+def oscillating_mass_moment(along_n: complex, across_n: complex, speed_rpm: float) -> float:
+    """Find mass times amplitude of a sliding mass from the first order of the force, kg m.
+
+    An oscillation m r ω² cos θ is a force of half its size that turns with the shaft and one that
+    turns against it; a rotating unbalance turns with the shaft only. Hence m r = |A - i C|/ω².
+
+    Parameters
+    ----------
+    along_n, across_n : A along the stroke and C a quarter turn later, of Re(A exp(iθ)), N
+    speed_rpm : mean
+    """
+    speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
+    return float(abs(along_n - 1j * across_n)) / speed**2
 
 
 @register
@@ -80,7 +99,7 @@ class TabulatedMachine(Machine):
             return  # one cause, one line
         along = float(np.abs(np.dot(self.crank_frame.stroke, first)))
         for name, part in (("sliding_mass", self.sliding_mass), ("oldham", self.oldham)):
-            if part is not None:
+            if part is not None and part.mass_kg is not None and part.amplitude_m is not None:
                 mass = part.mass_kg, part.amplitude_m
                 if words := doubt_of_mass(name, along, *mass, speed_rpm):
                     yield f"forces.file = {self.forces.file}: {words}"
@@ -102,15 +121,22 @@ class TabulatedMachine(Machine):
         """What the tables name for options to work on."""
         named: list[Capability] = []
         if self.sliding_mass is not None and self.counterweights is not None:
-            mass = self.sliding_mass
-            named.append(
-                Slider(mass.mass_kg, mass.amplitude_m, mass.height_m, self.counterweights,
-                       self.crank_frame)
-            )  # fmt: skip
+            named.append(self._slider(self.sliding_mass, self.counterweights))
         if self.oldham is not None:
             ring = self.oldham
             named.append(OldhamRing(ring.mass_kg, ring.amplitude_m, ring.height_m))
         return tuple(named)
+
+    def _slider(self, sliding: SlidingMass, planes: BalancePlanes) -> Slider:
+        """Return the sliding mass; where its table gives none, a mass at the planes' radius."""
+        mass_kg, amplitude_m = sliding.mass_kg, sliding.amplitude_m
+        if mass_kg is None or amplitude_m is None:
+            speed_rpm, frame = max(self.forces.speed_rpm), self.crank_frame
+            first_n = self.forces.at(speed_rpm).sum(axis=0)[:3, 1]
+            along_n, across_n = np.dot(frame.stroke, first_n), np.dot(frame.across, first_n)
+            moment = oscillating_mass_moment(along_n, across_n, speed_rpm)
+            mass_kg, amplitude_m = moment / planes.radius_m, planes.radius_m
+        return Slider(mass_kg, amplitude_m, sliding.height_m, planes, self.crank_frame)
 
     def revolution(self, speed_rpm: float, samples: int) -> Revolution:
         """Forces and moments of the table at a speed; the shaft turns evenly.

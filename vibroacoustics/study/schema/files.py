@@ -1,15 +1,17 @@
 """Schemas of the two kinds of file: a study, and a machine."""
 
+from collections.abc import Iterable
 from typing import Final
 
 from ...machine.machine import MACHINES
 from ...machine.option import OPTIONS
+from ..automatic import AUTO, COMPUTED, OPTIONAL
 from ..loading import FILLED_IN
 from ..machine_file import POINTS
 from ..study import Study
 from ..titles import LONGEST
 from .model import FileSchema, by_kind, in_file
-from .units import RANGE, SOURCE, Schema, sourced
+from .units import RANGE, SOURCE, Schema, keys_of, sourced
 
 DRAFT: Final = "http://json-schema.org/draft-07/schema#"
 _FILE: Final[Schema] = {"type": "string", "minLength": 1, "description": "Name, from this file's"}
@@ -61,7 +63,16 @@ def study_schema() -> Schema:
     baseline["recorded_speed_rpm"] = {"anyOf": [{"type": "number"}, baseline["recorded_speed_rpm"]]}
     speeds = definitions["Operation"]["properties"]
     speeds["speed_rpm"] = {"anyOf": [speeds["speed_rpm"], _STEPS]}
+    for table, name in (("operation", "Operation"), ("radiation", "RadiationSettings")):
+        _with_automatic(definitions[name]["properties"], (*OPTIONAL[table], *COMPUTED[table]))
     return _finished("Study of vibroacoustics", made)
+
+
+def _with_automatic(properties: Schema, fields: Iterable[str]) -> None:
+    """Allow the word `auto` for some fields, in every unit."""
+    for field in fields:
+        for key, _ in keys_of(field, {"type": "number"}):
+            properties[key] = {"anyOf": [{"const": AUTO}, properties[key]]}
 
 
 def machine_schema() -> Schema:
