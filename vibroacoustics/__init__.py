@@ -77,7 +77,7 @@ line that is no order, `Noise` a random load. A `DesignFigure` of what is seen o
 `Need`, is what they can be judged by. A `Curve` over each `CurveAxis` shows what goes on inside. A
 `Variable`, `Coordinate` or `Unit` joins the vocabulary; `stamp` labels an array as a variable,
 `check` tests a dataset. A `Reader` reads a format of recordings: it gets a `Request` and gives
-`Recorded`.
+`Recorded`. `RatingRules` hold limits and adjustments of a country.
 
 **Errors.** All derive from `VibroacousticsError`, each message is one line: `ParameterError`,
 `SolverError`, `StorageError`, `SchemaError`, `PluginError`. Doubtful recordings are a

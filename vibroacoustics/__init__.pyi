@@ -131,4 +131,5 @@ from .study.order_analysis import OrderAnalysis as OrderAnalysis
 from .study.order_analysis import SpeedChannel as SpeedChannel
 from .study.order_analysis import SpeedLine as SpeedLine
 from .study.order_analysis import TacholessSpeed as TacholessSpeed
+from .study.rating_rule import RatingRules as RatingRules
 from .study.study import Study as Study

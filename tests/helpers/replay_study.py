@@ -45,8 +45,8 @@ def replay_study(speeds_rpm: list[float]) -> xr.Dataset:
             "pressure_line": (("speed", "option", "sound_source", "receiver", "line"), pressure),
             "noise_band_level": (("speed", "option", "receiver", "noise_band"), noise),
             "unmodelled_band_level": (
-                ("speed", "option", "noise_band"),
-                np.full((speeds.size, 3, 2), -300.0),
+                ("speed", "option", "receiver", "noise_band"),
+                np.full(noise.shape, -300.0),
             ),
             **{
                 f"order_change{suffix}": (("speed", "option", "receiver", "order"), change + end)

@@ -11,6 +11,7 @@ from ..base.hashing import sha256
 from ..results.data_sheet import DataSheet
 from ..results.stored_study import parameters, words
 from .facts import mounting, not_available, operating
+from .rated_windows import rated_windows
 from .sound import sound_power, surfaces_m2
 from .tones import not_judged, prominent_tones
 from .vibration import WORDS, offsets_m, vibration
@@ -78,6 +79,9 @@ def data_sheet(
         tones=prominent_tones(results, option, speed, chosen),
         any_tone_probability=float(case["any_tone_probability"].max()),
         tones_not_judged=not_judged(results, option, speed, chosen),
+        audibility_db=_largest(case, "decisive_audibility"),
+        tonal_adjustment_db=_largest(case, "tonal_adjustment"),
+        windows=rated_windows(case),
         vibration=vibration(case, offsets_m(results, points_m or {})),
         vibration_words=WORDS,
         leaves_out=tuple(words(results)["leaves_out"]),
@@ -86,6 +90,11 @@ def data_sheet(
         software_version=results.attrs["software_version"],
         parameters_sha256=sha256(results.attrs["parameters"].encode()),
     )
+
+
+def _largest(case: xr.Dataset, name: str) -> float | None:
+    """Return the largest value at a microphone; none in results of an earlier version."""
+    return float(case[name].max()) if name in case else None
 
 
 def _check_deviation(batch_deviation_db: float | None) -> None:

@@ -36,7 +36,7 @@ _REST: Final = {
         "the measured baseline less the modelled sources, at {}; "
         "in other bands and at other microphones unmodelled noise"
     ),
-    "unmodelled noise": "unmodelled noise with an assumed spectrum, alike at all microphones",
+    "unmodelled noise": "unmodelled noise with an assumed spectrum, spread as from a point source",
     "none": "nothing: no level of the machine is published; L_WA is that of the modelled sources",
 }
 
@@ -129,7 +129,7 @@ def sound_power(
 def _bands(case: xr.Dataset, surface_m2: Array, highest_hz: float) -> tuple[BandPower, ...]:
     is_covered = [band.lower_hz < highest_hz for band in BANDS]
     modelled = _energies(case["sources_band_level"])
-    unmodelled = _energies(case["unmodelled_band_level"].expand_dims(receiver=case["receiver"]))
+    unmodelled = _energies(case["unmodelled_band_level"])
     total = _energies(case["total_band_level"]) if _is_whole(case) else modelled + unmodelled
     if "baseline_band_level" in case:
         total = _with_baseline(case, total)

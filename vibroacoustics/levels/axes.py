@@ -1,7 +1,7 @@
 """Axes of the levels of a study."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import xarray as xr
@@ -22,6 +22,8 @@ class LevelAxes:
     speeds, options, sources, receivers : in the order of the arrays
     bands : third octaves
     measured_orders : of the baseline at any microphone
+    spreading : mean square of unmodelled noise relative to that at the published microphone, by
+        microphone, shape (band of `REMAINDER_BANDS`,); 1 where a microphone has none
     """
 
     speeds: Sequence[float]
@@ -30,10 +32,17 @@ class LevelAxes:
     receivers: Sequence[str]
     bands: Sequence[Band]
     measured_orders: Sequence[float] = ()
+    spreading: Mapping[str, Array] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, study: Study, sources: Sequence[str], results: xr.Dataset) -> "LevelAxes":
-        """Axes of a study's results with the sources of these names."""
+    def of(
+        cls,
+        study: Study,
+        sources: Sequence[str],
+        results: xr.Dataset,
+        spreading: Mapping[str, Array],
+    ) -> "LevelAxes":
+        """Return the axes of a study's results with the sources and the spreading."""
         return cls(
             list(study.operation.speed_rpm),
             list(study.options),
@@ -41,7 +50,19 @@ class LevelAxes:
             [str(name) for name in results["receiver"].values],
             filled_thirds(study.radiation.maximum_frequency_hz),
             () if study.baseline is None else study.baseline.all_orders,
+            spreading,
         )
+
+    def spread(self, remaining: Array) -> Array:
+        """Spread noise at the published microphone to all, shape (..., receiver, band), Pa².
+
+        Parameters
+        ----------
+        remaining : in `REMAINDER_BANDS`, shape (..., band), Pa²
+        """
+        alike = np.ones(remaining.shape[-1])
+        factor = np.array([self.spreading.get(name, alike) for name in self.receivers])
+        return np.asarray(remaining[..., None, :] * factor)
 
     def gathered(self, sound: Mapping[CaseKey, object], part: str) -> Array:
         """A part of the sound of all cases, shape (speed, option, ...)."""

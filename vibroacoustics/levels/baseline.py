@@ -68,7 +68,7 @@ def with_baseline(
     In bands and orders with a baseline it is what the model of the machine without an option leaves
     of it, so that new = measured - modelled (none) + modelled (option); an option takes its
     insertion loss off. With phases it may be below zero. Elsewhere, in bands and at microphones, it
-    is the remainder.
+    is the unmodelled noise.
 
     Parameters
     ----------
@@ -76,14 +76,14 @@ def with_baseline(
     axes : of the levels
     points : of `points_of`
     sound : of every case
-    remaining : the remainder in `REMAINDER_BANDS`, shape (speed, option, band), Pa²
+    remaining : unmodelled noise in `REMAINDER_BANDS`, shape (speed, option, receiver, band), Pa²
     """
-    left = np.repeat(remaining.sum(axis=2)[:, :, None], len(axes.receivers), axis=2)
+    left: Array = remaining.sum(axis=3)
     for (receiver, speed), point in points.items():
         at = axes.speeds.index(speed), slice(None), axes.receivers.index(receiver)
         changed = _changed(study, axes, (receiver, speed), point, sound)
         elsewhere = ~np.isin(_UNMODELLED_COLUMNS, point.band)
-        left[at] = remaining[at[0]] @ elsewhere + changed.rest @ _a_weight(MIDDLE_HZ[point.band])
+        left[at] = remaining[at] @ elsewhere + changed.rest @ _a_weight(MIDDLE_HZ[point.band])
         weight = _a_weight(point.frequency_hz)
         left[at] += (changed.order - changed.modelled_order) @ weight
     return left

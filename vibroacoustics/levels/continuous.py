@@ -27,7 +27,8 @@ def noise_levels(
     ----------
     axes : speeds, options and receivers
     received : sound of these cases, and of others
-    remaining : A-weighted unmodelled noise, shape (speed, option, band of `REMAINDER_BANDS`), Pa²
+    remaining : A-weighted unmodelled noise in `REMAINDER_BANDS`, shape (speed, option, receiver,
+        band), Pa²
     """
     noise = np.array([[_noise(received[s, o], axes) for o in axes.options] for s in axes.speeds])
     rest = unmodelled_in_bands(remaining)
@@ -40,7 +41,7 @@ def noise_levels(
         "unmodelled_band_level": level(rest),
     }
     if not axes.measured_orders:
-        values["total_band_level"] = level(sources + rest[:, :, None])
+        values["total_band_level"] = level(sources + rest)
     return stamped(values, axes.by_receiver | bands)
 
 

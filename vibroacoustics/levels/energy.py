@@ -72,10 +72,10 @@ def energy_variables(
     axes : of sources and receivers, with the shown options
     sound : of each option at the receivers
     pressure_line : (option, sound_source, receiver, line), with `tone_frequency`
-    level : of unmodelled noise, (option, noise_band)
+    level : of unmodelled noise, (option, receiver, noise_band)
     """
     parts = [sound_by_source(case, axes.bands).mutual.sum(axis=1) for case in sound]
-    noise = np.repeat(unmodelled_energy(level)[:, None, None], len(axes.receivers), axis=2)
+    noise = unmodelled_energy(level.transpose("option", "receiver", "noise_band"))[:, None]
     lines = pressure_line.transpose("sound_source", "option", "receiver", "line")
     of_lines = energy_of_lines(lines.values, lines["tone_frequency"].values)
     values = {

@@ -57,21 +57,21 @@ def remainder(
 
 
 def remaining(study: Study, axes: LevelAxes, machine: Machine, noise: Array) -> Array:
-    """Unmodelled noise by third octave, A-weighted, (speed, option, band), Pa².
+    """Compute unmodelled noise, A-weighted, shape (speed, option, receiver, band), Pa².
 
-    The bands are `REMAINDER_BANDS`. It grows with speed, and each band passes the insertion loss
-    of an option.
+    The bands are `REMAINDER_BANDS`. It grows with speed, each band passes the insertion loss of an
+    option, and it spreads from the machine to the microphones.
 
     Parameters
     ----------
     study : options and speed of the published level
-    axes : speeds
+    axes : speeds, and spreading to the microphones
     machine : growth of the unmodelled noise
-    noise : the unmodelled noise at the published speed without an option, shape (band,), Pa²
+    noise : unmodelled noise at the published speed and microphone without an option, (band,), Pa²
     """
     growth = machine.remainder.speed_factor(np.array(axes.speeds), study.catalogue_speed_rpm)
     factor = remaining_factor(study.options, REMAINDER_MIDDLE_HZ)
-    return np.asarray(growth[:, None, None] * factor * noise)
+    return axes.spread(growth[:, None, None] * factor * noise)
 
 
 def in_spectrum(machine: Machine, square: float) -> Array:

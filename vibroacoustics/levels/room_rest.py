@@ -24,7 +24,8 @@ def rest_in_bands(results: xr.Dataset, receiver: str) -> Array:
     results : of the levels
     receiver : at which the machine's noise is published
     """
-    rest = _square(results["unmodelled_band_level"].transpose("speed", "option", "noise_band"))
+    unmodelled = results["unmodelled_band_level"].sel(receiver=receiver)
+    rest = _square(unmodelled.transpose("speed", "option", "noise_band"))
     if "baseline_band_level" in results:
         there = results["baseline_band_level"].sel(receiver=receiver)
         measured = _square(there.transpose("speed", "option", "baseline_band"))

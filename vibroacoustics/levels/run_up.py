@@ -24,17 +24,18 @@ _QUIETER_DB: Final = 40.0
 def unmodelled_over_speed(
     band_level: xr.DataArray, growth: Remainder, speed_rpm: float, speeds_rpm: Sequence[float]
 ) -> Array:
-    """Compute the A-weighted mean square of unmodelled noise over speed, shape (speed,), Pa².
+    """Compute the A-weighted mean square of unmodelled noise, shape (speed, receiver), Pa².
 
     Parameters
     ----------
-    band_level : of the noise at one speed, (noise_band), dB
+    band_level : of the noise at one speed, (receiver, noise_band), dB
     growth : of the noise with speed
     speed_rpm : of that level
     speeds_rpm : of the run-up
     """
     factor = growth.speed_factor(np.array(speeds_rpm), speed_rpm)
-    return np.asarray(factor * unmodelled_energy(band_level).sum())
+    square = unmodelled_energy(band_level.transpose("receiver", "noise_band")).sum(axis=1)
+    return np.outer(factor, square)
 
 
 def run_up_variables(
@@ -46,10 +47,10 @@ def run_up_variables(
     ----------
     axes : of sources and receivers
     sound : without an option at the receivers, by speed
-    unmodelled_pa2 : mean square of unmodelled noise, shape (speed,)
+    unmodelled_pa2 : mean square of unmodelled noise, shape (speed, receiver)
     """
     parts = [sound_by_source(received, axes.bands) for received in sound.values()]
-    total = np.array([part.total[0] for part in parts]) + unmodelled_pa2[:, None]
+    total = np.array([part.total[0] for part in parts]) + unmodelled_pa2
     order, energy = _orders(sound)
     values = {
         "run_up_source_level": level(np.array([part.alone for part in parts])),

@@ -182,7 +182,7 @@ def sample_levels(study: Study, axes: LevelAxes, order_hz: Array, sample: Deviat
         "level_unmodelled": level(sample.unmodelled.sum(axis=-1)),
     }
     if not points:
-        levels["total_band_level"] = level(lines.band + unmodelled[:, :, :, None])
+        levels["total_band_level"] = level(lines.band + unmodelled)
     return levels | level_changes(levels, list(axes.options).index(REFERENCE_OPTION))
 
 

@@ -23,6 +23,10 @@ _OF_TONE: Final = (
     ("frequency_hz", "Hz"), ("level_db", "dB"), ("excess_db", "dB"),
     ("excess_low_db", "dB"), ("excess_high_db", "dB"), ("probability", "1"),
 )  # fmt: skip
+_OF_WINDOW: Final = (
+    ("rating_level_dba", "dB"), ("rating_level_low_dba", "dB"), ("rating_level_high_dba", "dB"),
+    ("adjustment_db", "dB"), ("limit_dba", "dB"), ("limit_probability", "1"),
+)  # fmt: skip
 _OF_POINT: Final = (
     ("displacement_peak_to_peak_m", "displacement p-p", "m", "s p-p, µm", 1e6),
     ("velocity_rms_m_per_s", "velocity rms", "m/s", "v rms, mm/s", 1e3),
@@ -47,7 +51,7 @@ def analysis_of_data_sheet(sheet: DataSheet) -> Analysis:
         parts=(
             Part("level", "Sound power", _words(power)),
             Part("bands", "Third octaves", (Pictures((sheet_chart(power),)), _bands(power))),
-            Part("tones", "Tones", _tones(sheet)),
+            Part("tones", "Tones", (*_tones(sheet), *_audibility(sheet), *_windows(sheet))),
             Part("vibration", "Vibration", vibration),
             Part("conditions", "Operating point and mounting", (_facts(sheet),)),
             Part("limits", "Neglected effects", (Bullets(sheet.leaves_out),)),
@@ -138,6 +142,36 @@ def _tones(sheet: DataSheet) -> tuple[Text | Table, ...]:
     return *without_noise, table, *((Text(some),) if some else ())
 
 
+def _audibility(sheet: DataSheet) -> tuple[Text, ...]:
+    """Return the audibility of the most audible tone and its adjustment."""
+    if sheet.audibility_db is None or sheet.tonal_adjustment_db is None:
+        return ()
+    return (
+        Text(
+            f"Largest audibility of a tone (ISO/PAS 20065): {rounding.fixed(sheet.audibility_db)} "
+            f"dB; adjustment {rounding.fixed(sheet.tonal_adjustment_db, 0)} dB (ISO 1996-2)."
+        ),
+    )
+
+
+def _windows(sheet: DataSheet) -> tuple[Table, ...]:
+    """Return the rating levels at the windows of the study."""
+    rows = tuple(
+        (
+            rated.window,
+            f"{rounding.fixed(rated.rating_level_dba)} "
+            f"({rounding.fixed(rated.rating_level_low_dba)} to "
+            f"{rounding.fixed(rated.rating_level_high_dba)})",
+            rounding.fixed(rated.adjustment_db, 0),
+            f"{rated.limit_dba:g}",
+            f"{100.0 * rated.limit_probability:.0f} %",
+        )
+        for rated in sheet.windows
+    )
+    head = ("Window", "L_r, dB(A)", "of it for tones, dB", "limit, dB(A)", "met with probability")
+    return (Table("Rating level", head, rows, frozenset({0})),) if rows else ()
+
+
 def _any_tone(sheet: DataSheet) -> str:
     """Return how often some tone is prominent, where samples differ in it."""
     share = sheet.any_tone_probability
@@ -207,6 +241,11 @@ def _rows(sheet: DataSheet) -> Iterator[Row]:
         for name, unit in _OF_TONE:
             item = f"{tone.name} at {tone.microphone}"
             yield "prominent tone", item, name, known(getattr(tone, name)), unit
+    for name in ("audibility_db", "tonal_adjustment_db"):
+        yield "tones", "most audible", name, known(getattr(sheet, name)), "dB"
+    for rated in sheet.windows:
+        for name, unit in _OF_WINDOW:
+            yield "rating", rated.window, name, getattr(rated, name), unit
     for point in sheet.vibration:
         for name, words, unit, _, _ in _OF_POINT:
             item = f"{point.point} {point.direction}"

@@ -74,7 +74,7 @@ def band(results: xr.Dataset, name: str, **labels: Any) -> Band:
     value = estimate(results, name, **selection)
     if not is_sampled(results, name):
         return Band(*value)
-    is_level = name.startswith(("level", "change", "source_level", "residual"))
+    is_level = name.startswith(("level", "change", "source_level", "residual", "rating_level"))
     return written(value, effective_samples(results), FINEST_DB if is_level else None)
 
 

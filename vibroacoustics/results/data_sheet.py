@@ -98,6 +98,22 @@ class Tone(_Part):
     """Share of the weighted samples in which the tone is audible and prominent; over 0.5."""
 
 
+class RatedWindow(_Part):
+    """Rating level at a window of the study."""
+
+    window: str
+    rating_level_dba: float
+    rating_level_low_dba: float
+    """Lower end of the 80 % interval."""
+    rating_level_high_dba: float
+    """Upper end of the 80 % interval."""
+    adjustment_db: float
+    """For tones, median."""
+    limit_dba: float
+    limit_probability: float
+    """Share of the weighted samples that meet the limit."""
+
+
 class Vibration(_Part):
     """Motion of a point of the housing in one direction, all orders together."""
 
@@ -136,6 +152,12 @@ class DataSheet(_Part):
     """Share of the weighted samples with some prominent tone, at the microphone with the most."""
     tones_not_judged: int
     """Audible tones in whose critical band there is no noise at any microphone."""
+    audibility_db: Level = None
+    """Largest decisive audibility of the tones at any microphone (ISO/PAS 20065), -10 to 60."""
+    tonal_adjustment_db: Level = None
+    """Adjustment for it (ISO 1996-2, table J.1)."""
+    windows: tuple[RatedWindow, ...] = ()
+    """Rating levels at the windows of the study."""
     vibration: tuple[Vibration, ...]
     vibration_words: str
     """What the motion holds."""

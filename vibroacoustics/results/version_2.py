@@ -47,6 +47,14 @@ _GONE: Final = (
     "room_level_high",
 )  # fmt: skip
 _GONE_COORDINATES: Final = ("evidence", "energy_part")
+_ONCE_ALIKE: Final = tuple(
+    f"{name}{end}"
+    for name in (
+        "unmodelled_band_level", "representative_unmodelled_band_level", "run_up_unmodelled_level"
+    )
+    for end in ("", *SUFFIXES.values())
+)  # fmt: skip
+"""Variables of results that had no microphones."""
 _SAMPLED: Final = ("level_total", "source_level", "level_unmodelled")
 
 
@@ -58,12 +66,23 @@ def of_this_version(results: xr.Dataset, path: Path) -> xr.Dataset:
     StorageError
         A run of version 2 lacks a variable.
     """
+    results = _with_receivers(results)
     if results.attrs.get("schema_version") != VERSION or "level_total" not in results:
         return results
     try:
         return raised(results)
     except (KeyError, ValueError, IndexError, SchemaError) as error:
         raise StorageError(f"{path}: cannot be raised from schema version 2: {error}") from None
+
+
+def _with_receivers(results: xr.Dataset) -> xr.Dataset:
+    """Return results whose unmodelled noise, once alike at all microphones, is by microphone."""
+    alike = {
+        name: results[name].expand_dims(receiver=results["receiver"]).transpose(*dims)
+        for name, dims in ((name, VARIABLES[name].dims) for name in _ONCE_ALIKE if name in results)
+        if "receiver" not in results[name].dims
+    }
+    return results.assign(alike) if alike else results
 
 
 def raised(results: xr.Dataset) -> xr.Dataset:
@@ -74,6 +93,7 @@ def raised(results: xr.Dataset) -> xr.Dataset:
     }
     renamed = {**by_sample, **_RENAMED}
     present = results.rename({old: new for old, new in renamed.items() if old in results.variables})
+    present = _with_receivers(present)
     present = present.drop_vars([*_GONE, *_GONE_COORDINATES], errors="ignore")
     parameters = _parameters(str(results.attrs["parameters"]))
     digest = sha256(parameters.encode())

@@ -10,6 +10,8 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.decibel import level_of_power, power_of_level
+from ..levels.rating import stepped_adjustment_db
+from ..study.rating_rules.iso_1996_2 import ISO_1996_2
 from .critical_bands import critical_bandwidth
 
 LOWEST_HZ: Final = 90.0
@@ -26,9 +28,6 @@ RESOLVED_BELOW_HZ: Final = 1000.0
 """Below it two tones of one critical band may be heard apart (equation 18)."""
 _LEVEL_UNCERTAINTY_DB: Final = 3.0
 _COVERAGE: Final = 1.645
-_ADJUSTMENT: Final = ((0.0, 0.0), (2.0, 1.0), (4.0, 2.0), (6.0, 3.0), (9.0, 4.0), (12.0, 5.0))
-"""Largest mean audibility and adjustment, dB (ISO 1996-2:2017, table J.1; DIN 45681, table 1)."""
-_LARGEST_ADJUSTMENT_DB: Final = 6.0
 
 
 def critical_edges_hz(frequency_hz: Array) -> tuple[Array, Array]:
@@ -118,5 +117,4 @@ def tonal_adjustment_db(mean_audibility_db: Array) -> Array:
     ----------
     mean_audibility_db : energy means of decisive audibilities, any shape, dB
     """
-    edges, steps = np.array(_ADJUSTMENT).T
-    return np.append(steps, _LARGEST_ADJUSTMENT_DB)[np.searchsorted(edges, mean_audibility_db)]
+    return stepped_adjustment_db(mean_audibility_db, ISO_1996_2)

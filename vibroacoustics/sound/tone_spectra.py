@@ -80,9 +80,9 @@ def noise_square(noise_db: Array, unmodelled_db: Array) -> Array:
     Parameters
     ----------
     noise_db : levels of the sources' noise, shape (..., speed, option, receiver, band)
-    unmodelled_db : of unmodelled noise, shape (..., speed, option, band)
+    unmodelled_db : of unmodelled noise, the same shape
     """
-    return np.asarray(_mean_square(noise_db) + _mean_square(unmodelled_db)[..., None, :])
+    return np.asarray(_mean_square(noise_db) + _mean_square(unmodelled_db))
 
 
 def tone_levels(spectra: ToneSpectra) -> dict[str, Array]:
@@ -151,7 +151,7 @@ def nominal_spectra(results: xr.Dataset) -> tuple[ToneSpectra, list[str]]:
     pressure = results["pressure_line"].sum("sound_source").transpose(*dims, "line").values
     noise = noise_square(
         results["noise_band_level"].transpose(*dims, "noise_band").values,
-        results["unmodelled_band_level"].transpose("speed", "option", "noise_band").values,
+        results["unmodelled_band_level"].transpose(*dims, "noise_band").values,
     )
     hertz, names = results["tone_frequency"].values, results["line"].values.tolist()
     sounding = np.where(hertz > 0.0, hertz, np.nan)

@@ -3,8 +3,10 @@
 from ..base.registry import register
 from ..levels.axes import LevelAxes
 from ..levels.nominal import NominalSound
+from ..levels.remainder import REMAINDER_MIDDLE_HZ
 from ..levels.structure_borne import structure_borne_variables
 from ..machine.cases import Cases
+from ..radiation.spreading import spreading_of
 from ..sound.ingredients import AT_MICROPHONE, IN_ROOM
 from ..sound.loudness import available
 from ..sound.of_results import hearing_variables
@@ -39,7 +41,8 @@ class Levels(Stage):
 
     def run(self, chain: Chain) -> Given:
         study, results = chain.study, chain.results
-        axes = LevelAxes.of(study, list(sources_of(study)), results)
+        spreading = spreading_of(study, REMAINDER_MIDDLE_HZ)
+        axes = LevelAxes.of(study, list(sources_of(study)), results, spreading)
         received = chain[Transmission].received(with_published(chain)[Cases])
         nominal = NominalSound.of(study, axes, received)
         levels = nominal.levels(received, results["order_frequency"])

@@ -4,6 +4,7 @@ import os
 from collections.abc import Callable
 
 from ..levels.nominal import NominalSound, Sound, by_source
+from ..levels.rating import sampled_rating
 from ..levels.sample_levels import Deviating, sample_levels
 from ..machine.cases import Cases
 from ..study.samples import batches_of_samples
@@ -48,6 +49,7 @@ def _values(chain: Chain, ensemble: Bank, number: int, count: int) -> SampleValu
     levels = sample_levels(study, axes, chain.results["order_frequency"].values, sample)
     lines = chain.results["judged_tone"].values.tolist()
     levels |= sampled_tones(study, axes, lines, sample, levels)
+    levels |= sampled_rating(study, axes, levels)
     changed = sampled_forces(study, chain[Cases], sampled, chain.results)
     return SampleValues.of(levels, force_variables(changed, chain.results), pairs, count)
 

@@ -35,7 +35,7 @@ class Samples(Stage):
     name = "samples"
     reads = (
         Cases, PublishedCases, Transmission, NominalSound, Bank, Evidence, "force_amplitude",
-        "moment_amplitude", "foot_force_amplitude", "reported_figure",
+        "moment_amplitude", "foot_force_amplitude", "reported_figure", "rating_limit",
     )  # fmt: skip
     gives = (
         ComputedSamples, "*_by_sample", "sample_weight", "sampled_value", "choice_utility",
@@ -51,6 +51,7 @@ class Samples(Stage):
         "source_share", "unmodelled_share", "tone_level", "tone_excess", "largest_tone_excess",
         "tone_audibility", "decisive_audibility", "tonal_adjustment", "tone_probability",
         "any_tone_probability",
+        "rating_level", "rating_adjustment", "limit_probability",
     )  # fmt: skip
 
     def applies(self, study: Study) -> bool:

@@ -46,7 +46,7 @@ class Shown:
     cases : of these options
     gain : factors of the discrepancy on the power of sources, shape (source, receiver, gain band);
         empty without samples
-    unmodelled : level of unmodelled noise, (option, noise_band), dB
+    unmodelled : level of unmodelled noise, (option, receiver, noise_band), dB
     """
 
     speed_rpm: float

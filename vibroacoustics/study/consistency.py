@@ -38,7 +38,7 @@ def check_consistent(study: StudyTables) -> None:
     _raise_all(partial(_check_fits, study, name, one) for name, one in study.options.items())
     checks = (
         _check_catalogue, _check_orders, _check_sources, _check_sound_power, _check_room,
-        _check_spectrum,
+        _check_spectrum, _check_rating,
     )  # fmt: skip
     _raise_all(
         (
@@ -140,6 +140,19 @@ def _check_sound_power(study: StudyTables) -> None:
             "sound_power: ISO 3744 measures over a hard floor alone; radiation.surroundings "
             f"has {'ground or a barrier' if surroundings.is_outdoors else 'walls or a cabinet'}"
         )
+
+
+def _check_rating(study: StudyTables) -> None:
+    """Refuse a window before which there is no microphone."""
+    windows = {} if study.rating is None else study.rating.windows
+    problems = [
+        f"rating.windows.{name}.receiver = {window.receiver}: not among the receivers "
+        f"({', '.join(study.receivers)})"
+        for name, window in windows.items()
+        if window.receiver not in study.receivers
+    ]
+    if problems:
+        raise ValueError(*problems)
 
 
 def _check_room(study: StudyTables) -> None:

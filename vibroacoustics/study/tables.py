@@ -14,6 +14,7 @@ from .design import Design
 from .evidence import Evidence
 from .operation import Operation
 from .radiation import RadiationSettings
+from .rating import Rating
 from .receivers import Receiver
 from .record import ParameterRecord
 from .room import StudyRoom
@@ -54,6 +55,8 @@ class StudyTables(Parameters):
     """Plate under the feet whose sound is computed beside that by air."""
     room: StudyRoom | None = None
     """Room into which the machine is put, with listeners."""
+    rating: Rating | None = None
+    """Windows at which the sound is rated."""
     sources: dict[str, AnySource] = Field(default_factory=dict)
     """Who drives the machine beside its moving parts."""
     uncertainty: Uncertainty = Uncertainty()

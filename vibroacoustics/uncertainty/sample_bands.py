@@ -75,4 +75,4 @@ class SampleBands:
             remaining(self.study, self.axes, machine, self.unmodelled_pa2)
         )
         modelled = [of_case.bands(gains[key][0]) for key, of_case in sound.items()]
-        return np.asarray(np.array(modelled) + unmodelled[:, None])
+        return np.asarray(np.array(modelled) + unmodelled)

@@ -39,6 +39,9 @@ _LARGE: Final = frozenset({
 })  # fmt: skip
 """Kept in single precision, 1e-5 dB, until their statistics are computed."""
 
+_SHARES: Final = ("limit_probability",)
+"""1 or 0 in a sample; their weighted mean is a probability."""
+
 
 class SampleValues(NamedTuple):
     """What a sample gives.
@@ -133,7 +136,11 @@ def sample_variables(
     }
     of_pairs, of_samples = Weighted(weight[0]), Weighted(weight[0].reshape(-1, PAIRS).sum(axis=1))
     coords = {str(name): array.values for name, array in nominal.coords.items()}
-    parts = [of_pairs.statistics(name, array, coords) for name, array in levels.items()]
+    parts = [
+        of_pairs.statistics(name, array, coords)
+        for name, array in levels.items()
+        if name not in _SHARES
+    ]
     parts += [of_samples.statistics(name, array, coords) for name, array in forces.items()]
     parts += _changes(study, levels, forces, of_pairs, coords)
     kept = _by_sample(levels, forces, weight, {**coords, "prior": list(prior_names)})
@@ -167,9 +174,11 @@ def _changes(
         "increase_probability": np.tensordot(of_pairs.weight, changes.increased, axes=1),
         "decrease_probability": np.tensordot(of_pairs.weight, changes.decreased, axes=1),
     }
+    shares = tone_probabilities(levels["tone_excess"]) | {
+        name: levels[name] for name in _SHARES if name in levels
+    }
     chances |= {
-        name: np.tensordot(of_pairs.weight, values, axes=1)
-        for name, values in tone_probabilities(levels["tone_excess"]).items()
+        name: np.tensordot(of_pairs.weight, values, axes=1) for name, values in shares.items()
     }
     return [*statistics, stamped(chances, labels)]
 

@@ -180,7 +180,7 @@ def test_third_octaves_of_noise_unmodelled_noise_and_all(levels, sample):
             ):  # fmt: skip
                 found = SQUARE * 10.0 ** (levels[name][k, s, o, r, b] / 10.0)
                 assert found == pytest.approx(square, rel=1e-9, abs=1e-30), (name, band)
-            found = SQUARE * 10.0 ** (levels["unmodelled_band_level"][k, s, o, b] / 10.0)
+            found = SQUARE * 10.0 ** (levels["unmodelled_band_level"][k, s, o, r, b] / 10.0)
             assert found == pytest.approx(left, rel=1e-9, abs=1e-30)
 
 

@@ -23,7 +23,7 @@ from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 
 FOLDERS = ("pipelines", "docs/gallery/studies")
-OUTDOORS = {"terrace.toml"}
+OUTDOORS = {"terrace.toml", "neighbour.toml"}
 CUT_CELLS = {"copeland_corner.toml", "copeland_cabinet.toml"}
 
 

@@ -477,10 +477,11 @@ def test_sources_do_not_change_the_moving_parts(results, without):
     heard = {"pressure_line", "order_level", "level_modelled", "level_total", "level_unmodelled"}
     heard |= {"source_level", "source_share", "source_band_level", "reported_figure"}
     heard |= {"change_1x", "change_modelled", "change_total", "criterion_value", "score", "rank"}
+    heard |= {"order_change"}
     heard |= {"first_place_share", "noise_band_level", "unmodelled_band_level", "residual_level"}
     heard |= {"total_band_level", "unmodelled_share", "loudness", "sharpness"}
     heard |= {"increase_probability", "decrease_probability", "sources_band_level"}
-    heard |= {"evidence_simulation", "evidence_inputs"}
+    heard |= {"evidence_simulation", "evidence_inputs", "decisive_audibility", "tonal_adjustment"}
     heard |= {name for name in map(str, without.data_vars) if "tone_" in name}
     heard |= {"decisive_audibility", "tonal_adjustment", "order_change"}
     shown = ("run_up_", "polar_", "deflection", "line_energy", "band_energy", "section_force")

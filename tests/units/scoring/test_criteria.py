@@ -39,7 +39,7 @@ StudyFile = Callable[..., Path]
 @pytest.fixture
 def stranger(tmp_path: Path) -> Iterator[Path]:
     """File of a stranger's criterion; what it registers is forgotten after the test."""
-    assert len(CRITERIA) == 9  # fills the registry with the built-in ones
+    assert len(CRITERIA) == 10  # fills the registry with the built-in ones
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(CRITERIA, "_things", dict(CRITERIA._things))
         patch.setattr(CRITERIA, "_origins", dict(CRITERIA._origins))
@@ -95,7 +95,7 @@ def test_strangers_criterion_is_scored_and_reported_without_its_file(
 def test_strangers_criterion_comes_after_the_built_in_ones(stranger: Path) -> None:
     load_plugin(stranger)
     assert list(CRITERIA)[-1] == "force_2x_n"
-    assert len(CRITERIA) == 10
+    assert len(CRITERIA) == 11
 
 
 def test_strangers_criterion_of_a_built_in_name_is_refused(stranger: Path) -> None:

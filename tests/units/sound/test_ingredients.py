@@ -53,8 +53,8 @@ def test_noise_of_sources_and_remainder_go_to_their_bands():
     frequency = np.array([90.0, 100.0, 3600.0])
     noise = NoisePower(0, frequency, 4e-10 * np.array([[1e4, 2e4, 1e3]]))
     sound = {(3000.0, "none"): ReceivedSound(lines, np.zeros((1, 1, 1), complex), (noise,))}
-    remaining = np.zeros((1, 1, 27))
-    remaining[0, 0, 16] = 4e-10 * 1e5  # 1 kHz
+    remaining = np.zeros((1, 1, 1, 27))
+    remaining[..., 16] = 4e-10 * 1e5  # 1 kHz
     levels = noise_levels(axes, sound, remaining).squeeze()
     by_band = levels["noise_band_level"]
     np.testing.assert_allclose(

@@ -186,7 +186,7 @@ def chain_total(chain, changed):
     machine = with_sample(study.machine, study.machine, sample)
     noise = evidence.unmodelled_pa2(pairs, machine)[chosen.pair]
     rest = remaining(study, axes, machine, noise)
-    at = axes.speeds.index(key[0]), axes.options.index(key[1])
+    at = axes.speeds.index(key[0]), axes.options.index(key[1]), 0
     return 10.0 * np.log10((lines + rest[at].sum()) / 4e-10)
 
 

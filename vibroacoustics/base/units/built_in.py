@@ -41,6 +41,7 @@ for _unit in (
     Unit("rad_per_s2", "rad/s²", "rad_per_s2", 1.0),
     Unit("ms", "ms", "s", 1e-3),
     Unit("s", "s", "s", 1.0),
+    Unit("min", "min", "s", 60.0),
     Unit("us", "µs", "s", 1e-6),
     Unit("hz", "Hz", "hz", 1.0),
     Unit("khz", "kHz", "hz", 1e3),

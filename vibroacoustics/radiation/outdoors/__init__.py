@@ -1,1 +1,1 @@
-"""Sound over ground that gives way to it, and over a barrier."""
+"""Sound over porous ground and over a barrier."""

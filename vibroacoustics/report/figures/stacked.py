@@ -136,7 +136,7 @@ def run_up_levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
     speed, top = total["run_up_speed"].values, float(total.max())
     levels = results["run_up_source_level"].sel(receiver=mic)
     curves = {str(part): levels.sel(sound_source=part) for part in levels["sound_source"].values}
-    curves["unmodelled"] = results["run_up_unmodelled_level"]
+    curves["unmodelled"] = results["run_up_unmodelled_level"].sel(receiver=mic)
     shown = {part: level for part, level in curves.items() if level.max() > top - DEPTH_DB}
     parts = tuple(
         Line(speed, shown[part], words, colour=colour)

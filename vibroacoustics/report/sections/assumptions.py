@@ -139,7 +139,8 @@ def remainder_sentence(results: xr.Dataset) -> str:
         f"The {kind} level is {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
         f"{noise['speed_rpm']:g} rpm{_point_words(results)}. What the model does not explain of it "
         f"at {catalogue_receiver(results)} without a balancer is {unmodelled}: it is added as "
-        f"energy at every option and microphone. {growth_sentence(results)}"
+        "energy at every option and microphone, spread as from a source at the machine. "
+        f"{growth_sentence(results)}"
     )
 
 

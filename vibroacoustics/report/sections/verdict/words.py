@@ -29,6 +29,7 @@ from ....results.stored_study import (
 from ...blocks import Interval, Intervals, IntervalWord
 from ...quantities import FOOT_FORCE, NO_BREAK, TOTAL
 from ...shifts import Shift, measurable, shift
+from ..rating import rating_sentence, windows
 from ..sources.words import UNMODELLED, ranked, source_share, unmodelled_share
 from ..unknowns import most_valuable
 
@@ -44,7 +45,8 @@ _LEAST_SPAN_DB: Final = 2.0
 
 def sentences(results: xr.Dataset) -> tuple[str, ...]:
     """Return the sentences of the first screen."""
-    each = (_level, _room, _source, _options, _vibration, _measurement)
+    vibration = () if "rating_level" in results else (_vibration,)
+    each = (_windows, _level, _room, _source, _options, *vibration, _measurement)
     return tuple(filter(None, (one(results) for one in each)))
 
 
@@ -146,6 +148,13 @@ def _published(results: xr.Dataset, speed_rpm: float) -> str:
 def _kind(results: xr.Dataset) -> str:
     """Return what the level of the machine that the study gives is."""
     return "assumed" if assumed_level(results) else "published"
+
+
+def _windows(results: xr.Dataset) -> str:
+    """Give the verdict at the first window; the others are in the section."""
+    if "rating_level" not in results:
+        return ""
+    return rating_sentence(results, windows(results)[0])
 
 
 def _room(results: xr.Dataset) -> str:

@@ -1,0 +1,130 @@
+"""Rating level at windows: whether the limit is met, which tone decides, options in rank."""
+
+from typing import Any, Final
+
+import xarray as xr
+
+from ...base import rounding
+from ...base.registry import register
+from ...base.vocabulary import REFERENCE_OPTION
+from ...results.bands import band
+from ...results.estimates import has_samples, interval
+from ...results.stored_study import nearest_speed, options, parameters
+from ..blocks import Block, Text
+from ..tables import DataTable, Table, long_table
+from . import Section, hold
+
+_PERIOD: Final = {"night": "at night", "day": "by day"}
+_VARIABLES: Final = ("rating_level", "rating_adjustment", "limit_probability")
+
+
+def windows(results: xr.Dataset) -> list[str]:
+    """Return the names of the windows."""
+    return [str(name) for name in results["rating_window"].values]
+
+
+def rating_sentence(results: xr.Dataset, window: str) -> str:
+    """Say the rating level at a window, its limit, and which tone decides."""
+    speed, period = nearest_speed(results), _window(results, window)["period"]
+    case = {"speed": speed, "option": REFERENCE_OPTION, "rating_window": window}
+    level = band(results, "rating_level", **case).middle_text(rounding.level)
+    limit = results["rating_limit"].sel(rating_window=window).item()
+    return (
+        f"{level} dB(A) rating level at {window}, limit {limit:g} {_PERIOD[period]}: "
+        f"{_verdict(results, case)}{_tone_words(results, window)}."
+    )
+
+
+def rating_table(results: xr.Dataset, window: str) -> Table:
+    """Return rating level, adjustment and probability of every option, the quietest first."""
+    speed = nearest_speed(results)
+    rows = []
+    for option in ranked(results, window):
+        case = {"speed": speed, "option": option, "rating_window": window}
+        rows.append((
+            option,
+            band(results, "rating_level", **case).middle_and_ends(rounding.level),
+            band(results, "rating_adjustment", **case).middle_and_ends(rounding.fixed),
+            decisive_tone(results, window, option) or "none",
+            _verdict(results, case),
+        ))  # fmt: skip
+    head = ("Option", "Rating level, dB(A)", "Adjustment, dB", "Decisive tone", "Limit")
+    return Table(f"{window}, {speed:g} rpm", head, tuple(rows), frozenset({0, 3, 4}))
+
+
+def ranked(results: xr.Dataset, window: str) -> list[str]:
+    """Return the options by their probability of meeting the limit, then by level."""
+    case = {"speed": nearest_speed(results), "rating_window": window}
+    here = results[["limit_probability", "rating_level"]].sel(case)
+
+    def probability_and_level(option: str) -> tuple[float, float]:
+        chosen = here.sel(option=option)
+        return -float(chosen["limit_probability"]), float(chosen["rating_level"])
+
+    return sorted(options(results), key=probability_and_level)
+
+
+def decisive_tone(results: xr.Dataset, window: str, option: str) -> str:
+    """Name the tone that is most audible at a window; empty where no tone adds to the level.
+
+    It has the largest upper end of the interval of its audibility: in samples tones take turns.
+    """
+    case = {"speed": nearest_speed(results), "option": option}
+    adjustment = results["rating_adjustment"].sel({**case, "rating_window": window})
+    if float(adjustment) <= 0.0:
+        return ""
+    receiver = _window(results, window)["receiver"]
+    audibility = interval(results, "tone_audibility")["high"].sel({**case, "receiver": receiver})
+    name = str(audibility["judged_tone"].values[int(audibility.argmax("judged_tone"))])
+    order = name.removeprefix("order ")
+    return name if order == name else f"{order}×"
+
+
+def _tone_words(results: xr.Dataset, window: str) -> str:
+    case = {"speed": nearest_speed(results), "option": REFERENCE_OPTION, "rating_window": window}
+    name = decisive_tone(results, window, REFERENCE_OPTION)
+    if not name:
+        return "; no tone adds to it"
+    added = rounding.fixed(results["rating_adjustment"].sel(case).item(), 0)
+    return f"; the {name} tone adds {added} dB"
+
+
+def _verdict(results: xr.Dataset, case: dict[str, Any]) -> str:
+    share = results["limit_probability"].sel(case).item()
+    if not has_samples(results):
+        return "met" if share > 0.0 else "exceeded"
+    return f"met with {100.0 * share:.0f} % probability"
+
+
+def _window(results: xr.Dataset, name: str) -> dict[str, str]:
+    table: dict[str, str] = parameters(results)["rating"]["windows"][name]
+    return table
+
+
+def _rules_words(results: xr.Dataset) -> str:
+    rules = parameters(results)["rating"]["rules"]
+    assumed = (
+        " Its adjustments of 0, 3 and 6 dB by audibility (2 and 9 dB) are assumed."
+        if rules == "ta-laerm"
+        else ""
+    )
+    return (
+        f"Rules: {rules}.{assumed} The machine runs at one speed in the whole operating time. "
+        "The correction for the weather and other sources are neglected. Levels are not rounded. "
+        "Other speeds are in rating.csv."
+    )
+
+
+def _blocks(results: xr.Dataset) -> list[Block]:
+    blocks: list[Block] = []
+    for window in windows(results):
+        blocks += [Text(rating_sentence(results, window), "strong"), rating_table(results, window)]
+    return [*blocks, Text(_rules_words(results), "note")]
+
+
+def _data(results: xr.Dataset) -> dict[str, DataTable]:
+    names = [name for name in map(str, results.data_vars) if name.startswith(_VARIABLES)]
+    return {"rating.csv": long_table(results, [*names, "rating_limit"])}
+
+
+register(Section("rating", "Rating level", _blocks, hold("rating_level"), 12.0, tables=_data))

@@ -1,0 +1,1 @@
+"""Rules that rate sound at a window: limits by area and period, adjustments; one file each."""
