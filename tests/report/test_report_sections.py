@@ -55,6 +55,7 @@ EVERY_BLOCK = (
 )
 BUILT_IN = [
     "verdict",
+    "rating",
     "reasons",
     "comparison",
     "baseline",
@@ -82,6 +83,7 @@ BUILT_IN = [
     "provenance",
 ]
 NOT_HERE = {
+    "rating",
     "example",
     "measured-spectrum",
     "run-up",

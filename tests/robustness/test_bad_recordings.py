@@ -363,6 +363,7 @@ def test_the_operating_system_limits_its_memory():
         "error": "StorageError",
         "message": "needs more than the 4 GiB of memory that reading may take: choose fewer "
         "channels or a shorter part",
+        "type": "<f8",
     }
 
 

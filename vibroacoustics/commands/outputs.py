@@ -45,6 +45,7 @@ REPORT_FILES: Final = (
             "path_orders",
             "paths",
             "provenance",
+            "rating",
             "room",
             "scores",
             "scoring",

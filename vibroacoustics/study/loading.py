@@ -105,7 +105,7 @@ def _study_of(written: Written) -> Study:
     redesigns = _redesigns(
         content,
         reader,
-        lambda own: read_redesign(machine_file, {**changes, **own}, reader, point, without),
+        lambda change: read_redesign(machine_file, {**changes, **change}, reader, point, without),
     )
     reader.tried(lambda: _read_published(content, reader))
     _resolve_file_names(content, reader)
