@@ -20,9 +20,8 @@ _LEVEL: Final = """\
 [overall_noise]
 level_dba = {{ {level}, source = "{source}" }}
 speed_rpm = {{ {speed}, source = "{source}" }}
-distance_mm = {{ value = 1000.0, source = "{source}" }}
+distance_mm = {{ {distance}, source = "{source}" }}
 """
-_UNKNOWN: Final = ("value=…", "value=…", "…")
 
 
 def without_published(blocks: list[Block]) -> list[Block]:
@@ -94,16 +93,19 @@ def with_level(
             f"--level = {level_dba:g} dB(A): must be above 0 to {_HIGHEST_DBA:g} dB(A)"
         )
     speed = float(shipped.catalogue_speed_rpm)
-    known = level_dba is not None
-    values = (f"value = {level_dba}", f"value = {speed}", OWN_SOURCE) if known else _UNKNOWN
-    text = _LEVEL.format(**dict(zip(("level", "speed", "source"), values, strict=True)))
+    text = _LEVEL.format(level="value=…", speed="value=…", distance="value=…", source="…")
+    if level_dba is not None:
+        level, distance = f"value = {level_dba}", "value = 1000.0"
+        text = _LEVEL.format(
+            level=level, speed=f"value = {speed}", distance=distance, source=OWN_SOURCE
+        )
     for block in machine:
         if block.keys[:1] == (OF_THE_LEVEL,):
             block.comment_out()
     (_, block) = blocks_of(text)
     number = next(n for n, each in enumerate(machine) if each.keys == ("shell",)) + 1
     machine.insert(number, block)
-    if not known:
+    if level_dba is None:
         block.comment_out()
         receiver = study[0].entry("catalogue_receiver")
         if receiver is not None:

@@ -24,17 +24,19 @@ ORDERS: Final = 20
 SAMPLES_OF_ORDER: Final = 3
 """Fewest crank angles for one cycle of the highest order."""
 LEAST_SAMPLES: Final = 256
+LEAST_RPM: Final = 60.0
+"""Slowest speed of a study."""
 _STEP_HZ: Final = 100.0
 _ROUNDING: Final = 1e-9
 
 
-def fill_in_automatic(content: Mapping[str, Any], machine: Machine) -> None:
+def fill_in_automatic(content: Mapping[str, Any], machine: Machine | None) -> None:
     """Put numbers in place of `auto` in a study's tables `operation` and `radiation`.
 
     Parameters
     ----------
     content : tables in SI, sources as parameters of their kind
-    machine : of the study
+    machine : of the study; none where it is refused
     """
     operation, radiation = content.get("operation"), content.get("radiation")
     if not isinstance(operation, dict) or not isinstance(radiation, dict):
@@ -84,8 +86,8 @@ def samples_for(orders: int) -> int:
     return int(max(LEAST_SAMPLES, 2 ** ceil(log2(max(SAMPLES_OF_ORDER * orders, 1)))))
 
 
-def _speeds_rpm(operation: Mapping[str, Any], machine: Machine) -> list[float]:
-    """Speeds of the study and of the published level; the slowest allowed where none is right."""
+def _speeds_rpm(operation: Mapping[str, Any], machine: Machine | None) -> list[float]:
+    """Speeds of the study and of the published level; the slowest allowed where none is allowed."""
     speeds_rpm = operation.get("speed_rpm")
     if isinstance(speeds_rpm, Mapping):
         try:
@@ -93,7 +95,7 @@ def _speeds_rpm(operation: Mapping[str, Any], machine: Machine) -> list[float]:
         except ValueError:
             speeds_rpm = ()
     listed = speeds_rpm if isinstance(speeds_rpm, tuple | list) else ()
-    noise = machine.overall_noise
+    noise = None if machine is None else machine.overall_noise
     published = () if noise is None else (noise.speed_rpm,)
-    speeds = [float(speed) for speed in (*listed, *published) if is_number(speed) and speed > 0.0]
-    return speeds or [60.0]
+    speeds = [float(speed) for speed in (*listed, *published) if is_number(speed)]
+    return [speed for speed in speeds if speed >= LEAST_RPM] or [LEAST_RPM]

@@ -181,6 +181,7 @@ def _under(plate: StructureBorne | None, machine: Machine) -> Machine:
 
 def _refused_with_machine(content: dict[str, Any], reader: Reader) -> ParameterError:
     """Return the refusal of a study whose machine is refused, with what else is wrong with it."""
+    fill_in_automatic(content, None)
     try:
         checked(Study, content, reader)
     except ParameterError as error:

@@ -299,9 +299,8 @@ def test_example_is_the_machine_that_it_was_made_from(speed_rpm, bound):
     assert table.forces.speed_rpm == (800.0, 900.0, 1000.0, 1100.0, 1200.0)
     slider, known = table.require(va.Slider), machine.require(va.Slider)
     assert slider.frame == known.frame
-    assert slider.mass_kg * slider.amplitude_m == pytest.approx(
-        known.mass_kg * known.amplitude_m, rel=1e-3
-    )
+    moment, exact = (each.mass_kg * each.amplitude_m for each in (slider, known))
+    assert 1.0 < moment / exact < 1.01  # the shaft swings, and the rod's eyes are two masses
     revolution = machine.revolution(speed_rpm, 720)
     for at, source in enumerate(table.forces.sources):
         wrench = revolution.wrenches[source]
