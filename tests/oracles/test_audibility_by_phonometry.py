@@ -16,12 +16,8 @@ from scipy import signal
 
 from vibroacoustics.base.weighting import a_weighting
 from vibroacoustics.sound.audibility import tonal_adjustment_db
-from vibroacoustics.sound.audible_tones import (
-    audible_tones,
-    decisive_tone,
-    mean_of_spectra,
-    narrow_band_levels,
-)
+from vibroacoustics.sound.audible_tones import audible_tones
+from vibroacoustics.sound.mean_audibility import decisive_tone, mean_of_spectra, narrow_band_levels
 
 RATE_HZ = 32000.0
 SECONDS = 12.0

@@ -125,7 +125,8 @@ def test_published_table_must_be_a_name(tree):
 @pytest.mark.parametrize(
     "content",
     [b"", b"criterion,A\n", b"criterion,A\nx,1\n", b"criterion,A\nx,one\nsum,1\n",
-     b"criterion,A,B\nx,1\nsum,1,1\n", b"criterion,A\nx,nan\nsum,1\n"],
+     b"criterion,A,B\nx,1\nsum,1,1\n", b"criterion,A\nx\x00,1\nsum,1\n",
+     b"criterion,A\nx,nan\nsum,1\n"],
 )  # fmt: skip
 def test_broken_published_table(tree, content):
     (tree / "data" / "validation" / "thesis_table_3.csv").write_bytes(content)

@@ -18,7 +18,7 @@ from typing import Any, Final, NamedTuple
 
 from vibroacoustics.base.errors import VibroacousticsError
 from vibroacoustics.base.units import split_key
-from vibroacoustics.commands.starter import starting_files
+from vibroacoustics.commands.starter import WITH_SOURCES, starting_files
 from vibroacoustics.machine.machine import MACHINES
 from vibroacoustics.study.loading import load_study_or_machine
 
@@ -38,10 +38,12 @@ class Mistake(NamedTuple):
 def written_files(folder: Path) -> tuple[Path, ...]:
     """Write the machine files of the package, and machine and study by `new` of every kind."""
     shutil.copytree(ROOT / "data", folder / "data")
-    for kind in MACHINES:
-        (folder / kind).mkdir()
-        for name, content in starting_files(kind).items():
-            (folder / kind / name).write_bytes(content)
+    templates = [*((kind, False) for kind in MACHINES), *((kind, True) for kind in WITH_SOURCES)]
+    for kind, with_sources in templates:
+        template = folder / (f"{kind}-sources" if with_sources else kind)
+        template.mkdir()
+        for name, content in starting_files(kind, with_sources).items():
+            (template / name).write_bytes(content)
     return tuple(sorted((*folder.glob("data/machines/*.toml"), *folder.glob("*/*.toml"))))
 
 

@@ -12,8 +12,8 @@ from ..base.errors import ParameterError
 from ..base.vocabulary import label_coordinates, stamped
 from ..results import provenance
 from ..sound.audibility import tonal_adjustment_db
-from ..sound.audible_tones import MeanAudibility, mean_audibility
 from ..sound.loudness import available, recorded_loudness
+from ..sound.mean_audibility import MeanAudibility, mean_audibility
 from ..sound.recorded import narrow_bands, recorded_spectrum
 from ..sound.tonality import Tone, tones
 

@@ -47,8 +47,8 @@ def mean_of_runs(
     as of `analyse_orders`, of the channels, orders, speeds (of the first run) and bands that all
     have: `channel_order_rms` and peaks are energy means, phases those of the mean phasor,
     coherence the lowest. `order_run_deviation`, `order_specimen_deviation`,
-    `order_mean_uncertainty` and `order_mean_interval` (half width, 95 %), dB, and the same of
-    `equivalent` levels and of every `band`. Each run has `run_order_rms`, `run_equivalent_level`,
+    `order_mean_uncertainty` and `order_mean_interval` (half width, 95 %), dB; likewise for
+    `equivalent` levels and every `band`. Each run has `run_order_rms`, `run_equivalent_level`,
     …, each machine `machine_order_rms`, `machine_order_deviation`, …
 
     Raises

@@ -10,7 +10,7 @@ from ..base.arrays import Array
 from ..base.decibel import energy_mean
 
 COVERAGE: Final = 0.95
-"""Of the interval of the mean."""
+"""Probability that the interval holds the mean."""
 
 
 class Scatter(NamedTuple):

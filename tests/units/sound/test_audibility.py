@@ -14,13 +14,9 @@ from vibroacoustics.sound.audibility import (
     mean_uncertainty_db,
     tonal_adjustment_db,
 )
-from vibroacoustics.sound.audible_tones import (
-    audible_tones,
-    decisive_tone,
-    mean_audibility,
-    mean_noise_lines,
-)
+from vibroacoustics.sound.audible_tones import audible_tones, mean_noise_lines
 from vibroacoustics.sound.critical_bands import critical_bandwidth, proximity_hz
+from vibroacoustics.sound.mean_audibility import decisive_tone, mean_audibility
 from vibroacoustics.sound.predicted_audibility import predicted_audibility
 
 REFERENCE = 4e-10

@@ -17,9 +17,9 @@ from ..tables import DataTable, Table, columns_of
 from . import Section, hold
 
 MOST_NAMES: Final = 3
-HEAD: Final = ("Option", "Prominent tones", "Tone", "Hz", "dB", "excess, dB")
+HEAD: Final = ("Option", "Prominent", "Tone", "Hz", "dB", "excess, dB")
 AUDIBILITY: Final = "decisive_audibility"
-AUDIBILITY_HEAD: Final = ("audibility, dB", "adjustment, dB")
+AUDIBILITY_HEAD: Final = ("audibility, dB", "K_T, dB")
 NOT_PROMINENT: Final = "not prominent"
 NO_LOUDNESS: Final = (
     "The results have no loudness: a run needs mosqito for it, pip install 'vibroacoustics[sound]'."
@@ -46,7 +46,7 @@ def tone_table(results: xr.Dataset) -> Table:
         if sampled:
             cells.append(_percent(estimate(results, "any_tone_probability", **case).value))
         rows.append((*cells, *_audibility(results, case), *loud.get(option, ())))
-    of_samples = ("80 % interval, dB", "probability", "some tone") if sampled else ()
+    of_samples = ("probability", "some tone") if sampled else ()
     headings = AUDIBILITY_HEAD if AUDIBILITY in results else ()
     with_loudness = ("sone", "acum") if loud else ()
     head = (*HEAD, *of_samples, *headings, *with_loudness)
@@ -98,16 +98,12 @@ def _audibility(results: xr.Dataset, case: dict[str, Any]) -> tuple[str, ...]:
 
 def _cells(tone: ProminentTone | None, sampled: bool) -> tuple[str, ...]:
     if tone is None:
-        return ("none", *[""] * (5 if sampled else 3))
-    cells = (
-        tone.name,
-        rounding.fixed(tone.frequency_hz),
-        rounding.level(tone.level_db),
-        rounding.fixed(tone.excess_db.value),
-    )
+        return ("none", *[""] * (4 if sampled else 3))
+    excess = rounding.fixed(tone.excess_db.value)
+    cells = tone.name, rounding.fixed(tone.frequency_hz), rounding.level(tone.level_db)
     if not sampled:
-        return cells
-    return (*cells, excess_words(tone.excess_db), _percent(tone.probability))
+        return (*cells, excess)
+    return (*cells, f"{excess} ({excess_words(tone.excess_db)})", _percent(tone.probability))
 
 
 def _percent(share: float) -> str:
@@ -136,8 +132,8 @@ _HOW = (
     "A tone is listed if it is audible and prominent (ECMA-418-1){samples}. The excess is the "
     "larger one over the criteria of tone-to-noise and prominence ratio. The noise is that of the "
     "sources and the unmodelled noise. Audibility: level of the most audible tone over its masked "
-    "threshold (ISO/PAS 20065); adjustment: ISO 1996-2, table J.1. {loudness} Other speeds "
-    "and microphones are in tones.csv."
+    "threshold (ISO/PAS 20065); K_T: adjustment for it, ISO 1996-2, table J.1. {loudness} Other "
+    "speeds and microphones are in tones.csv."
 )
 _LOUDNESS = "Loudness: ISO 532-1 (sone); sharpness: DIN 45692 (acum)."
 

@@ -195,11 +195,14 @@ def _options(results: xr.Dataset) -> str:
     lower = [name for name in by_change if shifts[name].improves and not shifts[name].worsens]
     higher = [name for name in reversed(by_change) if shifts[name].worsens]
     none = f"No option lowers it by {least:g} dB or more."
-    sentences = [_claim(shifts, lower, "lower") or none, _claim(shifts, higher, "raise")]
+    lowered = _claim(results, shifts, lower, "lower") or none
+    sentences = [lowered, _claim(results, shifts, higher, "raise")]
     return " ".join(filter(None, sentences))
 
 
-def _claim(shifts: Mapping[str, Shift], names: Sequence[str], verb: str) -> str:
+def _claim(
+    results: xr.Dataset, shifts: Mapping[str, Shift], names: Sequence[str], verb: str
+) -> str:
     """Say what the first of some options does to the level, and that others do it too."""
     if not names:
         return ""
@@ -207,7 +210,7 @@ def _claim(shifts: Mapping[str, Shift], names: Sequence[str], verb: str) -> str:
     does = f"may {verb}" if word(shifts[first]) == "uncertain" else f"{verb}s"
     too = f"{len(others)} others" if len(others) > 1 else "".join(others)
     too = f", {too} too" if too else ""
-    return f"{first} {does} it: {_with_unit(_at_largest(shifts[first]), 'dB')}{too}."
+    return f"{first} {does} it: {_largest_change(results, shifts[first], 'dB')}{too}."
 
 
 def _vibration(results: xr.Dataset) -> str:
@@ -219,7 +222,7 @@ def _vibration(results: xr.Dataset) -> str:
         return "No option reduces the 1× foot force measurably."
     sure = [name for name in better if _at_largest(shifts[name]).highest < 0.0]
     best = min(sure or better, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
-    change = _with_unit(_at_largest(shifts[best]), "%")
+    change = _largest_change(results, shifts[best], "%")
     if not sure:
         return f"{best} may reduce the 1× foot force: {change}."
     return f"Best for the feet: {best}, 1× foot force {change}."
@@ -232,6 +235,13 @@ def _measurement(results: xr.Dataset) -> str:
 
 def _at_largest(of_quantity: Shift) -> Band:
     return of_quantity.bands[largest(of_quantity)]
+
+
+def _largest_change(results: xr.Dataset, of_quantity: Shift, unit: str) -> str:
+    """Return the largest change, with its speed where that is not the speed of the headline."""
+    speed = speeds(results)[largest(of_quantity)]
+    where = "" if speed == nearest_speed(results) else f" at {speed:g} rpm"
+    return f"{_with_unit(_at_largest(of_quantity), unit)}{where}"
 
 
 def _with_unit(change: Band, unit: str) -> str:
