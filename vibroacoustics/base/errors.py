@@ -101,7 +101,12 @@ class PluginError(VibroacousticsError):
 
 
 def _shortened(line: str) -> str:
-    """A line of at most 300 characters: its begin, which names the file, and its end."""
+    """Return a line of at most 300 characters: its begin with the file's name, and its end.
+
+    Both parts end at a space where one is near.
+    """
     if len(line) <= LONGEST_LINE:
         return line
-    return f"{line[:200]} … {line[203 - LONGEST_LINE :]}"
+    begin, end = line[:200], line[203 - LONGEST_LINE :]
+    cut, start = begin.rfind(" ", 160), end.find(" ", 0, 40)
+    return f"{begin[:cut] if cut > 0 else begin} … {end[start + 1 :]}"

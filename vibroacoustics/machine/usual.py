@@ -4,7 +4,7 @@ import re
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from importlib.resources import files
 from math import pi
 from typing import Any, Final
@@ -63,7 +63,7 @@ class Scale:
         """Volume of the shell."""
         return self.shell.profile.volume_m3
 
-    @property
+    @cached_property
     def by_name(self) -> dict[str, float]:
         """Values that rules name, and 1 for rules that name none."""
         size = max(2.0 * self.shell.profile.radius_m, self.shell.profile.height_m)

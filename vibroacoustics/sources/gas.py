@@ -73,8 +73,8 @@ class ScrollGasForces(Source):
         if abs(ring.stroke_m - wraps) <= ORBIT_TOLERANCE * wraps:
             return None
         return (
-            f"the machine's wraps orbit at {1e3 * wraps:.4g} mm, its "
-            f"kinematics.orbit_radius_mm = {1e3 * ring.stroke_m:.4g} mm: must agree within 1 %"
+            f"kinematics.orbit_radius_mm = {1e3 * ring.stroke_m:.4g} mm: must agree within 1 % "
+            f"with π wraps.base_radius_mm - wraps.thickness_mm = {1e3 * wraps:.4g} mm"
         )
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:

@@ -12,7 +12,6 @@ from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.axes import LevelAxes
 from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
-from ..study.coarse import omits_sliders
 from ..study.sampling import Sample
 from ..study.selection import at_speeds
 from ..study.study import Study
@@ -42,8 +41,7 @@ class Sliders(Stage):
     gives = ("slider_*",)
 
     def applies(self, study: Study) -> bool:
-        omitted = bool(study.coarsened) and omits_sliders(study)
-        return bool(study.ranges) and study.baseline is None and not omitted
+        return bool(study.ranges) and study.baseline is None and not study.coarsened
 
     def run(self, chain: Chain) -> Given:
         chosen = chain.get(Representative)

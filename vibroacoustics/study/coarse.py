@@ -119,14 +119,8 @@ def _samples(study: Study) -> _Change:
     return {"uncertainty.random_samples": fewer}, words
 
 
-def omits_sliders(study: Study) -> bool:
-    """Return whether a coarse run omits sliders: a revolution of the machine takes long."""
-    return bool(study.ranges) and not study.machine.runs_up
-
-
 def _sliders(study: Study) -> _Change:
-    words = "no sliders of parameters, as a revolution of the machine takes long"
-    return ({}, words) if omits_sliders(study) else None
+    return ({}, "no sliders of parameters") if study.ranges and study.baseline is None else None
 
 
 def standard_error_of_end(samples: int) -> float:

@@ -103,7 +103,13 @@ def beside(file: Path, name: str) -> Path:
 
 
 def merge(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
-    """Tables with the values of others in place of their own."""
+    """Return tables in which the values of others replace those of the base; false removes a table.
+
+    Parameters
+    ----------
+    base : content of the extended file
+    over : content of the extending file
+    """
     given = {si_key(key)[0] for key, value in over.items() if not is_table(value)}
     merged = {  # a value in another unit of the same quantity is replaced too
         key: value
@@ -111,6 +117,9 @@ def merge(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
         if key in over or is_table(value) or si_key(key)[0] not in given
     }
     for key, value in over.items():
+        if value is False and is_table(merged.get(key)):
+            del merged[key]
+            continue
         nested = isinstance(value, dict) and isinstance(merged.get(key), dict)
         merged[key] = merge(merged[key], value) if nested and not is_quantity(value) else value
     return merged

@@ -660,13 +660,13 @@ def refused(folder, old, new, words, of_machine=False):
             "[operation]",
             '[machine.override.kinematics]\norbit_radius_mm = { value = 6.75, source = "thesis" }\n'
             "[operation]",
-            ["sources.gas", "wraps orbit at 3.461 mm", "6.75 mm", "within 1 %"],
+            ["sources.gas", "thickness_mm = 3.461 mm", "6.75 mm", "within 1 %"],
         ),
         (
             "[receivers.front_1m]",
             '[options.wide]\nkind = "redesign"\n[options.wide.change.kinematics]\n'
             'orbit_radius_mm = { value = 5.0, source = "test" }\n[receivers.front_1m]',
-            ["options.wide.change", "wraps orbit at 3.461 mm", "5 mm"],
+            ["options.wide.change", "thickness_mm = 3.461 mm", "5 mm"],
         ),
     ],
 )

@@ -24,7 +24,8 @@ def test_fewer_samples_and_no_kwave() -> None:
     assert any("standard error of 0.47 instead of 0.21" in words for words in more.coarsened)
     few = coarse(study)  # four samples are fewer than the least
     assert few.uncertainty.random_samples == study.uncertainty.random_samples < LEAST_SAMPLES
-    assert len(few.coarsened) == 1
+    assert len(few.coarsened) == 2
+    assert few.coarsened[-1] == "no sliders of parameters"
 
 
 def test_speeds_keep_their_supply_and_the_published_one() -> None:

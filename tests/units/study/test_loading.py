@@ -6,6 +6,7 @@ import pytest
 from pydantic import ValidationError
 from support import MACHINE_FILE, PIPELINES, ROOT
 
+from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.study.loading import load_study
 
 
@@ -38,6 +39,17 @@ def test_all_options_of_the_issue_are_there(thesis_study):
         "none", "pendulum-side", "pendulum-inline", "spring-mass", "spring-mass-printed",
         "twin-oldham", "damping", "counterweight-half",
     }  # fmt: skip
+
+
+def test_false_removes_a_table_of_the_extended_study(extend):
+    options = extend("[options]\npendulum-side = false").options
+    assert "pendulum-side" not in options
+    assert len(options) == 7
+
+
+def test_false_of_no_table_is_refused(extend):
+    with pytest.raises(ParameterError, match=r"options\.pendulum = False: must be a table"):
+        extend("[options]\npendulum = false")
 
 
 def test_records_name_file_field_value_unit_source_and_range(thesis_study):

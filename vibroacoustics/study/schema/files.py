@@ -23,6 +23,8 @@ _TITLE: Final[Schema] = {
 }
 _IN_PART: Final = "machine_in_part"
 _PART: Final[Schema] = {"$ref": f"#/$defs/{_IN_PART}"}
+_REMOVABLE: Final = ("options", "receivers", "sources")
+"""Tables of tables: `false` removes one that an extended study has."""
 _STEPS: Final[Schema] = {
     "type": "object",
     "additionalProperties": False,
@@ -52,6 +54,9 @@ def study_schema() -> Schema:
         ),
     }
     _with_judgements(properties["options"]["additionalProperties"])
+    for name in _REMOVABLE:
+        table = properties[name]["additionalProperties"]
+        properties[name]["additionalProperties"] = {"anyOf": [{"const": False}, table]}
     definitions["Evidence"]["properties"]["forces"] = _FILE
     scoring = definitions["Scoring"]["properties"]
     del scoring["published"]
