@@ -30,3 +30,25 @@ for window, marker in zip(at["rating_window"].values, "os", strict=True):
 axes.axvline(float(results["rating_limit"][0]), color="grey", linestyle="--")
 axes.set(yticks=rows, yticklabels=at["option"].values, xlabel="rating level, dB(A)")
 figure.legend(loc="outside lower center", ncols=2)
+
+# %%
+# A barrier before the window
+# ---------------------------
+# A fence 2 m high, 3 m from the machine, as a table of the study file (:doc:`/outdoors`):
+#
+# .. code-block:: toml
+#
+#    [radiation.surroundings.barrier]
+#    side = "+x"
+#    distance_mm = 3000.0
+#    height_mm = 2000.0
+#
+# It lowers the rating level by 15 dB. The radiation takes 4.1 s of processor time in place of
+# 1.7 s, to 250 Hz. A wall 1.5 m behind the machine, ``[radiation.surroundings.walls."-x"]``, raises
+# the level by 1.6 dB and takes 31 s.
+fence = {"side": "+x", "distance_mm": 3000.0, "height_mm": 2000.0}
+behind = va.run(study.replace({"radiation.surroundings.barrier": fence}))
+for option in ("none", "jacket"):
+    case = {"speed": 2900.0, "option": option, "rating_window": "bedroom"}
+    before, after = (one["rating_level"].sel(case).item() for one in (results, behind))
+    print(f"{option}: {before:.1f} dB(A) without the fence, {after:.1f} dB(A) behind it")

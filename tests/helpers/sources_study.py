@@ -24,6 +24,15 @@ NO_DISCREPANCY = {
     f"uncertainty.{name}_deviation_db": 0.0 for name in ("path", "source", "band", "added")
 }
 """Samples whose model is right but for the values of their ranges."""
+RATED = {
+    "rating.rules": "ta-laerm",
+    "rating.windows.office": {
+        "receiver": "left_1m", "area": "commercial", "operating_min": 30.0
+    },
+    "rating.windows.workshop": {"receiver": "left_1m", "area": "industrial"},
+    "rating.windows.bedroom": {"receiver": "front_1m", "area": "mixed"},
+}  # fmt: skip
+"""Windows, in the order of a study file; the last is the worst."""
 SOURCES_STUDY = ROOT / "tests" / "studies" / "sources_made_up.toml"
 
 
@@ -56,6 +65,11 @@ def run_made_up(study: Study, gain: float = 1.0) -> xr.Dataset:
 def sources_run() -> xr.Dataset:
     """Results of the study as it is, with made-up transfer vectors."""
     return kept("sources", lambda: run_made_up(load_study(SOURCES_STUDY)))
+
+
+def rated_run() -> xr.Dataset:
+    """Results of the study with three windows, with made-up transfer vectors."""
+    return kept("rated", lambda: run_made_up(load_study(SOURCES_STUDY).replace(RATED)))
 
 
 def nominal_run() -> xr.Dataset:

@@ -70,7 +70,7 @@ def test_options_side_by_side(study):
     assert set(inputs) == {"option.name", "option.kind", "option.share_ratio"}
     page = page_of(compared)
     assert re.findall(r'<section id="(.*?)">', page) == [
-        "verdict", "figures", "orders", "levels", "inputs", "results",
+        "verdict", "figures", "rating", "orders", "levels", "inputs", "results",
     ]  # fmt: skip
     assert "default-src &#39;none&#39;; img-src data:" in page
     assert "<script" not in page

@@ -20,5 +20,15 @@ AIR_DENSITY_KG_PER_M3: Final = 1.2
 AIR_IMPEDANCE_PA_S_PER_M: Final = AIR_DENSITY_KG_PER_M3 * SPEED_OF_SOUND_M_PER_S
 """Density times speed of sound of air, Pa s/m."""
 
+LOWEST_PROMINENT_TONE_HZ: Final = 89.1
+"""Lowest tone that ECMA-418-1 judges, Hz: lower edge of the third octave of 100 Hz (clause 1)."""
+
+LOWEST_AUDIBLE_TONE_HZ: Final = 90.0
+"""Lowest tone whose audibility is rated, Hz (DIN 45681, clause 5.3.2; ISO/PAS 20065: 50 Hz).
+
+Below it A-weighted noise rises so steeply that the mean noise line depends on chance: in white
+noise it scatters by 10 dB from one spectrum to the next.
+"""
+
 STANDARD_GRAVITY_M_PER_S2: Final = 9.80665
 """Standard acceleration of free fall, m/s² (ISO 80000-3)."""

@@ -1,10 +1,14 @@
 """Quantiles of values that count by weights."""
 
 from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 
 from .arrays import Array
+
+_ROUNDING: Final = 1e-9
+"""Relative error of a sum of weights."""
 
 
 def weighted_quantiles(values: Array, weight: Array, shares: Sequence[float]) -> Array:
@@ -19,13 +23,36 @@ def weighted_quantiles(values: Array, weight: Array, shares: Sequence[float]) ->
     weight : not below zero, shape (sample,); values of weight zero do not count
     shares : from 0 to 1
     """
-    counting = weight > 0.0
-    columns = values[counting].reshape(np.count_nonzero(counting), -1)
-    order = np.argsort(columns, axis=0)
-    sizes = weight[counting][order]
+    rising, sizes = _rising(values, weight)
     middle = np.cumsum(sizes, axis=0) - 0.5 * sizes
     middle -= middle[0].copy()
     middle /= np.where(middle[-1] > 0.0, middle[-1], 1.0)
-    rising = np.take_along_axis(columns, order, axis=0)
     rows = [np.interp(shares, at, of) for at, of in zip(middle.T, rising.T, strict=True)]
     return np.transpose(rows).reshape(len(shares), *values.shape[1:])
+
+
+def stepped_quantiles(values: Array, weight: Array, shares: Sequence[float]) -> Array:
+    """Quantiles along the first axis of values in steps, shape (share, ...); each is a value.
+
+    Least value up to which there is a share of the weight (inverted distribution function;
+    Hyndman and Fan 1996, The American Statistician 50, 361, definition 1).
+
+    Parameters
+    ----------
+    values, weight, shares : as in `weighted_quantiles`
+    """
+    rising, sizes = _rising(values, weight)
+    below = np.cumsum(sizes, axis=0)
+    rows = [
+        np.take_along_axis(rising, np.argmax(below >= part, axis=0)[None], axis=0)
+        for part in (share * (1.0 - _ROUNDING) * below[-1] for share in shares)
+    ]
+    return np.concatenate(rows).reshape(len(shares), *values.shape[1:])
+
+
+def _rising(values: Array, weight: Array) -> tuple[Array, Array]:
+    """Values that count, rising, and their weights, both of shape (sample, column)."""
+    counting = weight > 0.0
+    columns = values[counting].reshape(np.count_nonzero(counting), -1)
+    order = np.argsort(columns, axis=0)
+    return np.take_along_axis(columns, order, axis=0), weight[counting][order]

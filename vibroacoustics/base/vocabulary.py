@@ -12,11 +12,12 @@ from .registry import Registry
 
 NOMINAL: Final = "nominal"
 MEDIAN: Final = "median"
+MEDIAN_STEP: Final = "median step"
 MEAN: Final = "mean"
 REPRESENTATIVE: Final = "representative"
-STATISTICS: Final = (NOMINAL, MEDIAN, MEAN, REPRESENTATIVE)
+STATISTICS: Final = (NOMINAL, MEDIAN, MEDIAN_STEP, MEAN, REPRESENTATIVE)
 """What the value of a variable is: nominal, the median or mean of the weighted samples, or that of
-the representative sample."""
+the representative sample. Of a variable in steps, median and interval are steps themselves."""
 LOW: Final = "low"
 HIGH: Final = "high"
 SUFFIXES: Final = {LOW: "_10_percent", HIGH: "_90_percent", NOMINAL: "_nominal"}
@@ -129,7 +130,7 @@ class Variable(_Labelled):
 
     def of_samples(self) -> "list[Variable]":
         """Return the variables beside it: ends of the interval and nominal values; else none."""
-        if self.statistic not in (MEDIAN, MEAN):
+        if self.statistic not in (MEDIAN, MEDIAN_STEP, MEAN):
             return []
         return [
             Variable(

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.constants import LOWEST_AUDIBLE_TONE_HZ, LOWEST_PROMINENT_TONE_HZ
 from ..measured.recorded_tones import tones_of
 from ..report.analysis import Analysis, origin
 from ..report.blocks import Block, Bullets, Part, Text
@@ -33,6 +34,12 @@ _METHOD: Final = (
     "Audibility: ISO/PAS 20065 in spectra of 3 s, its interval holds 90 %; adjustment: "
     "ISO 1996-2:2017, table J.1.",
 )
+_BELOW_RANGE: Final = (
+    f"Not rated: tones below {LOWEST_PROMINENT_TONE_HZ:g} Hz (ECMA-418-1) and "
+    f"{LOWEST_AUDIBLE_TONE_HZ:g} Hz (audibility). That is 1× of a shaft below "
+    f"{60.0 * LOWEST_AUDIBLE_TONE_HZ:.0f} rpm, 2× below "
+    f"{30.0 * LOWEST_AUDIBLE_TONE_HZ:.0f} rpm."
+)
 
 
 def analysis_of_tones(tones: xr.Dataset) -> Analysis:
@@ -44,12 +51,12 @@ def analysis_of_tones(tones: xr.Dataset) -> Analysis:
         parts.append(Part(f"channel_{number}", name, blocks))
         shown += blocks
     needed = () if available() else (f"{NEEDED}.",)
-    parts.append(Part("method", "Method", (Bullets((*_METHOD, *needed)),)))
+    parts.append(Part("method", "Method", (Bullets((_BELOW_RANGE, *_METHOD, *needed)),)))
     return Analysis(
         "tones",
         about="Tones above the noise of their critical band, the strongest first.",
         parts=tuple(parts),
-        shown=(*shown, *map(Text, needed)),
+        shown=(*shown, Text(_BELOW_RANGE), *map(Text, needed)),
         tables={"tones.csv": _rows(tones), "audibility.csv": _over_time(tones)},
         numbers=(*_loudness(tones), *_rated(tones)),
         **origin(tones, "Recording"),
@@ -130,7 +137,7 @@ def _audibility(tones: xr.Dataset, name: str) -> str:
     return (
         f"mean audibility {rounding.level(mean_db)} ± {rounding.level(uncertainty_db)} dB in "
         f"{spectra_db.size} spectra of 3 s, most audible {rounding.fixed(hertz)} Hz: adjustment "
-        f"{adjustment_db:.0f} dB"
+        f"{adjustment_db:g} dB"
     )
 
 

@@ -29,10 +29,10 @@ class Asked:
     """
 
     path: Path
-    units: Mapping[str, str]
-    calibration: Mapping[str, float]
-    channels: Sequence[str] | None
-    sample_rate_hz: float | None
+    units: Mapping[str, str] = field(default_factory=dict)
+    calibration: Mapping[str, float] = field(default_factory=dict)
+    channels: Sequence[str] | None = None
+    sample_rate_hz: float | None = None
     names: Mapping[str, str] = field(default_factory=dict)
 
     def check(self, may_be_large: bool) -> bool:

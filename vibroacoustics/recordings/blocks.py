@@ -234,15 +234,7 @@ def recording_blocks(path: str | Path, **reading: Any) -> FileBlocks:
 
 
 def hold_recording(
-    path: str | Path,
-    *,
-    units: Mapping[str, str] | None = None,
-    calibration: Mapping[str, float] | None = None,
-    channels: Sequence[str] | None = None,
-    sample_rate_hz: float | None = None,
-    from_s: float | None = None,
-    to_s: float | None = None,
-    names: Mapping[str, str] | None = None,
+    path: str | Path, *, from_s: float | None = None, to_s: float | None = None, **reading: Any
 ) -> FileBlocks:
     """Read a recording as the file stores it and convert each block when it is asked for.
 
@@ -251,8 +243,7 @@ def hold_recording(
 
     Parameters
     ----------
-    path, units, calibration, channels, sample_rate_hz, from_s, to_s, names : as in
-        `read_recording`
+    path, from_s, to_s, reading : as in `read_recording`
 
     Raises
     ------
@@ -264,13 +255,11 @@ def hold_recording(
     RecordingWarning
         See `read_recording`.
     """
-    wanted = Asked(
-        Path(path), units or {}, calibration or {}, channels, sample_rate_hz, names or {}
-    )
+    wanted = Asked(Path(path), **reading)
     with naming_file(wanted.path):
         check_part(from_s, to_s)
         is_part = from_s is not None or to_s is not None
-        is_large = wanted.check(may_be_large=is_part or channels is not None)
+        is_large = wanted.check(may_be_large=is_part or wanted.channels is not None)
         part = {"from_s": from_s, "to_s": to_s, "hashed": not is_large, "as_stored": True}
         header, stored = wanted.read(part)
         check_rate(header["sample_rate_hz"])

@@ -149,7 +149,7 @@ def _audibility(sheet: DataSheet) -> tuple[Text, ...]:
     return (
         Text(
             f"Largest audibility of a tone (ISO/PAS 20065): {rounding.fixed(sheet.audibility_db)} "
-            f"dB; adjustment {rounding.fixed(sheet.tonal_adjustment_db, 0)} dB (ISO 1996-2)."
+            f"dB; adjustment {sheet.tonal_adjustment_db:g} dB (ISO 1996-2)."
         ),
     )
 
@@ -162,7 +162,7 @@ def _windows(sheet: DataSheet) -> tuple[Table, ...]:
             f"{rounding.fixed(rated.rating_level_dba)} "
             f"({rounding.fixed(rated.rating_level_low_dba)} to "
             f"{rounding.fixed(rated.rating_level_high_dba)})",
-            rounding.fixed(rated.adjustment_db, 0),
+            f"{rated.adjustment_db:g}",
             f"{rated.limit_dba:g}",
             f"{100.0 * rated.limit_probability:.0f} %",
         )

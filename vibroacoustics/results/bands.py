@@ -8,6 +8,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..base.decibel import power_of_level
+from ..base.vocabulary import MEDIAN_STEP, VARIABLES
 from . import number as numbers
 from .estimates import Estimate, effective_samples, estimate, is_sampled
 from .number import Number
@@ -72,7 +73,7 @@ def band(results: xr.Dataset, name: str, **labels: Any) -> Band:
     """
     selection = {"weighting": "A", "receiver": catalogue_receiver(results), **labels}
     value = estimate(results, name, **selection)
-    if not is_sampled(results, name):
+    if not is_sampled(results, name) or VARIABLES[name].statistic == MEDIAN_STEP:
         return Band(*value)
     is_level = name.startswith(("level", "change", "source_level", "residual", "rating_level"))
     return written(value, effective_samples(results), FINEST_DB if is_level else None)

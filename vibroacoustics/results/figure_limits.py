@@ -12,7 +12,9 @@ from ..base.decibel import level_of_amplitude
 from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..recordings.quantities import quantity
-from .estimates import in_samples, is_sampled
+from ..study.criterion import CRITERIA, label_and_unit
+from .criterion_values import criterion_values
+from .estimates import in_samples, is_sampled, sample_weights
 from .figure_limit import HIGHEST, WEIGHTED, FigureLimit
 from .limit import EVERY_CHANNEL, PRESSURE_UNIT
 from .order_comparison import ORDER_TOLERANCE, channel_units, listed
@@ -29,7 +31,8 @@ class CheckedFigure(NamedTuple):
     result, figure, speed_rpm : which; the speed is not a number where the figure is of all
     value, limit, unit, side, margin : beside the limit
     origin : file and line of the limit
-    probability : that the limit holds, of a total of a study with samples; else not a number
+    probability : that the limit holds, of a total or a criterion of a study with samples; else not
+        a number
     """
 
     result: str
@@ -96,7 +99,9 @@ def _checked(compared: Compared, limit: FigureLimit) -> list[CheckedFigure]:
         if np.isfinite(value) and _holds(limit, speed)
     ]  # fmt: skip
     if not rows:
-        raise ParameterError(f"{limit.origin}: {limit.subject}: neither result has such a figure")
+        raise ParameterError(
+            f"{limit.origin}: {limit.subject}: neither result has such a figure{_lacking(limit)}"
+        )
     return rows
 
 
@@ -181,8 +186,7 @@ def _of_study(result: xr.Dataset, option: str, channel: str, limit: FigureLimit)
     if weighting == "A" and is_sampled(result, "level_total"):
         total = in_samples(result, "level_total")
         rows = total.values.sel(option=option, receiver=receiver).values
-        holds = rows <= limit.limit if limit.side == HIGHEST else rows >= limit.limit
-        chances = np.asarray(total.weight @ holds)
+        chances = _chances(limit, rows, total.weight)
     yield from _by_speed(subject, of_option["speed"].values, of_option.values, chances)
 
 
@@ -206,12 +210,45 @@ def _by_speed(subject: str, speeds: Array, values: Array, chances: Array | None 
 
 
 def _criterion(result: xr.Dataset, option: str, limit: FigureLimit) -> Values:
-    if "criterion_value" not in result or limit.criterion not in result["criterion"].values:
+    """Value of a criterion that the results give, whether the study scores it or not."""
+    name = limit.criterion
+    if name in CRITERIA:
+        yield from _computed(result, option, limit)
+    elif "criterion_value" in result and name in result["criterion"].values:
+        value = result["criterion_value"].sel(criterion=name, option=option)
+        _check_unit(limit, str(value["criterion_unit"].item()))
+        yield limit.subject, _UNKNOWN, float(value), _UNKNOWN
+
+
+def _computed(result: xr.Dataset, option: str, limit: FigureLimit) -> Values:
+    """Value of a registered criterion; nothing of results that lack what it needs."""
+    name = limit.criterion
+    try:
+        with CRITERIA.fenced(name, ParameterError):
+            computed = criterion_values(result, name)
+    except ParameterError:
         return
-    value = result["criterion_value"].sel(criterion=limit.criterion, option=option)
-    unit = str(value["criterion_unit"].item())
+    _check_unit(limit, label_and_unit(name, unit=CRITERIA[name].unit)[1])
+    row, chance = result["option"].values.tolist().index(option), _UNKNOWN
+    if computed.by_sample is not None:
+        chance = float(_chances(limit, computed.by_sample[:, row], sample_weights(result)))
+    yield limit.subject, _UNKNOWN, float(computed.values[row]), chance
+
+
+def _chances(limit: FigureLimit, by_sample: Array, weight: Array) -> Array:
+    """Weight of the samples, shape (sample, ...), in which a limit holds."""
+    holds = by_sample <= limit.limit if limit.side == HIGHEST else by_sample >= limit.limit
+    return np.asarray(weight @ holds)
+
+
+def _check_unit(limit: FigureLimit, unit: str) -> None:
     if unit != limit.unit:
         raise ParameterError(
             f"{limit.origin}: unit = {limit.unit!r}: criterion {limit.criterion} is in {unit}"
         )
-    yield limit.subject, _UNKNOWN, float(value), _UNKNOWN
+
+
+def _lacking(limit: FigureLimit) -> str:
+    """Say what a study needs for a criterion; nothing where it needs nothing."""
+    criterion = CRITERIA.get(limit.criterion)
+    return f"; it {criterion().needed}" if criterion and criterion.table else ""

@@ -2,15 +2,12 @@
 
 from typing import NamedTuple
 
-import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from ..base.quantiles import weighted_quantiles
-from ..base.units import split_key
-from ..results.estimates import has_samples, sample_weights
-from ..study.criterion import CRITERIA
+from ..results.criterion_values import criterion_values, options_without
+from ..study.criterion import CRITERIA, label_and_unit
 from ..study.scoring import CriterionScale, Scoring
 
 
@@ -55,33 +52,8 @@ def scored_criteria(results: xr.Dataset, settings: Scoring) -> list[Scored]:
 
 
 def _computed(name: str, results: xr.Dataset) -> Scored:
-    criterion = CRITERIA[name]()
-    try:
-        values = criterion.value(results)
-    except KeyError as error:
-        raise ParameterError(f"criterion {name}: not in the results: {error}") from None
-    if values.dims != ("option",):
-        raise ParameterError(f"criterion {name}: has dims {values.dims}, must have ('option',)")
-    for option in _options_without(values):
-        raise ParameterError(f"criterion {name}: has no finite value for the option {option}")
-    scored = _worded(name, criterion.label, criterion.unit, values)
-    sampled = criterion.by_sample(results) if has_samples(results) else None
-    if sampled is None:
-        return scored
-    weight = sample_weights(results)
-    by_sample = _of_samples(name, sampled)
-    (median,) = weighted_quantiles(by_sample, weight, [0.5])
-    return scored._replace(values=median, by_sample=by_sample)
-
-
-def _of_samples(name: str, sampled: xr.DataArray) -> Array:
-    """Values in each sample, (sample, option)."""
-    if set(sampled.dims) != {"sample", "option"}:
-        raise ParameterError(f"criterion {name}: by sample has dims {sampled.dims}")
-    values = np.asarray(sampled.transpose("sample", "option").values)
-    if not np.isfinite(values).all():
-        raise ParameterError(f"criterion {name}: by sample has values that are not finite")
-    return values
+    criterion, computed = CRITERIA[name], criterion_values(results, name)
+    return Scored(name, *label_and_unit(name, criterion.label, criterion.unit), *computed)
 
 
 def _given(name: str, scale: CriterionScale, results: xr.Dataset) -> Scored:
@@ -89,23 +61,12 @@ def _given(name: str, scale: CriterionScale, results: xr.Dataset) -> Scored:
     if name not in known:
         raise ParameterError(f"criterion {name}: {CRITERIA.unknown(name, known)}")
     values = results["given_value"].sel(given_criterion=name)
-    for option in _options_without(values):
+    for option in options_without(values):
         raise ParameterError(f"options.{option}.given.{name}: is missing in the results")
-    return _worded(name, scale.label, scale.unit, values)
+    return Scored(name, *label_and_unit(name, scale.label, scale.unit), values.values)
 
 
 def _given_names(results: xr.Dataset) -> list[str]:
     if "given_value" not in results:
         return []
     return [str(name) for name in results["given_criterion"].values]
-
-
-def _options_without(values: xr.DataArray) -> list[str]:
-    return [str(option) for option in values["option"].values[~np.isfinite(values.values)]]
-
-
-def _worded(name: str, label: str, unit: str, values: xr.DataArray) -> Scored:
-    """With words and unit from the name where there are no others."""
-    stem, suffix = split_key(name)
-    words = label or stem.replace("_", " ").capitalize()
-    return Scored(name, words, unit or (suffix.symbol if suffix else ""), values.values)

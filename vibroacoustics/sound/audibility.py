@@ -14,12 +14,6 @@ from ..levels.rating import stepped_adjustment_db
 from ..study.rating_rules.iso_1996_2 import ISO_1996_2
 from .critical_bands import critical_bandwidth
 
-LOWEST_HZ: Final = 90.0
-"""Lowest frequency of a tone (DIN 45681, clause 5.3.2; ISO/PAS 20065: 50 Hz).
-
-Below it A-weighted noise rises so steeply that the mean noise line depends on chance: in white
-noise it scatters by 10 dB from one spectrum to the next.
-"""
 NO_TONE_AUDIBILITY_DB: Final = -10.0
 """Audibility of a spectrum without an audible tone (equation 21)."""
 TONE_MARGIN_DB: Final = 6.0

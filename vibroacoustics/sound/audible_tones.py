@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..base.arrays import Array, IndexArray
+from ..base.constants import LOWEST_AUDIBLE_TONE_HZ
 from ..base.decibel import (
     energy_sum,
     level_of_power,
     power_of_level,
 )
 from .audibility import (
-    LOWEST_HZ,
     RESOLVED_BELOW_HZ,
     TONE_MARGIN_DB,
     audibility_db,
@@ -141,7 +141,9 @@ def _peaks(level_db: Array, frequency_hz: Array) -> list[_Peak]:
     before, after = level_db[:-2], level_db[2:]
     is_peak = (level_db[1:-1] >= before) & (level_db[1:-1] >= after)
     maximum = 1 + np.flatnonzero(is_peak)
-    maximum = maximum[(frequency_hz[maximum] >= LOWEST_HZ) & (frequency_hz[maximum] <= highest)]
+    maximum = maximum[
+        (frequency_hz[maximum] >= LOWEST_AUDIBLE_TONE_HZ) & (frequency_hz[maximum] <= highest)
+    ]
     if not maximum.size:
         return []
     mean_db, is_noise, line = mean_noise_lines(level_db, frequency_hz, maximum)

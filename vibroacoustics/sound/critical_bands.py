@@ -8,9 +8,8 @@ from ..base.arrays import Array
 
 Frequency = TypeVar("Frequency", float, Array)
 
-LOWEST_TONE_HZ: Final = 89.1
 HIGHEST_TONE_HZ: Final = 11220.0
-"""Between them tones are judged: the third octaves of 100 Hz to 10 kHz (ECMA-418-1, clause 1)."""
+"""Highest tone that is judged: upper edge of the third octave of 10 kHz (ECMA-418-1, clause 1)."""
 CUT_BELOW_HZ: Final = 171.4
 """Of tones below, the critical band underneath is cut at 20 Hz."""
 _LOWER: Final = ((171.4, 20.0, 0.0, 0.0), (1600.0, -149.5, 1.001, -6.9e-5))

@@ -7,12 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..base.arrays import Array
-from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.constants import LOWEST_AUDIBLE_TONE_HZ, REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_power, mean_square_level, power_of_level
 from ..levels.by_source import weighting_power
 from ..levels.hearing import hearing_threshold_db
 from .audibility import (
-    LOWEST_HZ,
     NO_TONE_AUDIBILITY_DB,
     RESOLVED_BELOW_HZ,
     TONE_MARGIN_DB,
@@ -188,7 +187,7 @@ def _joined(lines: Array, masking: Array, tone_db: Array, bands: _Bands) -> Arra
 @lru_cache(maxsize=64)
 def _bands(frequency_hz: tuple[float, ...], centre_hz: tuple[float, ...]) -> _Bands:
     every, centre = np.array(frequency_hz), np.array(centre_hz)
-    number = np.flatnonzero((every >= LOWEST_HZ) & (every <= HIGHEST_HZ))
+    number = np.flatnonzero((every >= LOWEST_AUDIBLE_TONE_HZ) & (every <= HIGHEST_HZ))
     hertz = every[number]
     lower, upper = critical_edges_hz(hertz)
     distance = np.abs(hertz[:, None] - hertz)

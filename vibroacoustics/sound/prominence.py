@@ -7,13 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..base.arrays import Array
-from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.constants import LOWEST_PROMINENT_TONE_HZ, REFERENCE_PRESSURE_PA
 from ..base.decibel import NO_TONE_DB, SILENCE_DB, level_of_power, mean_square_level
 from ..levels.hearing import hearing_threshold_db
 from .critical_bands import (
     CUT_BELOW_HZ,
     HIGHEST_TONE_HZ,
-    LOWEST_TONE_HZ,
     Edges,
     band_above,
     band_below,
@@ -50,7 +49,7 @@ class _Bands(NamedTuple):
 
     Attributes
     ----------
-    number : of the lines between `LOWEST_TONE_HZ` and `HIGHEST_TONE_HZ`, shape (tone,)
+    number : of the lines between `LOWEST_PROMINENT_TONE_HZ` and `HIGHEST_TONE_HZ`, shape (tone,)
     belongs : whether a weaker tone belongs to a stronger one, shape (stronger, weaker)
     line : 1 for a line in the critical band, and those below and above, shape (3, line, tone)
     noise : part of a third octave in these bands, shape (3, band, tone)
@@ -131,7 +130,7 @@ def belonging(frequency_hz: Array) -> NDArray[np.bool_]:
 @lru_cache(maxsize=16)
 def _bands(frequency_hz: tuple[float, ...], centre_hz: tuple[float, ...]) -> _Bands:
     hertz, centre = np.array(frequency_hz), np.array(centre_hz)
-    number = np.flatnonzero((hertz >= LOWEST_TONE_HZ) & (hertz <= HIGHEST_TONE_HZ))
+    number = np.flatnonzero((hertz >= LOWEST_PROMINENT_TONE_HZ) & (hertz <= HIGHEST_TONE_HZ))
     tones = hertz[number].tolist()
     edges = np.array([_edges(tone_hz) for tone_hz in tones]).reshape(-1, 3, 2).transpose(1, 2, 0)
     cut = np.ones((3, 1, len(tones)))

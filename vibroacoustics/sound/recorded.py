@@ -8,9 +8,10 @@ import scipy  # loads its subpackages when they are needed
 from numpy.typing import NDArray
 
 from ..base.arrays import Array, IndexArray
+from ..base.constants import LOWEST_PROMINENT_TONE_HZ
 from ..base.decibel import level_of_power
 from ..base.errors import ParameterError
-from .critical_bands import HIGHEST_TONE_HZ, LOWEST_TONE_HZ, critical_band, critical_bandwidth
+from .critical_bands import HIGHEST_TONE_HZ, critical_band, critical_bandwidth
 from .tonality import TonalSpectrum
 
 SEGMENT_S: Final = 4.0
@@ -206,7 +207,9 @@ def _lines_with_power(square: Array) -> int:
 def _median(hertz: Array, square: Array) -> Array:
     """Median of the critical band about each line; none where tones are not judged."""
     highest = min(HIGHEST_TONE_HZ, float(hertz[-1]))
-    centres = np.geomspace(LOWEST_TONE_HZ, max(highest, 1.1 * LOWEST_TONE_HZ), 100)
+    centres = np.geomspace(
+        LOWEST_PROMINENT_TONE_HZ, max(highest, 1.1 * LOWEST_PROMINENT_TONE_HZ), 100
+    )
     medians = []
     for centre in centres:
         start, end = np.searchsorted(hertz, critical_band(float(centre)))

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.arrays import Array
-from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.constants import LOWEST_PROMINENT_TONE_HZ, REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_power, mean_square_level
 from ..levels.hearing import hearing_threshold_db
 from .critical_bands import (
     CUT_BELOW_HZ,
     HIGHEST_TONE_HZ,
-    LOWEST_TONE_HZ,
     Edges,
     band_above,
     band_below,
@@ -147,7 +146,7 @@ def tones(spectrum: TonalSpectrum) -> list[Tone]:
     spectrum : of `tonal_spectrum` or `recorded_spectrum`
     """
     hertz = spectrum.frequency_hz
-    judged = np.flatnonzero((hertz >= LOWEST_TONE_HZ) & (hertz <= HIGHEST_TONE_HZ))
+    judged = np.flatnonzero((hertz >= LOWEST_PROMINENT_TONE_HZ) & (hertz <= HIGHEST_TONE_HZ))
     square = spectrum.mean_square[judged]
     (together,) = strongest(square[None], belonging(hertz[judged]))
     loudest_first = np.argsort(-square, kind="stable")

@@ -12,6 +12,7 @@ from ..machine.frame import Frame
 from ..machine.option import Option
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.stopping import Stopping, TurningBack
+from .criterion import CRITERIA
 from .scoring import check_given, check_scales
 from .tables import StudyTables
 
@@ -38,7 +39,7 @@ def check_consistent(study: StudyTables) -> None:
     _raise_all(partial(_check_fits, study, name, one) for name, one in study.options.items())
     checks = (
         _check_catalogue, _check_orders, _check_sources, _check_sound_power, _check_room,
-        _check_spectrum, _check_rating,
+        _check_spectrum, _check_rating, _check_criteria,
     )  # fmt: skip
     _raise_all(
         (
@@ -150,6 +151,24 @@ def _check_rating(study: StudyTables) -> None:
         f"({', '.join(study.receivers)})"
         for name, window in windows.items()
         if window.receiver not in study.receivers
+    ]
+    if problems:
+        raise ValueError(*problems)
+
+
+def _check_criteria(study: StudyTables) -> None:
+    """Refuse criteria, objectives and constraints that need a table which the study lacks."""
+    named = {f"scoring.criteria.{name}": name for name in study.scoring.criteria}
+    if study.design is not None:
+        for table in ("objectives", "constraints"):
+            for key, wanted in getattr(study.design, table).items():
+                named[f"design.{table}.{key}.figure = {wanted.figure}"] = wanted.figure
+    problems = [
+        f"{where}: {criterion().needed}"
+        for where, name in named.items()
+        if (criterion := CRITERIA.get(name))
+        and criterion.table
+        and getattr(study, criterion.table, None) is None
     ]
     if problems:
         raise ValueError(*problems)

@@ -8,11 +8,12 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.quantiles import weighted_quantiles
+from ..base.quantiles import stepped_quantiles, weighted_quantiles
 from ..base.vocabulary import (
     HIGH,
     LOW,
     MEAN,
+    MEDIAN_STEP,
     REFERENCE_OPTION,
     SUFFIXES,
     VARIABLES,
@@ -32,6 +33,8 @@ from .evidence import PAIRS, Pairs
 
 _KEPT: Final = ("source_level", "level_modelled", "level_total", "level_unmodelled")
 """Levels that are kept by sample, the A-weighted ones."""
+_RATED: Final = ("decisive_audibility", "rating_level")
+"""Kept by sample where the study has them."""
 _LARGE: Final = frozenset({
     "order_level", "order_change", "source_band_level", "noise_band_level", "unmodelled_band_level",
     "total_band_level", "sources_band_level", "tone_level", "tone_excess",
@@ -93,9 +96,9 @@ class Weighted:
         values : shape (row, ...)
         coords : of its dimensions
         """
-        low, middle, high = weighted_quantiles(
-            values, self.weight, (QUANTILES[0], 0.5, QUANTILES[1])
-        )
+        is_stepped = VARIABLES[name].statistic == MEDIAN_STEP
+        quantiles = stepped_quantiles if is_stepped else weighted_quantiles
+        low, middle, high = quantiles(values, self.weight, (QUANTILES[0], 0.5, QUANTILES[1]))
         if VARIABLES[name].statistic == MEAN:
             counting = self.weight > 0.0
             middle = np.tensordot(self.weight[counting], values[counting], axes=1)
@@ -195,7 +198,7 @@ def _by_sample(
     a = WEIGHTINGS.index("A")
     kept = {
         f"{name}_by_sample": levels[name][..., a] if name == "level_modelled" else levels[name]
-        for name in _KEPT
+        for name in (*_KEPT, *(name for name in _RATED if name in levels))
     }
     repeated = np.repeat(_first_order(forces), PAIRS, axis=1)
     kept |= {f"{name}_1x_by_sample": array for name, array in zip(FORCES, repeated, strict=True)}

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vibroacoustics.base.quantiles import weighted_quantiles
+from vibroacoustics.base.quantiles import stepped_quantiles, weighted_quantiles
 
 SHARES = (0.0, 0.1, 0.5, 0.9, 1.0)
 
@@ -27,3 +27,16 @@ def test_weights_pull_and_zeros_do_not_count():
 
 def test_one_value_is_all_quantiles():
     assert weighted_quantiles(np.array([4.0]), np.ones(1), SHARES).tolist() == [4.0] * 5
+
+
+def test_stepped_quantiles_are_values_themselves():
+    """Those of numpy's inverted distribution function; a median between two steps is the lower."""
+    steps = np.random.default_rng(2).choice([0.0, 3.0, 6.0], size=(10, 4))
+    found = stepped_quantiles(steps, np.full(10, 0.1), SHARES)
+    assert found.tolist() == np.quantile(steps, SHARES, axis=0, method="inverted_cdf").tolist()
+    weight = np.array([0.5, 0.5, 0.0])
+    assert weighted_quantiles(np.array([3.0, 6.0, 9.0]), weight, [0.5]).tolist() == [4.5]
+    assert stepped_quantiles(np.array([3.0, 6.0, 9.0]), weight, [0.5]).tolist() == [3.0]
+    assert stepped_quantiles(np.array([3.0, 6.0]), np.array([0.4, 0.6]), [0.4, 0.41]).tolist() == [
+        3.0, 6.0,
+    ]  # fmt: skip

@@ -2,12 +2,15 @@
 
 import numpy as np
 import pytest
+from sources_study import rated_run
 from support import tiny_run
 
 from vibroacoustics import FigureLimit, compare, read_figure_limits
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.report import broken_lines
+from vibroacoustics.report.compared.ratings import ratings_sentences
 from vibroacoustics.results.figure_limits import Compared, check_figures
+from vibroacoustics.results.rating_changes import rating_changes
 
 MICROPHONE = "pressure front_1m"
 
@@ -41,6 +44,43 @@ def test_criterion_of_each_option(compared):
     assert line.endswith("N (limit)")
 
 
+def test_criteria_that_no_study_scores_have_probabilities():
+    study = rated_run()
+    compared = Compared(compare(study, study, other_option="counterweight-half"), study, study)
+    for name, unit, variable, dim in (
+        ("rating_level_dba", "dB(A)", "rating_level", "rating_window"),
+        ("audibility_db", "dB", "decisive_audibility", "receiver"),
+    ):
+        assert name not in study["criterion"].values
+        worst = study[f"{variable}_by_sample"].max([dim, "speed"]).sel(option="none")
+        limit = float(np.quantile(worst, 0.6))
+        row = rows_of(compared, FigureLimit(limit, unit, criterion=name))["A"]
+        weight = study["sample_weight"].values[0]
+        assert row.probability == pytest.approx(float(weight @ (worst.values <= limit)))
+        assert row.is_within == (row.probability >= 0.5)
+
+
+def test_tones_and_rating_levels_of_both():
+    study = rated_run()
+    compared = Compared(compare(study, study, other_option="counterweight-half"), study, study)
+    rows = {one[:2]: one for one in rating_changes(compared, [2900.0])}
+    level = rows["rating_level", "bedroom"]
+    by_sample = study["rating_level_by_sample"].sel(rating_window="bedroom", speed=2900.0)
+    change = by_sample.sel(option="counterweight-half") - by_sample.sel(option="none")
+    assert level.change.low <= level.change.value <= level.change.high
+    assert change.min() <= level.change.low
+    assert level.change.high <= change.max()
+    steps = {rows["rating_adjustment", "bedroom"].first.value, rows["tonal_adjustment",
+             "front_1m"].second.value}  # fmt: skip
+    assert steps <= set(range(7))
+    chance = rows["limit_probability", "bedroom"]
+    expected = study["limit_probability"].sel(rating_window="bedroom", speed=2900.0)
+    assert chance.second.value == expected.sel(option="counterweight-half").item()
+    sentence = ratings_sentences(list(rows.values()))[-1]
+    assert sentence.startswith("The rating level at bedroom, 2900 rpm, changes by ")
+    assert "limit 45 dB(A) met with " in sentence
+
+
 def test_lowest_order_in_another_unit(compared):
     rms = abs(compared.orders["channel_order"].sel(channel="velocity tx", order=1.0).item())
     limit = FigureLimit(1e3 * rms / np.sqrt(2.0), "mm/s", "velocity tx", order=1.0, side="lowest")
@@ -64,6 +104,10 @@ def test_band_of_the_machine(compared):
         (FigureLimit(1.0, "m/s", "force x", order=1.0), "channel = 'force x', in m/s"),
         (FigureLimit(1.0, "dB", MICROPHONE, band_hz=51.0), "neither result has such a figure"),
         (FigureLimit(1.0, "N", criterion="force"), "neither result has such a figure"),
+        (
+            FigureLimit(40.0, "dB(A)", criterion="rating_level_dba"),
+            r"neither result has such a figure; it needs the table \[rating\] in the study",
+        ),
         (FigureLimit(1.0, "kg", criterion="foot_force_1x_n"), "unit = 'kg'"),
     ],
 )

@@ -43,6 +43,7 @@ from .orders import (
     orders_table,
     summary,
 )
+from .ratings import ratings_data, ratings_sentences, ratings_table, shown_changes
 from .studies import inputs_table, key_figures
 from .validation import is_study, levels_tables, validations_of
 
@@ -61,10 +62,15 @@ def analysis_of_comparison(compared: Compared, figures: Sequence[CheckedFigure])
     orders, validations = compared.orders, validations_of(compared)
     of_studies = is_study(compared.first) and is_study(compared.second)
     inputs, key = (inputs_table(compared), key_figures(compared)) if of_studies else (None, None)
+    rated = shown_changes(compared)
+    ratings, sentences = ratings_table(rated), list(map(Text, ratings_sentences(rated)))
     parts = (
-        _part("verdict", "What comes out", *_verdict(compared, figures, validations)),
+        _part(
+            "verdict", "What comes out", *_verdict(compared, figures, validations), *sentences[:1]
+        ),
         _part("limits", "Limits", *limit_blocks(orders, figures)),
         _part("figures", "Key figures", key),
+        _part("rating", "Tones and rating level", *sentences, ratings),
         *over_speed_parts(compared),
         _part("validation", "Validation", *_validation(validations)),
         _part("orders", "Orders", *_orders(orders)),
@@ -78,6 +84,9 @@ def analysis_of_comparison(compared: Compared, figures: Sequence[CheckedFigure])
     if "order_limit" in orders:
         tables["compared_orders_limits.csv"] = limits_data(orders)
         shown += [order_limits_table(orders), *map(Text, limits_words(orders))]
+    if ratings is not None:
+        tables["compared_rating.csv"] = ratings_data(rated)
+        shown += [ratings, *sentences]
     if figures:
         tables["compared_figures_limits.csv"] = figure_limits_data(figures)
     return Analysis(

@@ -11,6 +11,7 @@ from ...results.bands import band
 from ...results.estimates import has_samples, interval
 from ...results.stored_study import nearest_speed, options, parameters
 from ..blocks import Block, Text
+from ..quantities import NO_BREAK
 from ..tables import DataTable, Table, long_table
 from . import Section, hold
 
@@ -23,33 +24,54 @@ def windows(results: xr.Dataset) -> list[str]:
     return [str(name) for name in results["rating_window"].values]
 
 
-def rating_sentence(results: xr.Dataset, window: str) -> str:
-    """Say the rating level at a window, its limit, and which tone decides."""
+def worst_window(results: xr.Dataset) -> str:
+    """Return the window whose limit is least likely to be met; of equal ones the loudest."""
+    here = results.sel(speed=nearest_speed(results), option=REFERENCE_OPTION)
+    excess = here["rating_level"] - here["rating_limit"]
+
+    def probability_and_margin(window: str) -> tuple[float, float]:
+        case = {"rating_window": window}
+        return float(here["limit_probability"].sel(case)), -float(excess.sel(case))
+
+    return min(windows(results), key=probability_and_margin)
+
+
+def rating_sentence(results: xr.Dataset, window: str, among: str = "") -> str:
+    """Say the rating level at a window, its limit, and which tone decides.
+
+    Parameters
+    ----------
+    results : of a run
+    window : name
+    among : words that set the window beside others
+    """
     speed, period = nearest_speed(results), _window(results, window)["period"]
     case = {"speed": speed, "option": REFERENCE_OPTION, "rating_window": window}
     level = band(results, "rating_level", **case).middle_text(rounding.level)
     limit = results["rating_limit"].sel(rating_window=window).item()
     return (
-        f"{level} dB(A) rating level at {window}, limit {limit:g} {_PERIOD[period]}: "
+        f"{level} dB(A) rating level at {window}{among}, limit {limit:g} {_PERIOD[period]}: "
         f"{_verdict(results, case)}{_tone_words(results, window)}."
     )
 
 
 def rating_table(results: xr.Dataset, window: str) -> Table:
-    """Return rating level, adjustment and probability of every option, the quietest first."""
+    """Return probability, rating level and adjustment of every option, the likeliest first."""
     speed = nearest_speed(results)
     rows = []
     for option in ranked(results, window):
         case = {"speed": speed, "option": option, "rating_window": window}
         rows.append((
             option,
+            _chance(results, case),
             band(results, "rating_level", **case).middle_and_ends(rounding.level),
-            band(results, "rating_adjustment", **case).middle_and_ends(rounding.fixed),
+            band(results, "rating_adjustment", **case).middle_and_ends(_step),
             decisive_tone(results, window, option) or "none",
-            _verdict(results, case),
         ))  # fmt: skip
-    head = ("Option", "Rating level, dB(A)", "Adjustment, dB", "Decisive tone", "Limit")
-    return Table(f"{window}, {speed:g} rpm", head, tuple(rows), frozenset({0, 3, 4}))
+    head = ("Option", "Met", "L_r, dB(A)", "K_T, dB", "Tone")
+    limit = results["rating_limit"].sel(rating_window=window).item()
+    caption = f"{window}, {speed:g} rpm, limit {limit:g} dB(A)"
+    return Table(caption, head, tuple(rows), frozenset({0, 4}))
 
 
 def ranked(results: xr.Dataset, window: str) -> list[str]:
@@ -85,15 +107,27 @@ def _tone_words(results: xr.Dataset, window: str) -> str:
     name = decisive_tone(results, window, REFERENCE_OPTION)
     if not name:
         return "; no tone adds to it"
-    added = rounding.fixed(results["rating_adjustment"].sel(case).item(), 0)
+    added = band(results, "rating_adjustment", **case).middle_text(_step)
     return f"; the {name} tone adds {added} dB"
 
 
+def _step(adjustment_db: float) -> str:
+    return f"{adjustment_db:g}"
+
+
 def _verdict(results: xr.Dataset, case: dict[str, Any]) -> str:
+    chance = _chance(results, case)
+    if not has_samples(results):
+        return "met" if chance == "yes" else "exceeded"
+    return f"met with {chance} probability"
+
+
+def _chance(results: xr.Dataset, case: dict[str, Any]) -> str:
+    """Probability of meeting the limit; yes or no without samples."""
     share = results["limit_probability"].sel(case).item()
     if not has_samples(results):
-        return "met" if share > 0.0 else "exceeded"
-    return f"met with {100.0 * share:.0f} % probability"
+        return "yes" if share > 0.0 else "no"
+    return f"{100.0 * share:.0f}{NO_BREAK}%"
 
 
 def _window(results: xr.Dataset, name: str) -> dict[str, str]:
@@ -109,9 +143,10 @@ def _rules_words(results: xr.Dataset) -> str:
         else ""
     )
     return (
-        f"Rules: {rules}.{assumed} The machine runs at one speed in the whole operating time. "
-        "The correction for the weather and other sources are neglected. Levels are not rounded. "
-        "Other speeds are in rating.csv."
+        f"Rules: {rules}.{assumed} L_r: rating level; K_T: adjustment in it for the most audible "
+        "tone. The option likeliest to meet the limit comes first. The machine runs at one speed "
+        "in the whole operating time. The correction for the weather and other sources are "
+        "neglected. Levels are not rounded. Other speeds are in rating.csv."
     )
 
 

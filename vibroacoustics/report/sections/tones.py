@@ -7,14 +7,16 @@ from typing import Any, Final
 import xarray as xr
 
 from ...base import rounding
+from ...base.constants import LOWEST_AUDIBLE_TONE_HZ, LOWEST_PROMINENT_TONE_HZ
 from ...base.registry import register
+from ...base.units import shaft_frequency_hz
 from ...results.estimates import Estimate, estimate, is_sampled
 from ...results.prominent_tones import ProminentTone, listed_tones, nearest_tone
 from ...results.stored_study import catalogue_receiver, nearest_speed, options, speeds
 from ..blocks import Block, Text
 from ..shown_speeds import few_speeds
 from ..tables import DataTable, Table, columns_of
-from . import Section, hold
+from . import Section, hold, text
 
 MOST_NAMES: Final = 3
 HEAD: Final = ("Option", "Prominent", "Tone", "Hz", "dB", "excess, dB")
@@ -89,9 +91,8 @@ def _audibility(results: xr.Dataset, case: dict[str, Any]) -> tuple[str, ...]:
     if AUDIBILITY not in results:
         return ()
     texts = []
-    for variable, decimals in ((AUDIBILITY, 1), ("tonal_adjustment", 0)):
-        estimated = estimate(results, variable, **case)
-        low, value, high = (rounding.fixed(part, decimals) for part in estimated)
+    for variable, write in ((AUDIBILITY, rounding.fixed), ("tonal_adjustment", "{:g}".format)):
+        low, value, high = map(write, estimate(results, variable, **case))
         texts.append(value if low == high else f"{value} ({low} to {high})")
     return tuple(texts)
 
@@ -141,7 +142,20 @@ _LOUDNESS = "Loudness: ISO 532-1 (sone); sharpness: DIN 45692 (acum)."
 def _blocks(results: xr.Dataset) -> list[Block]:
     samples = " in more than half of the samples" if is_sampled(results, "tone_excess") else ""
     loudness = _LOUDNESS if "loudness" in results else NO_LOUDNESS
-    return [tone_table(results), Text(_HOW.format(samples=samples, loudness=loudness), "note")]
+    how = Text(_HOW.format(samples=samples, loudness=loudness), "note")
+    return [tone_table(results), *text(orders_below_range(nearest_speed(results))), how]
+
+
+def orders_below_range(speed_rpm: float) -> str:
+    """Say which orders of a shaft are below the range of both methods; empty where none is."""
+    highest = math.ceil(LOWEST_AUDIBLE_TONE_HZ / shaft_frequency_hz(speed_rpm)) - 1
+    if not highest:
+        return ""
+    orders = "1× is" if highest == 1 else f"1× to {highest}× are"
+    return (
+        f"At {speed_rpm:g} rpm {orders} not rated: tones below {LOWEST_PROMINENT_TONE_HZ:g} Hz "
+        f"(ECMA-418-1) or {LOWEST_AUDIBLE_TONE_HZ:g} Hz (audibility) are outside of the methods."
+    )
 
 
 _applies = hold("pressure_line", "noise_band_level", "tone_excess")

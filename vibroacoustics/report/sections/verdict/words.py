@@ -29,7 +29,7 @@ from ....results.stored_study import (
 from ...blocks import Interval, Intervals, IntervalWord
 from ...quantities import FOOT_FORCE, NO_BREAK, TOTAL
 from ...shifts import Shift, measurable, shift
-from ..rating import rating_sentence, windows
+from ..rating import rating_sentence, windows, worst_window
 from ..sources.words import UNMODELLED, ranked, source_share, unmodelled_share
 from ..unknowns import most_valuable
 
@@ -151,10 +151,12 @@ def _kind(results: xr.Dataset) -> str:
 
 
 def _windows(results: xr.Dataset) -> str:
-    """Give the verdict at the first window; the others are in the section."""
+    """Give the verdict at the window that decides; the others are in the section."""
     if "rating_level" not in results:
         return ""
-    return rating_sentence(results, windows(results)[0])
+    count = len(windows(results))
+    among = f" (worst of {count} windows)" if count > 1 else ""
+    return rating_sentence(results, worst_window(results), among)
 
 
 def _room(results: xr.Dataset) -> str:
