@@ -33,6 +33,22 @@ class Window:
         """Width of the main lobe from zero to zero, lines."""
         return 2.0 * len(self.cosines)
 
+    def response(self, distance_lines: Array) -> Array:
+        """Share of a tone's amplitude in lines at a distance from it: the window's transform.
+
+        Σ a_i (sinc(d - i) + sinc(d + i))/2, of long blocks: Heinzel, Rüdiger & Schilling 2002,
+        appendix C, has the transforms of sums of cosines.
+
+        Parameters
+        ----------
+        distance_lines : of the lines from the tone, any shape, lines
+        """
+        parts = (
+            size * (np.sinc(distance_lines - number) + np.sinc(distance_lines + number)) / 2.0
+            for number, size in enumerate(self.cosines)
+        )
+        return np.asarray(sum(parts))
+
     def samples(self, length: int) -> Array:
         """The window over `length` samples, mean 1."""
         angle = np.linspace(-np.pi, np.pi, length + 1)[:-1]
@@ -46,6 +62,11 @@ WINDOWS: Final = {
     "flat_top": Window((1.0, 1.933, 1.286, 0.388, 0.0322)),
 }
 """By the name that a user gives; the flat top is that of ISO 18431-2:2004."""
+
+
+def name_of_window(window: Window) -> str:
+    """Name that a user gives for a window."""
+    return next(name for name, shape in WINDOWS.items() if shape == window)
 
 
 def window_by_name(name: str) -> Window:

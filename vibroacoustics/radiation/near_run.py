@@ -28,6 +28,8 @@ _QUIET: Final = 3e-8
 the weakest patterns are then settled as far as the grid keeps them apart from stronger ones."""
 _NOT_QUIET: Final = 1e-3
 """Share that is refused at the end of the longest recording."""
+_STEADY_RATIO: Final = 0.5
+"""Mean pressure over mean size from which a rest is steady: 1 of a constant, 0 of a mode."""
 _ENVELOPE_DECAY_PER_CELL: Final = 0.933
 """Decay of the envelope of the pressure during the passage of one cell."""
 
@@ -124,16 +126,30 @@ class _Peaks:
         self._decay = decay
         self._largest = self._envelope = 0.0
         self._by_passage: list[float] = []
+        self._watched: int | None = None
+        self._sum = self._size = 0.0
 
     def add(self, pressure: Array) -> None:
         """Tell a sample (cell,)."""
-        peak = float(np.abs(pressure).max())
+        size = np.abs(pressure)
+        peak = float(size.max())
+        if len(self._by_passage) > _FORECAST_PASSAGES // 2:
+            if self._watched is None:
+                self._watched = int(size.argmax())
+            self._sum += float(pressure[self._watched])
+            self._size += float(size[self._watched])
         self._largest = float(np.maximum(self._largest, peak))
         self._envelope = float(np.maximum(peak, self._decay * self._envelope))
 
     def share(self) -> float:
         """Of the latest time in the largest; not a number if a pressure is none."""
         return self._envelope / self._largest if self._largest else 0.0
+
+    def reason(self) -> str:
+        """What is left where the pressure was largest: a mode changes its sign, a rest does not."""
+        if abs(self._sum) > _STEADY_RATIO * self._size:
+            return "a steady pressure that does not decay is left"
+        return "a mode of the air between walls rings on"
 
     def expected(self, passages: int) -> float:
         """The share after so many more passages; to be asked once a passage."""
@@ -151,8 +167,8 @@ def _ends(run: Run, settling: Settling, peaks: _Peaks, passages: int) -> bool:
     expected = peaks.expected(_MOST_PASSAGES - passages)
     if expected > _NOT_QUIET:
         raise SolverError(
-            f"near field {run.name}: the pressure has not died down: a mode of the air between "
-            f"walls rings on, {100.0 * peaks.share():.3g} % of the largest pressure are left "
+            f"near field {run.name}: the pressure has not died down: {peaks.reason()}, "
+            f"{100.0 * peaks.share():.3g} % of the largest pressure are left "
             f"{1e3 * passages * run.passage_s:.3g} ms after the pulse, {100.0 * expected:.3g} % "
             f"after {1e3 * _MOST_PASSAGES * run.passage_s:.3g} ms (at most "
             f"{100.0 * _NOT_QUIET:g} %)"

@@ -23,11 +23,15 @@ FADING_S: Final = 0.05
 LOWEST_HZ: Final = (10.0, 20.0)
 """Nothing below the first, all from the second on: what is computed of a room at a few hertz over
 the square of the frequency is rounding."""
+RISE_S: Final = 1e-3
+"""Ahead of the direct sound, within which noise and pulse may begin."""
 _DECAY: Final = 3.0 * np.log(10.0)
 """Of the pressure within a reverberation time."""
 _DECAYS_FROM_HZ: Final = 125.0
 _BLOCK: Final = 4096
 _ROUNDS: Final = 8
+_MOST_GAIN: Final = 2.0
+"""Over that without correlation: bands that need nearly none get next to none."""
 
 
 @dataclass(frozen=True)
@@ -84,9 +88,11 @@ def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Ar
     ]
     parts = _received(room, hertz, np.array(noise))
     waves, others, square = _weighed(room, parts, hertz, length)
-    in_seam = waves * least_phase(np.sqrt(1.0 - room.ways.wave_share(hertz)), length)
     spectrum = np.zeros((*waves.shape[:-1], length // 2 + 1), dtype=complex)
-    spectrum[..., 1 : hertz.size + 1] = waves + _scaled(others, waves, in_seam, square, hertz)
+    in_seam = waves * least_phase(np.sqrt(1.0 - room.ways.wave_share(hertz)), length)
+    gate = _gate(room.distance_m / SPEED_OF_SOUND_M_PER_S, samples, length, sample_rate_hz)
+    scaled = _scaled(others, (waves, in_seam), square, hertz, gate)
+    spectrum[..., 1 : hertz.size + 1] = waves + scaled
     responses = np.asarray(fft.irfft(spectrum, length)[..., :samples])
     responses[..., decaying:] *= np.cos(0.5 * np.pi * np.arange(fading) / fading) ** 2
     return responses
@@ -190,13 +196,31 @@ def _positions(room: WaysOfRoom) -> int:
 
 
 def _scaled(
-    others: ComplexArray, waves: ComplexArray, in_seam: ComplexArray, square: Array, hertz: Array
+    others: ComplexArray,
+    seam: tuple[ComplexArray, ComplexArray],
+    square: Array,
+    hertz: Array,
+    gate: Array,
 ) -> ComplexArray:
-    """Direct sound and noise so changed that energies add: the mean squares are those of both.
+    """Direct sound and noise with the gain that gives, with the waves, the mean squares of both.
 
     In each third octave what they have in common with the waves is taken out of them, as waves in
-    the seam alone, and they get a gain; both go over smoothly between the middles of the bands.
+    the seam alone, by the waves' share of the energy: of a band that the waves hardly reach it
+    would be a large factor for its neighbours. In a third octave |w + g n|² = s has then the gain
+    g = (√(c² + |n|² (s - |w|²)) - c)/|n|² with c = Re{w* n}, sums over the band. Both go over
+    smoothly between the middles of the bands. They have no phase and spread in time by the inverse
+    of a band's width: what comes before the direct sound is cut off in each round, until there is
+    next to nothing.
+
+    Parameters
+    ----------
+    others : direct sound and noise, shape (listener, motion, frequency)
+    seam : waves, and those in the seam, of the same shape
+    square : mean squares of all, of the same shape, Pa²
+    hertz : shape (frequency,)
+    gate : share of each sample that is kept, shape (listener, 1, time)
     """
+    waves, in_seam = seam
     bands = bands_between(3, hertz[0], hertz[-1])
     edges = np.searchsorted(hertz, [band.lower_hz for band in bands])
     starts, kept = np.unique(edges[edges < hertz.size], return_index=True)
@@ -210,10 +234,43 @@ def _scaled(
         of_bands: Numbers = part / np.where(total == 0.0, 1.0, total)
         return between(np.log(hertz), middles, of_bands)
 
-    wanted = summed(square) - summed(np.abs(waves) ** 2)
+    of_waves = summed(np.abs(waves) ** 2)
+    wanted = np.maximum(summed(square) - of_waves, 0.0)
+    shared = summed(waves.conj() * in_seam) * (
+        1.0 + wanted / np.where(of_waves == 0.0, 1.0, of_waves)
+    )
     for _ in range(_ROUNDS):
-        common = ratio(summed(waves.conj() * others), summed(waves.conj() * in_seam))
-        others = others - common * in_seam
-        energy = summed(np.abs(others) ** 2)
-        others = others * np.sqrt(np.maximum(ratio(wanted, energy), 0.0))
+        others = others - ratio(summed(waves.conj() * others), shared) * in_seam
+        common, energy = summed((waves.conj() * others).real), summed(np.abs(others) ** 2)
+        uncorrelated = np.sqrt(energy * wanted)
+        root = np.sqrt(common**2 + uncorrelated**2) - common
+        gain = ratio(np.minimum(root, _MOST_GAIN * uncorrelated), energy)
+        others = _cut(others * gain, gate)
     return others
+
+
+def _gate(arrival_s: Array, samples: int, length: int, sample_rate_hz: int) -> Array:
+    """Weights that end what comes before the direct sound, shape (listener, 1, time).
+
+    They rise within the millisecond before it. The last samples of the transform are those before
+    its first one.
+
+    Parameters
+    ----------
+    arrival_s : of the direct sound, shape (listener,)
+    samples : of a response
+    length : of the transform
+    sample_rate_hz : of the samples
+    """
+    number = np.arange(length)
+    time_s = np.where(number < (length + samples) // 2, number, number - length) / sample_rate_hz
+    ahead = np.clip((arrival_s[:, None, None] - time_s) / RISE_S, 0.0, 1.0)
+    return np.asarray(np.cos(0.5 * np.pi * ahead) ** 2)
+
+
+def _cut(spectra: ComplexArray, gate: Array) -> ComplexArray:
+    """Spectra of what a gate keeps of their samples, shape (..., frequency)."""
+    length, lines = gate.shape[-1], spectra.shape[-1]
+    spectrum = np.zeros((*spectra.shape[:-1], length // 2 + 1), dtype=complex)
+    spectrum[..., 1 : lines + 1] = spectra
+    return np.asarray(fft.rfft(gate * fft.irfft(spectrum, length))[..., 1 : lines + 1])

@@ -97,6 +97,26 @@ def test_fields_are_joined_a_few_at_a_time(monkeypatch):
     assert not alone.finer[:, 1].any()
 
 
+@pytest.mark.parametrize(
+    ("mean", "swing", "words"),
+    [
+        (1.0, 0.0, "a steady pressure"),
+        (-1.0, 0.5, "a steady pressure"),
+        (0.0, 1.0, "a mode of the air"),
+        (0.2, 1.0, "a mode of the air"),
+    ],
+)
+def test_a_refusal_names_what_is_left(mean, swing, words):
+    """Pressures after many passages: a rest keeps its sign, a mode changes it."""
+    peaks = near_run._Peaks(0.9)
+    for passage in range(80):
+        for step in range(10):
+            turn = 2.0 * np.pi * 0.37 * (10 * passage + step)
+            peaks.add(np.array([0.01, mean + swing * np.cos(turn)]))
+        peaks.expected(100)
+    assert words in peaks.reason()
+
+
 def test_a_mode_that_rings_on_is_refused_soon(monkeypatch):
     """As if a share of the pressure stayed: refused by its decay long before the last passage."""
     monkeypatch.setattr(near_run._Peaks, "share", lambda _: 0.02)

@@ -38,11 +38,16 @@ def pressure(hertz):
 
 @pytest.fixture(scope="module")
 def room():
+    return room_to(1000.0)
+
+
+def room_to(highest_hz):
+    """The room with waves to a frequency."""
     direct = IMPEDANCE / (2.0 * np.pi * DISTANCE_M[:, None] ** 2) * [[1.0], [0.0]]  # one in sight
     per_power = lambda hertz: (direct + IMPEDANCE * 0.3) * np.ones(hertz.size)  # noqa: E731
     return WaysOfRoom(
         pressure=pressure,
-        ways=RoomWays(2, RADIUS_M, wave_share(1000.0), per_power),
+        ways=RoomWays(2, RADIUS_M, wave_share(highest_hz), per_power),
         direct_per_power=lambda hertz: direct * np.ones(hertz.size),
         distance_m=DISTANCE_M,
         nearest_m=RADIUS_M,
@@ -61,7 +66,8 @@ def test_third_octaves_have_the_mean_squares_of_the_levels(room, responses):
     """Below the seam the end is cut off a filter that rings for 0.1 s, above it a fit has a rest.
 
     Of waves 72 dB down at the end of the record 2.5e-4 of the pressure is left, 0.005 dB; of what
-    the filter from 10 to 20 Hz turns it is more.
+    the filter from 10 to 20 Hz turns it is more. What ends before the direct sound spreads over all
+    frequencies, 60 dB below: 20 lg(1 + 1e-3) = 0.009 dB beside it.
     """
     hertz = np.fft.rfftfreq(LENGTH, 1.0 / RATE)
     written = np.abs(np.fft.rfft(responses, LENGTH)) ** 2
@@ -71,17 +77,19 @@ def test_third_octaves_have_the_mean_squares_of_the_levels(room, responses):
         square = np.moveaxis(np.abs(pressure(at) / (2.0 * np.pi * at)) ** 2, 1, 0)
         wanted = room.ways.at_listeners(square, at).mean(axis=-1)[:5].T
         off_db = 10.0 * np.log10(written[:, :5, within].mean(axis=-1) / wanted)
-        bound_db = 0.005 if 90.0 < band.upper_hz < 400.0 else 0.1
+        bound_db = 0.014 if 90.0 < band.upper_hz < 400.0 else 0.1
         assert np.abs(off_db).max() < bound_db, band.nominal_hz
 
 
-def test_nothing_comes_before_the_direct_sound(responses):
-    """1 ms before it: the gain between third octaves and the share of 400 to 630 Hz spread."""
+@pytest.mark.parametrize("highest_hz", [250.0, 355.0, 500.0, 1000.0])
+def test_nothing_comes_before_the_direct_sound(highest_hz):
+    """1 ms before it, wherever waves go over into noise: 60 dB down, where 37 are stated."""
+    responses = room_responses(room_to(highest_hz))
     for listener, away in enumerate(DISTANCE_M):
         first = int((away / SPEED_OF_SOUND_M_PER_S - 1e-3) * RATE)
         energy = np.cumsum(responses[listener, :5] ** 2, axis=-1)
         before_db = 10.0 * np.log10(energy[:, first] / energy[:, -1])
-        assert before_db.max() < -40.0
+        assert before_db.max() < -50.0
     pulse = responses[0, 0, int(2.0 / SPEED_OF_SOUND_M_PER_S * RATE) :]
     assert np.sum(pulse[: RATE // 1000] ** 2) > 1e-3 * np.sum(pulse**2)
 

@@ -10,6 +10,7 @@ from ...base.errors import SolverError
 from ..arrays import Array, IndexArray
 from .box_step import pass_seams, step_series, sum_on_sides, to_nodes, to_sides
 from .cutting import AirBox, End, Face
+from .edges import seam_air_m
 from .layout import (
     Layout,
     angular_frequencies,
@@ -31,7 +32,13 @@ _LARGEST_EIGENVALUE: Final = 3.9
 class Air:
     """Pressure of all boxes as cosine series, with fluxes through seams and into walls."""
 
-    def __init__(self, boxes: Sequence[AirBox], faces: Sequence[Face], time_step_s: float) -> None:
+    def __init__(
+        self,
+        boxes: Sequence[AirBox],
+        faces: Sequence[Face],
+        time_step_s: float,
+        maximum_frequency_hz: float = 0.0,
+    ) -> None:
         self.boxes, self.time_step_s = boxes, time_step_s
         self._layout = plan = layout(boxes, faces)
         self.terms = np.zeros(plan.terms[-1])
@@ -46,8 +53,13 @@ class Air:
         self._pressure, self._change = np.zeros(plan.nodes), np.zeros(plan.nodes)
         largest = int(plan.ends[:, [1, 4]].max(initial=1) * plan.ends[:, [2, 5]].max(initial=1))
         self._work = np.zeros(2 * largest)
-        self._seams, self._give = _seams(boxes, faces, plan, time_step_s)
-        self._walls = Walls(_patches(boxes, faces, plan, time_step_s), time_step_s)
+        masses = [
+            sum(_mass_m(boxes, end, time_step_s, maximum_frequency_hz) for end in face.ends)
+            for face in faces
+        ]
+        self._seams, self._give = _seams(boxes, faces, plan, masses)
+        self._give *= reach
+        self._walls = Walls(_patches(faces, plan, masses), time_step_s)
 
     def set_source(self, box: int, point: Array) -> None:
         """Let a monopole act at a point of a box: what `force` gives to series and nodes."""
@@ -137,34 +149,36 @@ class Air:
         step_series(now, before, turn, self._gain, self._flux, layout)
 
 
-def _mass(boxes: Sequence[AirBox], end: End, time_step_s: float) -> float:
+def _mass_m(
+    boxes: Sequence[AirBox], end: End, time_step_s: float, maximum_frequency_hz: float
+) -> float:
+    """Length of air at an end, for the mean over directions at the highest frequency, m."""
     box = boxes[end.box]
-    return series_mass_m(float(box.size[end.axis]), box.nodes[end.axis], time_step_s)
+    squared = (2.0 * np.pi * maximum_frequency_hz / SPEED_OF_SOUND_M_PER_S) ** 2 / 3.0
+    return series_mass_m(float(box.size[end.axis]), box.nodes[end.axis], time_step_s, squared)
 
 
 def _seams(
-    boxes: Sequence[AirBox], faces: Sequence[Face], plan: Layout, time_step_s: float
+    boxes: Sequence[AirBox], faces: Sequence[Face], plan: Layout, masses: Sequence[float]
 ) -> tuple[IndexArray, Array]:
-    """First nodes of both ends of every seam and their number, and c dt/(d1 + d2)."""
-    rows, give, row = [], [], 0
-    for face in faces:
+    """First nodes of both ends of every seam and their number; 1/(d1 + d2) by node, 1/m."""
+    rows, give, row = [], np.zeros(plan.nodes), 0
+    for face, mass in zip(faces, masses, strict=True):
         if len(face.ends) == 2:
             first, second = plan.ends[row], plan.ends[row + 1]
-            rows.append([first[3], second[3], first[4] * first[5]])
-            mass = sum(_mass(boxes, end, time_step_s) for end in face.ends)
-            give.append(SPEED_OF_SOUND_M_PER_S * time_step_s / mass)
+            nodes = int(first[4]), int(first[5])
+            rows.append([first[3], second[3], nodes[0] * nodes[1]])
+            air_m = seam_air_m(boxes, face, nodes, mass)
+            give[first[3] : first[3] + air_m.size] = 1.0 / air_m.ravel()
         row += len(face.ends)
-    return np.array(rows, dtype=np.intp).reshape(-1, 3), np.array(give)
+    return np.array(rows, dtype=np.intp).reshape(-1, 3), give
 
 
-def _patches(
-    boxes: Sequence[AirBox], faces: Sequence[Face], plan: Layout, time_step_s: float
-) -> list[WallPatch]:
+def _patches(faces: Sequence[Face], plan: Layout, masses: Sequence[float]) -> list[WallPatch]:
     patches, row = [], 0
-    for face in faces:
+    for face, mass in zip(faces, masses, strict=True):
         if face.material is not None:
             end = plan.ends[row]
-            mass = _mass(boxes, face.ends[0], time_step_s)
             patches.append(WallPatch(int(end[3]), int(end[4] * end[5]), face.material, mass))
         row += len(face.ends)
     return patches
@@ -188,7 +202,12 @@ def largest_eigenvalue(air: Air) -> float:
     return 1.001 * float(value[0])
 
 
-def stable_air(boxes: Sequence[AirBox], faces: Sequence[Face], longest_step_s: float) -> Air:
+def stable_air(
+    boxes: Sequence[AirBox],
+    faces: Sequence[Face],
+    longest_step_s: float,
+    maximum_frequency_hz: float = 0.0,
+) -> Air:
     """The air with a time step at which no series grows: computed, as no closed bound is known.
 
     Raises
@@ -199,7 +218,7 @@ def stable_air(boxes: Sequence[AirBox], faces: Sequence[Face], longest_step_s: f
     highest = max(float(angular_frequencies(box).max()) for box in boxes)
     step = min(longest_step_s, _LARGEST_PHASE / highest)
     for _ in range(20):
-        air = Air(boxes, faces, step)
+        air = Air(boxes, faces, step, maximum_frequency_hz)
         value = largest_eigenvalue(air)
         if value <= _LARGEST_EIGENVALUE:
             return air

@@ -124,11 +124,11 @@ def step_series(
 def pass_seams(pressure: Any, flux: Any, seams: Any, give: Any) -> None:  # pragma: no cover
     """Change of flux through seams by the difference of pressure across them.
 
-    `seams` holds the first node of both ends and their number; `give` is c dt/(d1 + d2).
+    `seams` holds the first node of both ends and their number; `give` is c dt/(d1 + d2) by node.
     """
     for seam in range(seams.shape[0]):
         first, second, count = seams[seam]
         for node in range(count):
-            change = give[seam] * (pressure[first + node] - pressure[second + node])
+            change = give[first + node] * (pressure[first + node] - pressure[second + node])
             flux[first + node] = change
             flux[second + node] = -change

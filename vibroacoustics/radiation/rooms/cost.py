@@ -37,7 +37,7 @@ def room_cost(study: Study, settings: StudyRoom) -> Cost:
     _, stands = placed(shell, radiation, room_of(settings), foot_m(settings), ears, waves)
     room = stands.room
     boxes = cut(room, waves.spacing_m)
-    air = stable_air(boxes, faces(room, boxes), waves.longest_step_s)
+    air = stable_air(boxes, faces(room, boxes), waves.longest_step_s, waves.maximum_frequency_hz)
     first = next(iter(ears.values()))
     air.set_source(holding(boxes, first), first)
 

@@ -192,7 +192,15 @@ def left_out(
     return values, slopes_
 
 
-def series_mass_m(length_m: float, nodes: int, time_step_s: float) -> float:
-    """Length of air at the end of a series that stands for what it lacks, m."""
+def series_mass_m(
+    length_m: float, nodes: int, time_step_s: float, squared_wavenumber: float = 0.0
+) -> float:
+    """Length of air at the end of a series that stands for what it lacks, m.
+
+    It is the sum of 2/L / (k_n² - k²) over n >= N, to the first order in k², where k² is that of
+    the wave along the axis, 1/m². To the order zero the length is too short for short waves, and
+    their frequencies come out too high.
+    """
     values, _ = left_out(np.zeros(1), length_m, nodes, time_step_s)
-    return float(values[0])
+    fourth_powers = np.pi**4 / 90.0 - np.sum(np.arange(1.0, nodes) ** -4)
+    return float(values[0] + 2.0 * length_m**3 / np.pi**4 * fourth_powers * squared_wavenumber)

@@ -64,7 +64,7 @@ class Runs:
         longest_s: float,
     ) -> None:
         self._boxes, self._faces, self._settings = boxes, faces, settings
-        air = stable_air(boxes, faces, settings.longest_step_s)
+        air = stable_air(boxes, faces, settings.longest_step_s, settings.maximum_frequency_hz)
         self.step_s = air.time_step_s
         self._shapes = [
             (len(asked), *lattice.shape)
@@ -100,7 +100,8 @@ class Runs:
         SolverError
             The pressure is no finite number.
         """
-        air, force = Air(self._boxes, self._faces, self.step_s), self._pulse.force
+        highest_hz, force = self._settings.maximum_frequency_hz, self._pulse.force
+        air = Air(self._boxes, self._faces, self.step_s, highest_hz)
         air.set_source(holding(self._boxes, microphone), microphone)
         samples, taken = np.empty((self.samples, self._columns)), 0
         decay = _Decay(max(1, round(_WATCH_S / self.sample_s)), self._settings.decay_db)
@@ -245,7 +246,7 @@ def spacing_error_db(
     difference is some four thirds of the error that is left: it is published as it is.
     """
     settings = settings or RoomSettings()
-    finer = replace(settings, nodes_per_wave=2.0 * settings.nodes_per_wave)
+    finer = replace(settings, nodes_per_wave=2.0 * settings.wavelength_m / settings.spacing_m)
     of = (room, lattices, microphones, frequency_hz)
     coarse, fine = (room_transfer(*of, one, progress=progress) for one in (settings, finer))
     return {name: _difference_db(coarse[name].values, fine[name].values) for name in microphones}

@@ -8,7 +8,10 @@ import numpy as np
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
 from ..arrays import Array
 
-NODES_PER_WAVE: Final = 3.5
+LEAST_NODES_PER_WAVE: Final = 3.5
+LARGEST_SPACING_M: Final = 0.128
+"""That with which L- and U-shaped rooms with furniture of 0.6 m and more have their natural
+frequencies within 0.1 %, whatever the highest frequency."""
 SAMPLES_PER_PERIOD: Final = 3.0
 """Of what is recorded, at the highest frequency: the pulse has next to nothing at twice that."""
 STEPS_PER_PERIOD: Final = 10.0
@@ -21,17 +24,24 @@ class RoomSettings:
     """How finely and how long a room is computed."""
 
     maximum_frequency_hz: float = 1000.0
-    nodes_per_wave: float = NODES_PER_WAVE
-    """At the highest frequency; 5 halve the error of 3.5."""
+    nodes_per_wave: float | None = None
+    """At the highest frequency; None: 3.5, more in rooms to less than 765 Hz."""
     decay_db: float = 60.0
     """A run ends when the pressure at its points has fallen by so much."""
     longest_s: float | None = None
     """It ends then at the latest; None: after the reverberation time."""
 
     @property
+    def wavelength_m(self) -> float:
+        """Wavelength at the highest frequency."""
+        return SPEED_OF_SOUND_M_PER_S / self.maximum_frequency_hz
+
+    @property
     def spacing_m(self) -> float:
         """Largest spacing of nodes."""
-        return SPEED_OF_SOUND_M_PER_S / (self.nodes_per_wave * self.maximum_frequency_hz)
+        if self.nodes_per_wave is not None:
+            return self.wavelength_m / self.nodes_per_wave
+        return min(self.wavelength_m / LEAST_NODES_PER_WAVE, LARGEST_SPACING_M)
 
     @property
     def longest_step_s(self) -> float:
