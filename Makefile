@@ -4,6 +4,7 @@
 # make torture COUNT=200  those so often each; a later call goes on; ONLY=damage for those trials alone
 # make coverage  400 synthetic machines a world: how often intervals hold the truth; half an hour
 # make faults  200 changes of formulas, signs, factors and thresholds: which do the tests see; about an hour
+# make evidence  evidence.json and docs/evidence.md from what the tests claim; LONG=1 with the long tests
 # make docs  sets up and builds the site into docs/_build/html
 # Compiled modules are kept: without them each start takes two seconds more.
 unexport PYTHONDONTWRITEBYTECODE
@@ -15,7 +16,7 @@ MINUTES ?= 10
 COUNT ?= 200
 ONLY ?=
 
-.PHONY: run test long torture coverage faults docs check lock clean versions newest
+.PHONY: run test long torture coverage faults evidence docs check lock clean versions newest
 
 run: $(VENV)/.core
 	$(BIN)/vibroacoustics run $(STUDY)
@@ -45,6 +46,10 @@ versions:
 # The same and the radiation with the newest numpy, scipy, h5py, … beside k-Wave, which pins older ones.
 newest:
 	$(PYTHON) tests/on_every_python.py --newest
+
+# Rows of tests that do not run stay as they are.
+evidence: $(VENV)/.dev
+	$(BIN)/pytest -n auto --dist loadfile --evidence $(if $(LONG),-m "") $$(grep -rl "import claim$$" tests)
 
 # Offline; the pages of the gallery are run. A warning is an error.
 docs: $(VENV)/.dev

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 # Workers of pytest share the cores already; threads of linear algebra beside them double its time.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import evidence_plugin
 import pytest
 from kept_results import FOLDER
 from reading_here import read_here
@@ -24,6 +25,11 @@ LONGEST_FIRST = (
 )  # fmt: skip
 """Files of more than ten seconds: a worker that begins one last keeps all others waiting."""
 SHARED = {"XDG_CACHE_HOME": "cache", "MPLCONFIGDIR": "matplotlib", FOLDER: "results"}
+
+
+def pytest_addoption(pluginmanager: pytest.PytestPluginManager) -> None:
+    """Have claims collected and checked."""
+    pluginmanager.register(evidence_plugin)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -9,6 +9,8 @@ lowest to the highest end of the 95 % intervals.
 from itertools import combinations, permutations
 
 import numpy as np
+from documents import SECOND, VARSI
+from evidence import claim
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 from scipy.stats import beta, qmc
@@ -78,7 +80,11 @@ def test_places_are_the_exact_volumes_of_their_weights() -> None:
     exact = np.average([exact_places(one) for one in utility], axis=0, weights=sample_weight)
     np.testing.assert_allclose(exact.sum(axis=0), 1.0, atol=1e-9)
     places = rank_acceptability(utility, sample_weight, any_weights(4, 40_000, 1))
-    assert np.abs(places - exact).max() < ALLOWED
+    claim(
+        "Rank acceptability of three options beside exact volumes", kind="exact", unit="1",
+        source=SECOND("volumes of the weights, test_literature_acceptability"), computed=places,
+        reference=exact, tolerance=ALLOWED, topics=("scoring",),
+    )  # fmt: skip
 
 
 def test_pairs_have_the_closed_form_of_their_share() -> None:
@@ -96,7 +102,11 @@ def test_pairs_have_the_closed_form_of_their_share() -> None:
         places = rank_acceptability(
             utility[None, [one, other]], np.ones(1), any_weights(4, 200_000, 2)
         )
-        assert abs(places[0, 0] - share) < ALLOWED
+        claim(
+            f"Rank acceptability of the pair {one + 1}, {other + 1}", kind="exact", unit="1",
+            source=VARSI("share of a simplex"), computed=places[0, 0], reference=share,
+            tolerance=ALLOWED, topics=("scoring",),
+        )  # fmt: skip
 
 
 def test_places_agree_with_a_sampling_of_values_and_weights_together() -> None:
@@ -112,4 +122,8 @@ def test_places_agree_with_a_sampling_of_values_and_weights_together() -> None:
     by_hand = np.array(
         [[(place[:, option] == at).mean() for at in range(3)] for option in range(3)]
     )
-    assert np.abs(places - by_hand).max() < ALLOWED
+    claim(
+        "Rank acceptability of three options by another sampling", kind="second code", unit="1",
+        source=SECOND("model smaa2-br-betas of JSMAA, sampled apart"), computed=places,
+        reference=by_hand, tolerance=ALLOWED, topics=("scoring",),
+    )  # fmt: skip

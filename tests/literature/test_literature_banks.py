@@ -6,10 +6,13 @@ as a series over the crank angle, order n of a cylinder's force is m r ω² A_n 
 times its own crank angle; banks and throws add up as vectors.
 """
 
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from documents import TAYLOR
+from evidence import claim
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from machine_files import changed, machine_file
@@ -45,6 +48,10 @@ SERIES = {
 """A_n of the piston's acceleration; what is left out is 35 λ⁷/512, 3e-7."""
 LEFT_OUT = 1e-6 * PRIMARY_N
 ZERO = 1e-9 * PRIMARY_N
+claimed = partial(
+    claim, kind="exact", source=TAYLOR("chapter 8"), unit="N", tolerance=LEFT_OUT,
+    topics=("reciprocating",),
+)  # fmt: skip
 
 
 def banks(bank_deg, throw_deg=(0.0,), positions_m=(0.0,), pitch_m=0.0, weight_kg_m=0.0):
@@ -84,10 +91,11 @@ def test_v_of_two(angle):
     first = 2.0 * PRIMARY_N * np.array([np.cos(half) ** 2, np.sin(half) ** 2])
     second = 2.0 * SERIES[2] * PRIMARY_N
     second *= np.array([np.cos(half) * np.cos(full), np.sin(half) * np.sin(full)])
-    assert upright[1] == pytest.approx(first[0], abs=LEFT_OUT)
-    assert across[1] == pytest.approx(-1j * first[1], abs=LEFT_OUT)  # a sine
-    assert upright[2] == pytest.approx(second[0], abs=LEFT_OUT)
-    assert across[2] == pytest.approx(-1j * second[1], abs=LEFT_OUT)
+    named = f"V of {angle:g}°"
+    claimed(f"1× force upright, {named}", computed=upright[1], reference=first[0])
+    claimed(f"1× force across, {named}", computed=across[1], reference=-1j * first[1])  # a sine
+    claimed(f"2× force upright, {named}", computed=upright[2], reference=second[0])
+    claimed(f"2× force across, {named}", computed=across[2], reference=-1j * second[1])
 
 
 def test_right_angled_v():
@@ -95,7 +103,8 @@ def test_right_angled_v():
     bare, across, *_ = shaking(banks([-45.0, 45.0]))
     assert bare[1] == pytest.approx(PRIMARY_N, abs=LEFT_OUT)
     assert abs(bare[2]) < ZERO
-    assert abs(across[2]) == pytest.approx(np.sqrt(2.0) * SERIES[2] * PRIMARY_N, abs=LEFT_OUT)
+    claimed("2× force across, right-angled V", computed=abs(across[2]),
+            reference=np.sqrt(2.0) * SERIES[2] * PRIMARY_N)  # fmt: skip
     weight = ONE.piston_and_rod.piston_mass_kg * RADIUS_M
     upright, across, *_ = shaking(banks([-45.0, 45.0], weight_kg_m=weight))
     assert abs(upright[1]) < ZERO
@@ -105,10 +114,11 @@ def test_right_angled_v():
 def test_w_of_three():
     """1.5 F turns with the crank; 2× is ½ λ F upright and 3/2 λ F across."""
     upright, across, *_ = shaking(banks([-60.0, 0.0, 60.0]))
-    assert upright[1] == pytest.approx(1.5 * PRIMARY_N, abs=LEFT_OUT)
-    assert across[1] == pytest.approx(-1.5j * PRIMARY_N, abs=LEFT_OUT)
-    assert upright[2] == pytest.approx(0.5 * SERIES[2] * PRIMARY_N, abs=LEFT_OUT)
-    assert across[2] == pytest.approx(-1.5j * SERIES[2] * PRIMARY_N, abs=LEFT_OUT)
+    second = SERIES[2] * PRIMARY_N
+    claimed("1× force upright, W of three", computed=upright[1], reference=1.5 * PRIMARY_N)
+    claimed("1× force across, W of three", computed=across[1], reference=-1.5j * PRIMARY_N)
+    claimed("2× force upright, W of three", computed=upright[2], reference=0.5 * second)
+    claimed("2× force across, W of three", computed=across[2], reference=-1.5j * second)
     weight = 1.5 * ONE.piston_and_rod.piston_mass_kg * RADIUS_M
     upright, across, *_ = shaking(banks([-60.0, 0.0, 60.0], weight_kg_m=weight))
     assert max(abs(upright[1]), abs(across[1])) < ZERO
@@ -123,11 +133,12 @@ def test_opposite_throws(bank_deg):
     )
     throw = closed_form(1, bank_deg)
     assert max(abs(upright[1]), abs(across[1])) < ZERO
-    assert about_x[1] == pytest.approx(-distance * throw[0], abs=LEFT_OUT)
-    assert about_z[1] == pytest.approx(distance * throw[1], abs=LEFT_OUT)
+    named = f"opposite throws of {len(bank_deg)} cylinders"
+    claimed(f"1× couple, {named}", unit="N m", computed=[about_x[1], about_z[1]],
+            reference=[-distance * throw[0], distance * throw[1]])  # fmt: skip
     second = closed_form(2, bank_deg)
-    assert upright[2] == pytest.approx(2.0 * second[0], abs=2.0 * LEFT_OUT)
-    assert across[2] == pytest.approx(2.0 * second[1], abs=2.0 * LEFT_OUT)
+    claimed(f"2× force, {named}", computed=[upright[2], across[2]],
+            reference=2.0 * np.array(second), tolerance=2.0 * LEFT_OUT)  # fmt: skip
     assert max(abs(about_x[2]), abs(about_z[2])) < ZERO
 
 
@@ -152,7 +163,8 @@ def test_four_in_line_has_its_second_order():
     upright, _, about_x, _ = shaking(four)
     assert abs(upright[1]) < ZERO
     assert np.max(np.abs(about_x[:7])) < ZERO
-    assert upright[2] == pytest.approx(4.0 * SERIES[2] * PRIMARY_N, abs=4.0 * LEFT_OUT)
+    claimed("2× force, four in line", computed=upright[2], tolerance=4.0 * LEFT_OUT,
+            reference=4.0 * SERIES[2] * PRIMARY_N)  # fmt: skip
 
 
 @settings(max_examples=15, deadline=None)

@@ -4,6 +4,8 @@ import csv
 
 import numpy as np
 import pytest
+from documents import THESIS, TSUJI
+from evidence import claim
 from inner_curves import inner
 from support import PIPELINES, ROOT
 
@@ -30,16 +32,28 @@ def test_pocket_is_compressed_from_15_bar_and_opens_after_480_degrees():
     assert float(pressure[0]) == pytest.approx(15e5, rel=1e-12)
     assert float(pressure[-1]) == pytest.approx(41.159e5, rel=1e-12)
     opening = np.rad2deg(float(pressure["pocket_angle"][int(np.argmax(pressure.values))]))
-    assert opening == pytest.approx(printed("scroll_gas.csv")["opening to the discharge"], abs=1.0)
+    claim(
+        "Crank angle from closing to opening of a pocket", kind="printed", unit="deg",
+        source=THESIS("6.1, figure 18"), computed=opening, tolerance=1.0, topics=("scroll-gas",),
+        reference=printed("scroll_gas.csv")["opening to the discharge"],
+    )  # fmt: skip
 
 
 def test_gas_force_changes_slope_at_90_and_peaks_at_210_degrees():
     """Figure 19: 'change in slope at around 90°', 'the rough top is the last angle (210°)'."""
     force = inner("copeland_sources")["gas_force"].sel(part="resultant in the plane")
-    assert degrees_of(force, np.argmax) == pytest.approx(210.0, abs=1e-6)
+    claim(
+        "Crank angle of the largest gas force", kind="printed", source=THESIS("figure 19"),
+        computed=degrees_of(force, np.argmax), reference=210.0, tolerance=1e-6, unit="deg",
+        topics=("scroll-gas",),
+    )  # fmt: skip
     bend = np.gradient(np.gradient(force.values))
     before_the_top = bend[: int(np.argmax(force.values)) - 10]
-    assert degrees_of(force, lambda _: int(np.argmax(before_the_top))) == pytest.approx(90.0, abs=1)
+    claim(
+        "Crank angle at which the gas force changes its slope", kind="printed", unit="deg",
+        computed=degrees_of(force, lambda _: int(np.argmax(before_the_top))), reference=90.0,
+        tolerance=1.0, source=THESIS("figure 19"), topics=("scroll-gas",),
+    )  # fmt: skip
     swing = float(force.max() / force.min() - 1.0)
     assert 0.1 < swing < 0.3  # 'small but not negligible'
 
@@ -76,7 +90,12 @@ def test_acceleration_and_gas_torque_peak_35_degrees_before_top_dead_centre():
     curves = inner("mayekawa_wbhe")
     for name, sign in (("gas_torque", 1.0), ("crank_acceleration", -1.0)):
         for line in sign * curves[name]:
-            assert degrees_of(line, np.argmax) - 360.0 == pytest.approx(-35.0, abs=1.0)
+            claim(
+                f"Crank angle of the peak of {name}, bore of {1e3 * float(line['design']):.0f} mm",
+                kind="printed", source=TSUJI("figures 3(a), 3(d)"), unit="deg", reference=-35.0,
+                computed=degrees_of(line, np.argmax) - 360.0, tolerance=1.0,
+                topics=("reciprocating",),
+            )  # fmt: skip
     assert np.all(np.diff(curves["crank_acceleration"].min("crank_angle")) < 0.0)
     torque = curves["gas_torque"]
     assert np.ptp(torque.values, axis=0).max() < 1e-9 * float(torque.max())
@@ -99,14 +118,26 @@ def test_losses_over_the_bore():
     assert np.all(np.diff(loss.sel(loss="cylinder wall")) < 0.0)
     assert np.all(loss.sel(loss="piston pin") < 0.5 * loss.sel(loss="cylinder wall"))
     for least in (loss.sel(loss="all friction"), curves["power"].sel(power_of="motor")):
-        assert 1e3 * least["bore"].values[np.argmin(least.values)] == pytest.approx(130.0)
+        name = str(least.coords["loss" if "loss" in least.coords else "power_of"].values)
+        claim(
+            f"Bore of the least loss: {name}", kind="printed", source=TSUJI("figure 5"), unit="mm",
+            computed=1e3 * least["bore"].values[np.argmin(least.values)], reference=130.0,
+            tolerance=1.3e-4, topics=("reciprocating",),
+        )  # fmt: skip
 
 
 def test_best_bore_and_stroke_are_almost_linear_in_the_speed():
     """Figure 6: 120, 130, 140 mm at 800, 1000, 1200 rpm; 130 mm and 100 mm at 1000 rpm."""
     bore, stroke = 1e3 * inner("mayekawa_wbhe")["best_design"].values
-    assert bore == pytest.approx([120.0, 130.0, 140.0], abs=2.0)
-    assert stroke[1] == pytest.approx(100.0, abs=0.5)
+    claim(
+        "Best bores at 800, 1000 and 1200 rpm by the curve", kind="printed", unit="mm",
+        source=TSUJI("figure 6"), computed=bore, reference=[120.0, 130.0, 140.0], tolerance=2.0,
+        topics=("reciprocating",),
+    )  # fmt: skip
+    claim(
+        "Best stroke at 1000 rpm by the curve", kind="printed", source=TSUJI("figure 6"), unit="mm",
+        computed=stroke[1], reference=100.0, tolerance=0.5, topics=("reciprocating",),
+    )  # fmt: skip
     for line in (bore, stroke):
         assert abs(line[0] - 2.0 * line[1] + line[2]) < 0.25 * abs(line[2] - line[0])
 

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from documents import SECOND
+from evidence import claim
 from scipy.integrate import solve_ivp
 from scroll_openings import GAS, OPENING, SPEED_RPM, WRAPS, gas_at
 from test_literature_opening import Masses
@@ -117,7 +119,11 @@ def test_a_stiff_integration_of_all_masses_agrees(point):
             state[3] += state[2]
             state[2] = state[5] = 0.0
     print(f"{point}: largest deviation of a pressure {largest:.1e}")
-    assert largest < 1e-3
+    claim(
+        f"Pressures of leaking pockets by a stiff integration, {point}", kind="second code",
+        source=SECOND("Radau of all masses, test_literature_leakage"), computed=largest,
+        reference=0.0, tolerance=1e-3, unit="1", topics=("leakage",),
+    )  # fmt: skip
     # What is left in the older pair is what the next turn begins with.
     volume = 2.0 * float(pocket_volume(WRAPS, np.asarray(opens)))
     assert masses.pressure(state[0] / volume) == pytest.approx(ours.pair_pa[0], rel=1e-4)

@@ -5,6 +5,8 @@ Expected figures are those of a computation apart from this code; the nozzle's l
 
 import numpy as np
 import pytest
+from documents import APART, BUKAC, SECOND
+from evidence import claim
 from scipy.integrate import solve_ivp
 from scroll_openings import GAS, OPENING, POINTS, SPEED_RPM, WRAPS, gas_at
 
@@ -107,7 +109,12 @@ def test_a_stiff_integration_of_the_masses_agrees(point):
     in_chamber = off(np.concatenate(chamber), angle, ours.chamber_pa) / gas.discharge_pressure_pa
     in_port = off(flow, angle, ours.port_flow_kg_per_s) / np.abs(flow).max()
     print(f"{point}: off by {in_pair:.1e} in pair, {in_chamber:.1e} in chamber, {in_port:.1e} port")
-    assert max(in_pair, in_chamber, in_port) < 1e-3
+    for name, off_by in (("pair", in_pair), ("chamber", in_chamber), ("port", in_port)):
+        claim(
+            f"Opening of a pocket by a stiff integration, {name}, {point}", kind="second code",
+            source=SECOND("Radau of the masses, test_literature_opening"), computed=off_by,
+            reference=0.0, tolerance=1e-3, unit="1", topics=("opening",),
+        )  # fmt: skip
 
 
 # --- the law without inertia ---------------------------------------------------------------------
@@ -173,7 +180,11 @@ def test_step_at_the_opening(point):
     gas = gas_at(point)
     step = 1e-5 * (gas.discharge_pressure_pa - built_in_pressure_pa(WRAPS, gas))
     print(f"{point}: expected {STEPS_BAR[point]}, obtained {step:.2f} bar")
-    assert step == pytest.approx(STEPS_BAR[point], abs=0.006)
+    claim(
+        f"Discharge pressure over the built-in one, {point}", kind="second code", unit="bar",
+        source=APART("p V^n of the pocket"), computed=step, reference=STEPS_BAR[point],
+        tolerance=0.006, topics=("scroll-gas",),
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("case", [0, 1])
@@ -187,7 +198,11 @@ def test_pocket_is_even_with_the_discharge_after_the_expected_angle(point, case)
     nozzle, _ = by_nozzle(gas, coefficient)
     expected = EVEN_AFTER_DEG[point][case]
     print(f"{point}, C {coefficient}: expected {expected}, {ours:.1f}, nozzle alone {nozzle:.1f}°")
-    assert ours == pytest.approx(expected, abs=2.0)
+    claim(
+        f"Angle until a pocket is even with the discharge, {point}, C = {coefficient:g}",
+        kind="second code", source=APART("steady flow of a nozzle"), unit="deg", computed=ours,
+        reference=expected, tolerance=2.0, topics=("opening",),
+    )  # fmt: skip
     assert nozzle == pytest.approx(expected, abs=2.0)
 
 
@@ -198,7 +213,11 @@ def test_pocket_of_the_thesis_rises_before_it_empties(case):
     _, nozzle = by_nozzle(gas, coefficient)
     expected = RISE_BAR["thesis"][case]
     print(f"C {coefficient}: expected {expected}, obtained {ours:.2f}, nozzle {nozzle:.2f} bar")
-    assert ours == pytest.approx(expected, rel=0.05)
+    claim(
+        f"Rise of the thesis's pocket above the discharge pressure, C = {coefficient:g}",
+        kind="second code", source=APART("steady flow of a nozzle"), unit="bar", computed=ours,
+        reference=expected, tolerance=0.05 * expected, topics=("opening",),
+    )  # fmt: skip
     assert nozzle == pytest.approx(expected, rel=0.05)
 
 
@@ -207,7 +226,11 @@ def test_ripple_of_the_plenum(point, expected):
     """Peak to peak, kPa; the coefficient changes it by 3 % either way."""
     obtained = 1e-3 * np.ptp(short_passages(gas_at(point), 0.8).plenum_pa)
     print(f"{point}: expected {expected}, obtained {obtained:.1f} kPa")
-    assert obtained == pytest.approx(expected, rel=0.05)
+    claim(
+        f"Ripple of the plenum, peak to peak, {point}", kind="second code", unit="kPa",
+        source=APART("masses of pocket, chamber and plenum"), computed=obtained, reference=expected,
+        tolerance=0.05 * expected, topics=("opening",),
+    )  # fmt: skip
 
 
 # --- a published trend ---------------------------------------------------------------------------
@@ -237,6 +260,10 @@ def test_least_sound_where_the_pocket_opens_at_the_discharge_pressure(coefficien
         levels[step] = float(10.0 * np.log10(power))
     print(f"C {coefficient}:", {step: round(level, 1) for step, level in levels.items()})
     least = min(levels, key=levels.__getitem__)
-    assert abs(least) <= 2
+    claim(
+        f"Pressure step at the opening with the least sound, C = {coefficient:g}", kind="printed",
+        source=BUKAC("least noise where dome and pocket meet"), computed=least, reference=0.0,
+        tolerance=2.0, unit="bar", topics=("opening",),
+    )  # fmt: skip
     assert levels[8] > levels[least] + 10.0
     assert levels[-8] > levels[least] + 6.0

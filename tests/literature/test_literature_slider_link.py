@@ -1,9 +1,12 @@
 """Published numbers of the slider-link compressor (Dagilis et al.), beside ours."""
 
 import csv
+from functools import partial
 
 import numpy as np
 import pytest
+from documents import DAGILIS
+from evidence import claim
 from slider_link_files import MACHINE_FILE, SPEED, changed_machine
 from support import ROOT
 
@@ -17,6 +20,7 @@ from vibroacoustics.mechanisms.slider_link.machine import SliderLinkMachine
 from vibroacoustics.mechanisms.slider_link.motion import SliderLinkCycle, steady_motion
 from vibroacoustics.study.loading import load_machine
 
+claimed = partial(claim, kind="printed", topics=("slider-link",))
 VALIDATION_FILE = ROOT / "data" / "validation" / "dagilis_slider_link.csv"
 
 
@@ -44,7 +48,10 @@ def test_thrust_bearing_power(machine, which):
     bearing = machine.bearings.thrust.model_copy(update={"friction_ratio": friction})
     weight = machine.masses.crankshaft_mass_kg * STANDARD_GRAVITY_M_PER_S2
     computed = SPEED * thrust_friction_moment(bearing, weight)
-    assert computed == pytest.approx(power, abs=0.05 + power * 0.0005 / friction)
+    claimed(
+        f"Power of the thrust bearing, friction {which}", source=DAGILIS("section 4 after (24)"),
+        computed=computed, reference=power, tolerance=0.05 + power * 0.0005 / friction, unit="W",
+    )  # fmt: skip
 
 
 def test_thrust_powers_belong_to_one_bearing(machine):
@@ -90,4 +97,8 @@ def test_friction_without_eccentricity(machine):
     )
     clearance = bearing.clearance_m / bearing.radius_m
     stretched = (16.0 / 12.0) ** values["short_bearing_exponent"]
-    assert rest[0] == pytest.approx(values["eccentricity_free_term"] * clearance * stretched)
+    expected = values["eccentricity_free_term"] * clearance * stretched
+    claimed(
+        "Friction of a short bearing without eccentricity", source=DAGILIS("(20)"), unit="1",
+        computed=rest[0], reference=expected, tolerance=1e-6 * expected,
+    )  # fmt: skip

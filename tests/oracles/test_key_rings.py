@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from documents import SECOND
+from evidence import claim
 from key_oracle import FaceLaw, Ring
 
 from vibroacoustics.sources.oldham_keys import rattle
@@ -80,7 +82,11 @@ def third_octaves(forces: np.ndarray) -> np.ndarray:
 def test_first_impact_of_a_flooded_ring():
     """The first tenth of a revolution from rest."""
     found, expected = both("twin, flooded", 0.1)
-    np.testing.assert_allclose(found, expected, atol=1e-3 * np.abs(expected).max())
+    claim(
+        "Key forces of the first impact of a flooded ring", kind="second code", unit="N",
+        source=SECOND("stiff solver of key_oracle"), computed=found, reference=expected,
+        tolerance=1e-3 * np.abs(expected).max(), topics=("oldham-keys",),
+    )  # fmt: skip
 
 
 @pytest.mark.long

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from documents import ABRAMOWITZ, FORM, SECOND
+from evidence import claim
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
@@ -194,7 +196,14 @@ def test_pendulum_forces_against_an_independent_integration(thesis_study, option
     again = np.abs(np.concatenate([lines @ horizontal, lines @ vertical]))
     net, _ = wrench_orders(thesis_study, option, speed)
     ours = np.abs([net[0, 1], net[0, 2], net[2, 1], net[2, 2]])
-    np.testing.assert_allclose(ours, again, rtol=0.01)
+    for name, value, other in zip(
+        ("1× along", "2× along", "1× upright", "2× upright"), ours, again, strict=True
+    ):
+        claim(
+            f"Net {name} by integration in time, {option}, {speed:g} rpm", kind="second code",
+            source=SECOND("bob with the rod's tension, Runge and Kutta"), computed=value,
+            reference=other, tolerance=0.01 * other, unit="N", topics=("pendulum",),
+        )  # fmt: skip
     mean_angle = np.rad2deg(np.mean(np.arctan2(x - stroke * np.cos(angle), -z)))
     settled = balancing(thesis_study, option, speed).figures["settled_angle_deg"]
     # The mirrored state, half a revolution later, is as good: only the start decides.
@@ -227,7 +236,11 @@ def test_spring_mass_against_time_integration(speed, damping):
     again = 2.0 / 64 * np.sum(settled * np.exp(-1j * omega * times)) / stroke
     ours = sprung_mass_response(mass, stiffness, damping, omega)
     # The transient is at most e^-14 · |X2|; near resonance x2 grows by 1/(2ζ): 10 times that.
-    assert abs(ours - again) < 1e-5 * abs(again)
+    claim(
+        f"Motion of a sprung mass by integration in time, ζ = {damping:g}, {speed:g} rpm",
+        kind="second code", source=SECOND("DOP853"), computed=ours, reference=again, unit="1",
+        tolerance=1e-5 * abs(again), topics=("spring-mass",),
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("speed", [1000.0, 2900.0, 3500.0, 6000.0])
@@ -248,7 +261,11 @@ def test_undamped_spring_mass_against_the_closed_form(thesis_study, speed, ratio
     exact = 1.0 + ratio / (1.0 - (1.0 + ratio) * (omega / tuned) ** 2)
     alone = ring * omega**2 * machine.kinematics.orbit_radius_m
     # 1e-6 of the bare ring's force where the closed form is zero.
-    assert abs(force[0, 1] - alone * exact) < 1e-6 * alone * max(abs(exact), 1.0)
+    claim(
+        f"Net force of an undamped sprung mass, mass ratio {ratio:g}, {speed:g} rpm", kind="exact",
+        source=FORM("1 + µ/[1 − (1 + µ)(ω/ω0)²]"), computed=force[0, 1], reference=alone * exact,
+        tolerance=1e-6 * alone * max(abs(exact), 1.0), unit="N", topics=("spring-mass",),
+    )  # fmt: skip
 
 
 # --- mounts against the potential energy ---------------------------------------------------------
@@ -285,7 +302,11 @@ def test_natural_frequencies_against_the_energy_of_the_springs(thesis_study):
     squares = np.linalg.eigvals(np.linalg.solve(mass, hessian))
     again = np.sort(np.sqrt(squares.real)) / (2.0 * np.pi)
     ours, shapes = MachineOnMounts(housing, mounts, height).isolation.natural_modes()
-    np.testing.assert_allclose(ours, again, rtol=1e-6)
+    claim(
+        "Natural frequencies on the mounts by the energy of the springs", kind="second code",
+        source=SECOND("differences of the energy at finite rotations"), computed=ours,
+        reference=again, tolerance=1e-6 * again, unit="Hz", topics=("mounts",),
+    )  # fmt: skip
     shapes = shapes[:, 0]
     np.testing.assert_allclose(shapes @ mass @ shapes.T, np.eye(6), atol=1e-12)
 
@@ -302,12 +323,16 @@ class TestOrderSpectrum:
         else:
             pytest.importorskip("pyfftw")
 
-    def test_against_bessel_functions(self):
+    def test_against_bessel_functions(self, library):
         """e^{cos θ} = I0(1) + 2 Σ I_k(1) cos kθ (Abramowitz & Stegun 9.6.34)."""
         ours = order_spectrum(np.exp(np.cos(CRANK_ANGLE)), 40)
         exact = 2.0 * iv(np.arange(41), 1.0)
         exact[0] /= 2.0
         np.testing.assert_allclose(ours, exact, atol=10.0 * EPSILON)
+        claim(
+            f"Orders of e^cos θ by {library}", kind="exact", source=ABRAMOWITZ("9.6.34"),
+            computed=ours, reference=exact, tolerance=1e-12, unit="1", topics=("receivers",),
+        )  # fmt: skip
 
     def test_against_the_fourier_integral(self):
         def signal(angle):
@@ -349,7 +374,11 @@ def test_topsis_by_hand():
     """
     utility = np.array([[1.0, 0.5], [0.5, 0.0], [1.0, 1.0], [0.0, 0.0]])
     closeness = topsis(utility, np.array([0.6, 0.4]))
-    np.testing.assert_allclose(closeness, [0.759747, 0.375, 1.0, 0.0], atol=5e-7)
+    claim(
+        "Closeness of TOPSIS by hand", kind="exact", source=FORM("d−/(d+ + d−)"), unit="1",
+        computed=closeness, reference=[0.759747, 0.375, 1.0, 0.0], tolerance=5e-7,
+        topics=("scoring",),
+    )  # fmt: skip
 
 
 def test_path_broadcasts_constants():

@@ -77,6 +77,7 @@ BUILT_IN = [
     "stopping",
     "scores",
     "evidence",
+    "claims",
     "example",
     "assumptions",
     "errata",

@@ -1,6 +1,8 @@
 """Threshold of hearing beside the average one of ISO 389-7, table 1, free field."""
 
+import documents
 import pytest
+from evidence import claim
 
 from vibroacoustics.levels.hearing import hearing_threshold_db
 
@@ -14,7 +16,11 @@ ISO_389_7 = {
 @pytest.mark.parametrize(("hertz", "average_db"), ISO_389_7.items())
 def test_the_lower_threshold_is_10_db_below_the_average(hertz, average_db):
     """That of the best ears, to 2 dB."""
-    assert hearing_threshold_db(hertz) == pytest.approx(average_db - 10.0, abs=2.0)
+    claim(
+        f"Lower threshold of hearing at {hertz:g} Hz", kind="printed", unit="dB",
+        source=documents.ISO_389_7("table 1, free field, less 10 dB"), tolerance=2.0,
+        computed=hearing_threshold_db(hertz), reference=average_db - 10.0, topics=("receivers",),
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize(

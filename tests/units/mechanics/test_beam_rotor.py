@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from documents import FORM, ROSS
+from evidence import claim
 from hypothesis import given
 from hypothesis import strategies as st
 from rotor_at_rest import natural_frequencies_hz
@@ -57,7 +59,11 @@ def test_whirl_of_a_pinned_shaft(spin):
     found = whirl_frequencies_hz(_pinned(40), spin)[:4]
     exact = np.concatenate([_exact_hz(mode, spin) for mode in (1, 2)])
     # Error (k h)⁴/1440 of a frequency: (2π/40)⁴/1440 = 4e-7 of mode 2.
-    assert found == pytest.approx(exact, rel=1e-6)
+    claim(
+        f"Whirl of a pinned shaft at {spin:g} rad/s", kind="exact", unit="Hz", computed=found,
+        source=FORM("(ρA + ρI k²) ω² ± 2 ρI Ω k² ω = EI k⁴"), reference=exact,
+        tolerance=1e-6 * exact, topics=("shaft", "hermetic-reciprocating"),
+    )  # fmt: skip
 
 
 def test_free_slender_beam():
@@ -67,7 +73,11 @@ def test_free_slender_beam():
     stiffness = section.youngs_modulus_pa * section.second_moment_m4
     speed = np.sqrt(stiffness / (section.density_kg_per_m3 * section.area_m2))
     exact = np.array([4.730041, 7.853205]) ** 2 * speed / (2.0 * np.pi * LENGTH**2)
-    assert found == pytest.approx(exact, rel=5e-6)
+    claim(
+        "Bending frequencies of a free slender beam", kind="exact", unit="Hz", computed=found,
+        source=FORM("β l = 4.730041 and 7.853205, Euler and Bernoulli"), reference=exact,
+        tolerance=5e-6 * exact, topics=("shaft", "hermetic-reciprocating"),
+    )  # fmt: skip
 
 
 @given(st.floats(1e-3, 0.1), st.floats(1e-3, 1.0))
@@ -96,7 +106,11 @@ def test_disc_precesses_like_a_free_top():
     roots = np.abs(np.roots([6e-4, 1e-3 * 312.0, -1000.0])) / (2.0 * np.pi)
     bounce = np.sqrt(1000.0 / 0.8) / (2.0 * np.pi)
     expected = np.sort([bounce, bounce, *roots])
-    assert whirl_frequencies_hz(rotor, 312.0) == pytest.approx(expected, rel=1e-9)
+    claim(
+        "Whirl of a disc on a soft spring", kind="exact", unit="Hz", reference=expected,
+        source=FORM("I_d ω² ± I_p Ω ω − k = 0"), computed=whirl_frequencies_hz(rotor, 312.0),
+        tolerance=1e-9 * expected, topics=("shaft", "hermetic-reciprocating"),
+    )  # fmt: skip
 
 
 def test_nodes_must_ascend():
@@ -123,4 +137,9 @@ def test_whirl_frequencies_of_another_package(stiffness, spin):
         supported[at, at] += stiffness
     found = whirl_frequencies_hz(RotorMatrices(rotor.mass, rotor.gyroscopic, supported), spin)
     # ROSS solves a non-symmetric eigenvalue problem with free axial motion: 1e-8 or so.
-    assert found[:10] == pytest.approx(ROSS_2_3_HZ[stiffness, spin], rel=1e-7)
+    expected = np.array(ROSS_2_3_HZ[stiffness, spin])
+    claim(
+        f"Ten whirl frequencies on bearings of {stiffness:g} N/m at {spin:g} rad/s", unit="Hz",
+        kind="second code", source=ROSS("Rotor.run_modal"), computed=found[:10],
+        reference=expected, tolerance=1e-7 * expected, topics=("shaft", "hermetic-reciprocating"),
+    )  # fmt: skip

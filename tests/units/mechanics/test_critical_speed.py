@@ -5,6 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from documents import FORM, ROSS, THESIS
+from evidence import claim
 from hypothesis import given
 from hypothesis import strategies as st
 from jeffcott import unbalance_deflection_m
@@ -58,9 +60,11 @@ def test_printed_figures(row):
     """Exact arithmetic, to the last digit printed."""
     found = rule_of_thumb_rpm(float(row["deflection_cm"]))
     # Rounded or cut off: within one unit of the last digit.
-    assert found == pytest.approx(
-        float(row["critical_speed_rpm"]), abs=float(row["last_digit_rpm"])
-    )
+    claim(
+        f"300/√y of the shaft, {row['speed_rpm']} rpm", kind="printed", source=THESIS("6.2"),
+        computed=found, reference=float(row["critical_speed_rpm"]), unit="rpm", topics=("shaft",),
+        tolerance=float(row["last_digit_rpm"]),
+    )  # fmt: skip
 
 
 def test_printed_deflections_fit_no_critical_speed():
@@ -120,7 +124,11 @@ def test_overhung_disc(transverse, axial):
     inverse_squares = np.linalg.eigvals(flexibility @ np.diag([mass, transverse - axial]))
     exact = np.sort(1.0 / np.sqrt(inverse_squares[inverse_squares > 1e-12]))
     found = forward_critical_speeds(held(rotor, 0, 1, 2, 3))
-    assert found[: exact.size] == pytest.approx(exact, rel=1e-6)
+    claim(
+        f"Critical speeds with an overhung disc, {transverse:g} and {axial:g} kg m²", kind="exact",
+        source=FORM("flexibility of a clamped beam, Timoshenko"), computed=found[: exact.size],
+        reference=exact, tolerance=1e-6 * exact, unit="rad/s", topics=("shaft",),
+    )  # fmt: skip
     # The rest belongs to the shaft's mass of 6e-11 kg: 1e5 times higher.
     assert np.all(found[exact.size :] > 1e3 * exact[-1])
 
@@ -136,7 +144,12 @@ def test_simply_supported_shaft(diameter):
     density = section.density_kg_per_m3
     inertia = density * (section.area_m2 - section.second_moment_m4 * k**2)
     # Cubic elements: (k h)⁴/1440 = (3π/40)⁴/1440 = 2e-6; bearings: 1e15 N/m against 1e7 N/m.
-    assert found == pytest.approx(np.sqrt(bending * k**4 / inertia), rel=5e-6)
+    exact = np.sqrt(bending * k**4 / inertia)
+    claim(
+        f"Critical speeds of a simply supported shaft of {1e3 * diameter:g} mm", kind="exact",
+        source=FORM("Ω² = EI k⁴/(ρA − ρI k²), Rayleigh shaft"), computed=found, reference=exact,
+        tolerance=5e-6 * exact, unit="rad/s", topics=("shaft",),
+    )  # fmt: skip
     slender = np.sqrt(bending / (density * section.area_m2)) * k**2
     assert np.all(np.abs(found / slender - 1.0) < 0.05 * (k * diameter) ** 2)
 
@@ -176,7 +189,16 @@ def test_scroll_shaft_of_another_package(row):
     bearings = np.array([0, int(np.argmin(abs(nodes - 0.185)))])
     found = forward_critical_speeds(on_bearings(rotor, bearings, float(row["bearing_n_per_m"])))
     expected = [float(row["first"]), float(row["second"])]
-    assert found[:2] == pytest.approx(expected, rel=1e-6)
+    changed = ", ".join(
+        f"{float(row[name]):g} {unit}"
+        for name, unit in (("diameter_m", "m"), ("bearing_n_per_m", "N/m"), ("rotor_kg", "kg"),
+                           ("pin_kg", "kg on the pin"))
+    )  # fmt: skip
+    claim(
+        f"Critical speeds of the scroll's shaft: {changed}", kind="second code",
+        source=ROSS("tests/oracles/rotor"), computed=found[:2], reference=expected,
+        tolerance=1e-6 * np.array(expected), unit="rad/s", topics=("shaft",),
+    )  # fmt: skip
 
 
 def test_ring_follows_the_shaft():

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from documents import FORM, SECOND
+from evidence import claim
 from reynolds_journal import coefficients
 
 from vibroacoustics.mechanics.journal_film import JournalFilm, short_bearing
@@ -27,7 +29,13 @@ def test_short_bearing_by_finite_differences(ratio):
     film = short_bearing(*size, load)
     assert film.eccentricity_ratio == pytest.approx(ratio, rel=0.01)
     numerical = JournalFilm(ratio, stiffness, damping)
-    assert in_common(film) == pytest.approx(in_common(numerical), rel=0.015)
+    exact = np.array(in_common(numerical))
+    claim(
+        f"Stiffness and damping of a short film, eccentricity {ratio:g}", kind="second code",
+        source=SECOND("Reynolds' equation by differences, reynolds_journal"), unit="1",
+        computed=in_common(film) / exact, reference=np.ones(exact.size), tolerance=0.015,
+        topics=("frame",),
+    )  # fmt: skip
     swirl = film.stiffness[0, 1] - film.stiffness[1, 0]
     assert swirl == pytest.approx(abs(stiffness[0, 1] - stiffness[1, 0]), rel=0.015)
 
@@ -56,9 +64,16 @@ def test_centred_journal():
     scale = damping * SPEED
     # The first correction is linear in the eccentricity, some 1e-6.
     assert film.eccentricity_ratio < 1e-5
-    assert film.damping == pytest.approx(damping * np.eye(2), abs=1e-4 * damping)
+    claim(
+        "Damping of a centred journal", kind="exact", source=FORM("π μ R L³/(2 c³)"), unit="N s/m",
+        computed=film.damping, reference=damping * np.eye(2), tolerance=1e-4 * damping,
+        topics=("frame",),
+    )  # fmt: skip
     expected = 0.5 * scale * np.array([[0.0, 1.0], [-1.0, 0.0]])
-    assert film.stiffness == pytest.approx(expected, abs=1e-4 * scale)
+    claim(
+        "Cross stiffness of a centred journal", kind="exact", source=FORM("C Ω/2"), unit="N/m",
+        computed=film.stiffness, reference=expected, tolerance=1e-4 * scale, topics=("frame",),
+    )  # fmt: skip
 
 
 def test_series_of_film_and_metal():
@@ -80,4 +95,8 @@ def test_load_is_carried(load_n):
     e = film.eccentricity_ratio
     scale = VISCOSITY * SPEED * DIAMETER * 0.022**3 / (8.0 * CLEARANCE**2)
     got = scale * e * np.sqrt(16.0 * e**2 + np.pi**2 * (1.0 - e**2)) / (1.0 - e**2) ** 2
-    assert got == pytest.approx(load_n, rel=1e-6)
+    claim(
+        f"Load that a short film bears, {load_n:g} N", kind="exact", unit="N", computed=got,
+        source=FORM("e √(16 e² + π² (1 − e²))/(1 − e²)²"), reference=load_n,
+        tolerance=1e-6 * load_n, topics=("frame",),
+    )  # fmt: skip

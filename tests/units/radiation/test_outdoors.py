@@ -4,6 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from documents import ABRAMOWITZ, SECOND
+from evidence import claim
 from scipy.integrate import quad
 from scipy.special import hankel1, j0
 from support import TINY
@@ -80,7 +82,11 @@ def test_boundary_loss_factor_by_tabled_error_functions(at, value):
     """R = 0 where cos θ = β: then Q is F alone, at w = (1 + j) at."""
     given = reflection_coefficient(4.0, 0.5, np.array(at**2), np.array(0.5))
     expected = 1.0 + 1j * np.sqrt(np.pi) * (1.0 + 1.0j) * at * value
-    assert np.conj(given) == pytest.approx(expected, abs=3e-7)
+    claim(
+        f"Boundary loss factor at w = (1 + j) {at:g}", kind="printed", unit="1", tolerance=3e-7,
+        source=ABRAMOWITZ("table 7.9"), computed=np.conj(given), reference=expected,
+        topics=("ground",),
+    )  # fmt: skip
 
 
 def test_limits_of_the_reflection():
@@ -93,12 +99,19 @@ def test_limits_of_the_reflection():
 @pytest.mark.parametrize(("outdoors", "most_db"), [(PASTURE, 0.09), (SNOW, 0.45)])
 def test_monopole_over_ground_by_quadrature(outdoors, most_db):
     for hertz in (50.0, 250.0, 1000.0):
+        differences = []
         for height in (0.05, 0.3, 1.0):
             for receiver in (np.array([1.0, 0.0, 0.3]), FAR, np.array([10.0, 0.0, 1.5])):
                 point = np.array([[0.0, 0.0, height]])
                 given = outdoors.green(point, receiver, hertz)[0]
                 exact = by_quadrature(outdoors, height, receiver, hertz)
-                assert abs(decibels(given, exact)) < most_db
+                differences.append(decibels(given, exact))
+        claim(
+            f"Monopole over ground of {1e-3 * outdoors.flow_resistivity_pa_s_per_m2:g} kPa s/m², "
+            f"{hertz:g} Hz", kind="second code", computed=differences, reference=0.0, unit="dB",
+            source=SECOND("Sommerfeld's integral, test_outdoors"), tolerance=most_db,
+            topics=("ground",),
+        )  # fmt: skip
 
 
 @pytest.mark.parametrize("outdoors", [PASTURE, SNOW])

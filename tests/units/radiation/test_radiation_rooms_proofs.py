@@ -5,6 +5,8 @@ from itertools import product
 
 import numpy as np
 import pytest
+from documents import FORM
+from evidence import claim
 from exact_room import exact_green
 from local_grid import local_grid
 from local_step import local_transfer
@@ -126,6 +128,12 @@ def test_a_hard_box_has_its_modes_and_no_damping():
     air.terms[:] = 1.0
     root = np.sqrt(air.operator(air.terms)) / 2.0
     frequency = np.arcsin(root) / (np.pi * air.time_step_s)
+    audible = exact.ravel() > 0.0
+    claim(
+        "Frequencies of a hard room", kind="exact", source=FORM("c/2 |(n_i/l_i)|"), unit="Hz",
+        computed=frequency[audible], reference=exact.ravel()[audible],
+        tolerance=1e-10 * exact.ravel()[audible], topics=("room",),
+    )  # fmt: skip
     assert np.allclose(frequency, exact.ravel(), rtol=1e-10, atol=1e-10)
     start = np.cos(2.0 * np.pi * exact.ravel() * air.time_step_s)
     air._before[:] = start
@@ -205,7 +213,11 @@ def _absorption_in_a_duct(share, angle, frequency_hz=1000.0):
 def test_a_wall_absorbs_by_its_impedance_at_every_angle(share, angle):
     admittance = fitted_branches(_uniform(share)).admittance(np.array([1000.0]))
     wanted = absorption_at_angle(admittance, np.cos(np.radians(angle)))[0]
-    assert abs(_absorption_in_a_duct(share, angle) - wanted) <= 0.005
+    claim(
+        f"Absorption of {share:g} of a wall at {angle:g}°", kind="exact", unit="1", tolerance=0.005,
+        source=FORM("plane wave on a locally reacting wall"), reference=wanted,
+        computed=_absorption_in_a_duct(share, angle), topics=("room",),
+    )  # fmt: skip
 
 
 def _flat_l(height):

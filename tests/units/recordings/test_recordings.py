@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 import scipy.io
 import xarray as xr
+from documents import MOSQITO
+from evidence import claim
 from nptdms import ChannelObject, TdmsWriter
 from scipy.io import wavfile
 from support import ROOT
@@ -453,7 +455,11 @@ def test_motor_recording():
     # The first six values as printed in the file.
     printed = [-612.284, -736.045, -783.707, -843.571, -765.933, -483.865]
     assert found["signal"].values[0, :6].tolist() == printed
-    assert np.sqrt(np.mean(samples**2)) == pytest.approx(MOTOR_RMS, rel=1e-6, abs=0.0)
+    claim(
+        "Root mean square of a motor's recorded acceleration", kind="recording", unit="m/s²",
+        source=MOSQITO("column of numbers by awk"), reference=MOTOR_RMS, tolerance=1e-6 * MOTOR_RMS,
+        computed=np.sqrt(np.mean(found["signal"].values ** 2)), topics=("measured",),
+    )  # fmt: skip
 
 
 MOTOR_RMS = 512.392331

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from documents import DIN_45681, ISO_PAS_20065
+from evidence import claim
 from scipy import signal
 
 from vibroacoustics.base.errors import ParameterError
@@ -57,20 +59,30 @@ I9_DB = np.array([
 @pytest.mark.parametrize(("hertz", "noise_db", "tone_db", "printed_db"), ANNEX_E)
 def test_audibility_of_the_printed_levels(hertz, noise_db, tone_db, printed_db):
     rated = audibility_db(np.array(tone_db), np.array(noise_db), np.array(hertz), 2.7)
-    assert rated == pytest.approx(printed_db, abs=0.05)
+    claim(
+        f"Audibility of the tone of {hertz:g} Hz", kind="printed", computed=rated, unit="dB",
+        source=ISO_PAS_20065("table E.2"), reference=printed_db, tolerance=0.05, topics=("rating",),
+    )  # fmt: skip
 
 
 def test_levels_of_the_printed_lines():
     mean_db, _, _ = mean_noise_lines(E1_DB, E1_HZ, np.array([15]))
-    assert mean_db[0] == pytest.approx(49.22, abs=0.05)
     tones = audible_tones(E1_DB, E1_HZ)
     second = tones[1]
     assert second.frequency_hz == 137.3
-    assert second.level_db == pytest.approx(67.96, abs=0.05)
-    assert second.audibility_db == pytest.approx(4.99, abs=0.05)
-    assert second.uncertainty_db == pytest.approx(2.79, abs=0.05)
     assert tones[-1].count == 3
-    assert tones[-1].level_db == pytest.approx(72.15, abs=0.05)
+    for name, ours, printed in (
+        ("mean noise line", mean_db[0], 49.22),
+        ("level", second.level_db, 67.96),
+        ("audibility", second.audibility_db, 4.99),
+        ("uncertainty", second.uncertainty_db, 2.79),
+        ("level with its two neighbours", tones[-1].level_db, 72.15),
+    ):
+        claim(
+            f"Tone of 137.3 Hz of printed lines: {name}", kind="printed", computed=ours, unit="dB",
+            source=ISO_PAS_20065("table E.1"), reference=printed, tolerance=0.05,
+            topics=("rating",),
+        )  # fmt: skip
 
 
 def test_second_printed_spectrum():
@@ -78,10 +90,17 @@ def test_second_printed_spectrum():
     hertz = 253.0 + 2.6917 * np.arange(I9_DB.size)
     (tone,) = audible_tones(I9_DB, hertz)
     assert tone.frequency_hz == pytest.approx(298.8, abs=0.1)
-    assert tone.noise_line_db == pytest.approx(41.71, abs=0.05)
-    assert tone.level_db == pytest.approx(68.10, abs=0.05)
-    assert tone.audibility_db == pytest.approx(12.52, abs=0.05)
-    assert tone.uncertainty_db == pytest.approx(3.18, abs=0.05)
+    for name, ours, printed in (
+        ("mean noise line", tone.noise_line_db, 41.71),
+        ("level", tone.level_db, 68.10),
+        ("audibility", tone.audibility_db, 12.52),
+        ("uncertainty", tone.uncertainty_db, 3.18),
+    ):
+        claim(
+            f"Tone of 298.8 Hz of printed lines: {name}", kind="printed", computed=ours, unit="dB",
+            source=DIN_45681("tables I.9, I.10"), reference=printed, tolerance=0.05,
+            topics=("rating",),
+        )  # fmt: skip
 
 
 def test_mean_of_the_printed_spectra():
@@ -89,15 +108,22 @@ def test_mean_of_the_printed_spectra():
     uncertainty = np.array([3.21, 2.95, 2.44, 2.52, 2.14])
     mean = 10.0 * np.log10(np.mean(10.0 ** (decisive / 10.0)))
     assert mean == pytest.approx(6.96, abs=0.05)
-    assert mean_uncertainty_db(decisive, uncertainty) == pytest.approx(1.38, abs=0.01)
+    claim(
+        "Uncertainty of the mean audibility", kind="printed", source=ISO_PAS_20065("annex E"),
+        computed=mean_uncertainty_db(decisive, uncertainty), reference=1.38, tolerance=0.01,
+        unit="dB", topics=("rating",),
+    )  # fmt: skip
 
 
 def test_bands_index_and_distance():
     assert masking_index_db(np.array([137.3, 592.2])) == pytest.approx([-2.02, -2.40], abs=0.005)
     printed = {100.0: 101.0, 570.0: 122.0, 1000.0: 162.0, 4000.0: 685.0, 10500.0: 2463.0}
-    assert critical_bandwidth(np.array(list(printed))) == pytest.approx(
-        np.array(list(printed.values())), abs=0.5
-    )
+    for hertz, width_hz in printed.items():
+        claim(
+            f"Width of the critical band about {hertz:g} Hz", kind="printed", unit="Hz",
+            source=ISO_PAS_20065("critical bands"), reference=width_hz, tolerance=0.5,
+            computed=critical_bandwidth(np.array([hertz]))[0], topics=("rating",),
+        )  # fmt: skip
     lower, upper = critical_edges_hz(np.array([90.0, 1000.0]))
     assert np.sqrt(lower * upper) == pytest.approx([90.0, 1000.0])
     assert proximity_hz(np.array([212.0, 137.3])) == pytest.approx([21.0, 24.09], abs=0.01)

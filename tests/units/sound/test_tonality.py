@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from documents import ECMA_418_1, MOSQITO
+from evidence import claim
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels.hearing import hearing_threshold_db
@@ -63,8 +65,15 @@ def test_neighbouring_bands_are_critical_bands_too(hertz):
     ("hertz", "noise", "bands"), [(100.0, 16.33, 19.0), (500.0, 10.51, 12.01), (2000.0, 8.0, 9.0)]
 )
 def test_criteria_rise_below_one_kilohertz(hertz, noise, bands):
-    assert critical_bands.noise_criterion_db(hertz) == pytest.approx(noise, abs=0.005)
-    assert critical_bands.prominence_criterion_db(hertz) == pytest.approx(bands, abs=0.005)
+    for name, ours, printed in (
+        ("tone-to-noise", critical_bands.noise_criterion_db(hertz), noise),
+        ("prominence", critical_bands.prominence_criterion_db(hertz), bands),
+    ):
+        claim(
+            f"Criterion of the {name} ratio at {hertz:g} Hz", kind="printed", unit="dB",
+            source=ECMA_418_1("criteria of prominence"), computed=ours, reference=printed,
+            tolerance=0.005, topics=("receivers",),
+        )  # fmt: skip
 
 
 def test_the_threshold_of_hearing_goes_on_from_range_to_range():
@@ -217,7 +226,11 @@ def test_mosqito_has_the_same_ratios():
     ):
         _, values, _, hertz = ratio(np.sqrt(bands.mean_square), bands.frequency_hz, False)
         nearest = np.argmin(np.abs(np.asarray(hertz, dtype=float) - bands.frequency_hz[of_tone]))
-        assert float(values[nearest]) == pytest.approx(own, abs=apart)
+        claim(
+            f"Ratio of a weak tone by {ratio.__name__}", kind="second code", unit="dB",
+            source=MOSQITO(ratio.__name__), computed=own, reference=float(values[nearest]),
+            tolerance=apart, topics=("receivers",),
+        )  # fmt: skip
 
 
 def test_noise_alone_has_no_tone():

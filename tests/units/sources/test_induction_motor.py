@@ -5,6 +5,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from documents import FITZGERALD
+from evidence import claim
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kloss import KlossMotor, slip_at_torque, slope_ratio, torque
@@ -101,11 +103,19 @@ def published(example):
         }
 
 
+UNITS = {"phase": "deg", "factor": "1", "power": "W"}
+
+
 def assert_published(example, found):
     printed = published(example)
     assert printed.keys() == found.keys()
     for quantity, (value, tolerance) in printed.items():
-        assert found[quantity] == pytest.approx(value, abs=tolerance), quantity
+        unit = next((unit for word, unit in UNITS.items() if word in quantity), "A")
+        claim(
+            f"Motor of example {example}: {quantity}", kind="printed", unit=unit, reference=value,
+            source=FITZGERALD(f"example {example}, quoted from memory"), computed=found[quantity],
+            tolerance=tolerance, topics=("torque-ripple",),
+        )  # fmt: skip
 
 
 # --- published -----------------------------------------------------------------------------------

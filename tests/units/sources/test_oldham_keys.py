@@ -2,11 +2,14 @@
 
 import csv
 import tomllib
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 from constant_film import crown_for, use_constant_film
+from documents import APART, FORM
+from evidence import claim
 from machine_files import machine_of
 from pydantic import ValidationError
 from scipy.integrate import quad, solve_ivp
@@ -47,6 +50,7 @@ KEYS = MACHINE_KEYS.model_copy(update={"friction_ratio": 0.0})
 MASS_KG, STROKE_M, SPEED_RPM = 0.0727, 3.461e-3, 3500.0
 RATED_N_M = 2959.0 * STROKE_M / 2.0  # M_z = F_t r_o / 2, mean over a revolution
 NONE = np.zeros(1)
+claimed = partial(claim, topics=("oldham-keys",))
 
 
 def keys_with(**changes) -> OldhamKeys:
@@ -139,7 +143,11 @@ def coupling(**changes) -> Coupling:
 def test_contact_loss_speed():
     """To the last digit; it is the mean, not the least, tangential force that gives it."""
     of_mean = contact_loss_speed_rpm(KEYS, MASS_KG, STROKE_M, np.array([RATED_N_M]))
-    assert of_mean == pytest.approx(published("contact loss speed")["5.1205", "0", ""], abs=0.5)
+    claimed(
+        "Speed at which a key loses contact", kind="exact", source=FORM("ω² = M_z/(m r R)"),
+        computed=of_mean, reference=published("contact loss speed")["5.1205", "0", ""],
+        tolerance=0.5, unit="rpm",
+    )  # fmt: skip
     of_least = contact_loss_speed_rpm(KEYS, MASS_KG, STROKE_M, np.array([2771.0 * STROKE_M / 2.0]))
     assert of_least == pytest.approx(5621.0, abs=0.5)
 
@@ -157,13 +165,21 @@ def test_pendulum_lowers_the_contact_loss_speed():
     """Its bobs, 59.48 g (thesis 7.1), move with the ring."""
     with_bobs = contact_loss_speed_rpm(KEYS, MASS_KG + 0.05948, STROKE_M, np.array([RATED_N_M]))
     printed = published("contact loss speed with pendulum")["5.1205", "0", ""]
-    assert with_bobs == pytest.approx(printed, abs=0.5)
+    claimed(
+        "Speed at which a key loses contact with the pendulum's bobs", kind="exact", unit="rpm",
+        source=FORM("ω² = M_z/((m + 59.48 g) r R)"), computed=with_bobs, reference=printed,
+        tolerance=0.5,
+    )  # fmt: skip
 
 
 def test_contact_loss_force_at_3500_rpm():
     """2 M_z/r, printed as "about 1.1 kN": to half its last digit."""
     force = 2.0 * contact_loss_moment_n_m() / STROKE_M
-    assert force == pytest.approx(published("contact loss tangential force")["", "0", ""], abs=50.0)
+    claimed(
+        "Tangential force at which a key loses contact, 3500 rpm", kind="exact", unit="N",
+        source=FORM("F_t = 2 m ω² R"), computed=force, tolerance=50.0,
+        reference=published("contact loss tangential force")["", "0", ""],
+    )  # fmt: skip
 
 
 # The other simulation has a constant film of 50 N s/m and contacts after Lankarani & Nikravesh. Its
@@ -222,7 +238,12 @@ def test_table_of_the_other_simulation(constant_film, case):
     assert printed
     for name, value in printed.items():
         # Zeros are printed as 0: to half of the last digit of the others, 0.01 N.
-        assert figures[name] == pytest.approx(value, rel=TABLE_TOLERANCE, abs=5e-3), name
+        unit = {"impacts per revolution": "1", "peak force": "N"}.get(name, "N rms")
+        claimed(
+            f"Keys: {name}, {moment:g} N m, friction {friction:g}, gap {gap:g} µm",
+            kind="second code", source=APART("four keys with a constant film"), unit=unit,
+            computed=figures[name], reference=value, tolerance=max(TABLE_TOLERANCE * value, 5e-3),
+        )  # fmt: skip
 
 
 # --- contact loss by simulation ------------------------------------------------------------------

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from documents import APART, FORM
+from evidence import claim
 from gas_and_wall import GasAndWall
 from scipy.optimize import brentq
 from scipy.special import jnp_zeros, jvp, yvp
@@ -47,7 +49,11 @@ def test_flat_disc_has_bessels_roots(order, height):
     expected = with_axial(np.array(roots) / RADIUS, height)
     modes = hertz(GasOrder(disc_profile(RADIUS, 0.0, height, 0.1), order).modes[0])
     obtained = modes[order == 0 :][: expected.size]
-    np.testing.assert_allclose(obtained, expected, rtol=4e-4)
+    claim(
+        f"Gas in a flat disc of {1e3 * height:g} mm, order {order}", kind="exact", unit="Hz",
+        source=FORM("roots of J'_n and cos mπz/H"), computed=obtained, reference=expected,
+        tolerance=4e-4 * expected, topics=("discharge_dome",),
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("order", range(4))
@@ -64,7 +70,11 @@ def test_annulus_has_the_roots_of_two_walls(order):
     expected = with_axial(np.array([0.0] * (order == 0) + roots), height, 182.0)
     modes = hertz(GasOrder(annulus_profile(inner, outer, 0.0, height), order).modes[0], 182.0)
     obtained = modes[order == 0 :][: expected.size]
-    np.testing.assert_allclose(obtained, expected, rtol=4e-4)
+    claim(
+        f"Gas in an annulus, order {order}", kind="exact", unit="Hz", computed=obtained,
+        source=FORM("roots of J'_n Y'_n between two walls"), reference=expected,
+        tolerance=4e-4 * expected, topics=("suction_annulus",),
+    )  # fmt: skip
     if order:
         assert obtained[0] == pytest.approx(417.0 * order, rel=3e-3)
 
@@ -81,7 +91,11 @@ def test_dome_as_computed_elsewhere(order, expected):
     """Elements of another code, to its digits."""
     modes = hertz(GasOrder(dome(), order).modes[0])[order == 0 :]
     print(f"n = {order}: expected {expected} Hz, obtained {np.round(modes[:2], 1)} Hz")
-    np.testing.assert_allclose(modes[:2], expected, atol=0.6)
+    claim(
+        f"Gas in the dome, order {order}", kind="second code", source=APART("finite elements"),
+        computed=modes[:2], reference=expected, tolerance=0.6, unit="Hz",
+        topics=("discharge_dome",),
+    )  # fmt: skip
 
 
 # --- attachment mode ---

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from documents import FORM
+from evidence import claim
 
 from vibroacoustics.transfer.four_poles import pipe, pressure_ratio, transmission_loss_db
 
@@ -17,7 +19,12 @@ def test_expansion_chamber(expansion):
     k = 2.0 * np.pi * FREQUENCY / SOUND
     closed = 1.0 + 0.25 * (expansion - 1.0 / expansion) ** 2 * np.sin(k * length) ** 2
     obtained = transmission_loss_db(poles, DENSITY * SOUND / tube)
-    np.testing.assert_allclose(obtained, 10.0 * np.log10(closed), atol=1e-9)
+    claim(
+        f"Transmission loss of a chamber, expansion {expansion:g}", kind="exact", unit="dB",
+        source=FORM("10 lg(1 + (m − 1/m)²/4 sin² kL)"), computed=obtained,
+        reference=10.0 * np.log10(closed), tolerance=1e-9,
+        topics=("discharge-pulsation", "discharge_muffler"),
+    )  # fmt: skip
 
 
 def test_a_pipe_without_reflection_only_delays():

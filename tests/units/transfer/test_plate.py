@@ -4,6 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from documents import FORM, SECOND
+from evidence import claim
 from scipy.integrate import quad
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
@@ -65,7 +67,12 @@ def test_mobility_and_coincidence_of_a_steel_sheet():
     """Printed for 1 mm steel: coincidence near 12 kHz; Y = 1/(2.3 ρ c_L h²) within its rounding."""
     speed = np.sqrt(2.1e11 / (7850.0 * (1.0 - 0.09)))
     assert STEEL.coincidence_hz == pytest.approx(12e3, rel=0.02)
-    assert STEEL.mobility_m_per_ns == pytest.approx(1.0 / (2.3 * 7850.0 * speed * 1e-6), rel=0.01)
+    exact = 1.0 / (2.3 * 7850.0 * speed * 1e-6)
+    claim(
+        "Mobility of a steel sheet of 1 mm", kind="exact", source=FORM("1/(2.3 ρ c_L h²)"),
+        computed=STEEL.mobility_m_per_ns, reference=exact, tolerance=0.01 * exact, unit="m/(N s)",
+        topics=("structure_borne",),
+    )  # fmt: skip
 
 
 def test_one_newton_at_one_metre_is_34_dba():
@@ -86,7 +93,11 @@ def test_near_field_of_a_limp_sheet_in_closed_form():
     limp = AIR_DENSITY_KG_PER_M3 / (2.0 * np.pi * SPEED_OF_SOUND_M_PER_S * plate.mass_kg_per_m2**2)
     expected = limp * (1.0 - mu * np.arctan(1.0 / mu))
     power = near_power(plate, frequency, one_newton(frequency), HERE)
-    np.testing.assert_allclose(power, expected, rtol=2e-3)  # stiffness at 500 Hz: 0.2 %
+    claim(
+        "Near field of a limp sheet", kind="exact", source=FORM("1 − µ arctan(1/µ)"), unit="W",
+        computed=power, reference=expected, tolerance=2e-3 * expected,  # stiffness at 500 Hz: 0.2 %
+        topics=("structure_borne",),
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("distance_m", [0.0, 0.25])
@@ -96,7 +107,12 @@ def test_near_field_by_quadrature(hertz, distance_m):
     feet = np.array([[0.0, 0.0, 0.0], [distance_m, 0.0, 0.0]])[: 2 if distance_m else 1]
     force = np.full((1, len(feet)), np.sqrt(2.0), dtype=complex)
     expected = power_by_quadrature(plate, hertz, 1e-6, distance_m)
-    assert near_power(plate, frequency, force, feet)[0] == pytest.approx(expected, rel=1e-3)
+    claim(
+        f"Near field of a steel sheet, {hertz:g} Hz, feet {distance_m:g} m apart", unit="W",
+        kind="second code", source=SECOND("quadrature over wavenumbers, test_plate"),
+        computed=near_power(plate, frequency, force, feet)[0], reference=expected,
+        tolerance=1e-3 * expected, topics=("structure_borne",),
+    )  # fmt: skip
 
 
 def test_waves_above_coincidence_by_quadrature():
@@ -108,7 +124,11 @@ def test_waves_above_coincidence_by_quadrature():
         frequency = np.array([ratio * plate.coincidence_hz])
         expected = power_by_quadrature(plate, frequency[0], 0.02)
         given = wave_power(plate, frequency, np.array([wall.mobility_m_per_ns]))
-        assert given[0] == pytest.approx(expected, rel=0.05)
+        claim(
+            f"Waves of a concrete wall at {ratio:g} times its coincidence", kind="second code",
+            source=SECOND("quadrature over wavenumbers, test_plate"), computed=given[0], unit="W",
+            reference=expected, tolerance=0.05 * expected, topics=("structure_borne",),
+        )  # fmt: skip
         assert near_power(plate, frequency, one_newton(frequency), HERE)[0] == 0.0
 
 

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import solid_of_revolution as solid
 from cylinder_theories import diaphragm_frequencies_hz, donnell_frequencies_hz
+from documents import APART, FORM
+from evidence import claim
 from numpy.polynomial.legendre import leggauss
 from pydantic import ValidationError
 from scipy.linalg import eigh
@@ -104,7 +106,12 @@ def test_published_frequencies():
     for row in csv.DictReader(lines):
         span, order = 1e-3 * float(row["span_mm"]), int(row["circumferential_order"])
         found = diaphragm_frequencies_hz(STEEL, RADIUS, span, order, 1)[0]
-        assert found == pytest.approx(float(row["frequency_hz"]), rel=0.003), row
+        printed = float(row["frequency_hz"])
+        claim(
+            f"Cylinder of {row['span_mm']} mm by Flügge's theory, order {order}", unit="Hz",
+            kind="second code", source=APART("Flügge's theory"), computed=found,
+            reference=printed, tolerance=0.003 * printed, topics=("structure",),
+        )  # fmt: skip
 
 
 def test_printed_orders_are_the_lowest_two():
@@ -124,7 +131,12 @@ def test_long_shell_bends_like_rayleighs_ring(order):
     size = np.sqrt(k * n**2 / (n**2 + 1.0)) * speed / (2.0 * np.pi * RADIUS)
     fluegge = diaphragm_frequencies_hz(STEEL, RADIUS, 1e4, n, 1)[0]
     donnell = donnell_frequencies_hz(STEEL, RADIUS, 1e4, n, 1)[0]
-    assert fluegge == pytest.approx(size * (n**2 - 1.0), rel=k * n**4)
+    exact = size * (n**2 - 1.0)
+    claim(
+        f"Long shell by Flügge's theory as a ring, order {n}", kind="exact", unit="Hz",
+        source=FORM("Rayleigh's ring"), computed=fluegge, reference=exact,
+        tolerance=exact * k * n**4, topics=("structure",),
+    )  # fmt: skip
     assert donnell == pytest.approx(size * n**2, rel=k * n**4)
 
 
