@@ -69,8 +69,9 @@ these get and return; `circling`, `constant_rotation` and `wrenches_of_parts` ma
 masses. Further results of an option are a `RingForce`, a `FurtherRing`, an `InsertionLoss` and
 `AttachedBodies`, each a `RigidBody` held by a `Bushing` or several. A
 machine has a `Rotation`, a `CrankFrame`, tables of `Parameters`, and for options each `Capability`,
-such as a slider with `BalancePlanes`; `Held` marks values that are not sampled. A `FileTable` takes
-values from a data file, by `read_columns` from CSV.
+such as a slider with `BalancePlanes`; `Held` marks values that are not sampled, a `Regime` the part
+of a range in which another law holds. A `FileTable` takes values from a data file, by
+`read_columns` from CSV.
 Loads act at a `Port`: `HOUSING`, `BLOCK`, the parts `FIXED_SCROLL`, `BEARING_HOUSING`,
 `ORBITING_SCROLL`, `LOWER_BEARING` and `STATOR`, the `STATOR_YOKE`, a `GasPort`; a `Tone` is a
 line that is no order, `Noise` a random load. A `DesignFigure` of what is seen of designs, each a

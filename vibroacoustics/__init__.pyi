@@ -14,6 +14,7 @@ from .base.errors import VibroacousticsError as VibroacousticsError
 from .base.file_table import FileTable as FileTable
 from .base.parameters import Held as Held
 from .base.parameters import Parameters as Parameters
+from .base.parameters import Regime as Regime
 from .base.plugin_file import load_plugin as load_plugin
 from .base.registry import register as register
 from .base.units import Unit as Unit

@@ -58,6 +58,18 @@ louder = damping["increase_probability"].sel(judged_quantity="level_total").item
 print(f"probability that it is louder by 0.5 dB or more: {100.0 * louder:.0f} %")
 
 # %%
+# What would change the answer
+# ----------------------------
+# The same samples, reweighted: with less evidence, another prior of unmodelled noise, no
+# discrepancy, or other oil on the keys (:doc:`/changed_inputs`). The report shows a row where 20
+# samples are effective.
+for name in none["alternative"].values:
+    row = none.sel(alternative=name)
+    level, share = (row[f"alternative_{what}"] for what in ("level", "share"))
+    size, gas = row["alternative_effective"].item(), share.sel(energy_part="gas").item()
+    print(f"{name:45s} {level.item():5.1f} dB(A), gas {100.0 * gas:3.0f} %, effective {size:4.0f}")
+
+# %%
 # Transfer paths
 # --------------
 # Source, where it acts, in which direction: shares of the modelled energy add up to one over all

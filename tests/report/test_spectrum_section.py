@@ -13,7 +13,6 @@ from vibroacoustics.report.sections.measured_spectrum import (
     settled_sentence,
     settled_table,
 )
-from vibroacoustics.report.sections.sources.content import alternatives_table
 from vibroacoustics.report.sections.sources.words import samples_sentence, source_share
 from vibroacoustics.report.sections.unknowns import most_valuable
 
@@ -94,9 +93,3 @@ def test_words_of_the_report_know_the_spectrum(results: xr.Dataset) -> None:
     assert "spectrum" not in samples_sentence(without)
     assert most_valuable(results) == ""
     assert most_valuable(without) == "a third-octave spectrum, which separates the sources"
-
-
-def test_alternatives_name_the_data_that_they_have(results: xr.Dataset) -> None:
-    table = alternatives_table(results)
-    assert table is not None
-    assert table.head[2:] == ("published level alone",)

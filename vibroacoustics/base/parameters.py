@@ -85,6 +85,31 @@ class Held:
     reason: str
 
 
+@dataclass(frozen=True)
+class Regime:
+    """Annotation of a value with a part of its range in which another law of the machine holds.
+
+    The report shows what its headlines would be with samples of this part alone.
+
+    Attributes
+    ----------
+    name : words for the law, with the limits in the unit of files
+    lowest, highest : limits of the value, SI
+
+    Examples
+    --------
+    >>> from typing import Annotated
+    >>> class Slot(va.Parameters):
+    ...     oil_m: Annotated[float, va.Regime("slot with at most 2 µm of oil", 0.0, 2e-6)]
+    >>> Slot(oil_m=1e-6).oil_m
+    1e-06
+    """
+
+    name: str
+    lowest: float
+    highest: float
+
+
 class KindOfParameters(Parameters):
     """Parameters whose class is named by the key `kind` of their table, through a registry.
 

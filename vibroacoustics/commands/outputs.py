@@ -33,6 +33,7 @@ REPORT_FILES: Final = (
     *(
         f"{table}.csv"
         for table in (
+            "alternatives",
             "claims",
             "comparison",
             "conflict",

@@ -151,13 +151,23 @@ def log_likelihood(modelled: Array, unmodelled: Array, data: Sequence[Datum]) ->
         (discrepancy, band), Pa²
     data : that weigh the sample
     """
-    noise = np.atleast_2d(unmodelled)[:, None]
-    bands = modelled[:, None] + power_of_level(LEVELS_DB)[:, None] * noise
+    bands = with_noise(modelled, unmodelled)
     likelihood = np.zeros(bands.shape[:2])
     for datum in data:
         likelihood += datum.log_likelihood(bands)
     likelihood[np.isnan(bands).any(axis=2)] = -np.inf
     return likelihood
+
+
+def with_noise(modelled: Array, unmodelled: Array) -> Array:
+    """Return the bands of the machine, (discrepancy, level of unmodelled noise, band), Pa².
+
+    Parameters
+    ----------
+    modelled, unmodelled : see `log_likelihood`
+    """
+    noise = np.atleast_2d(unmodelled)[:, None]
+    return np.asarray(modelled[:, None] + power_of_level(LEVELS_DB)[:, None] * noise)
 
 
 def log_weight_of_points(over_db: Array, deviation_db: float, prior: Prior) -> Array:

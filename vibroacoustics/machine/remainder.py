@@ -1,5 +1,6 @@
 """What no source explains of a machine's sound: how it goes with speed and frequency."""
 
+from math import inf
 from typing import Annotated, Final
 
 import numpy as np
@@ -7,7 +8,7 @@ from pydantic import Field
 
 from ..base.arrays import Array
 from ..base.decibel import level_of_power, power_of_level
-from ..base.parameters import Contradictions, Held, Parameters
+from ..base.parameters import Contradictions, Held, Parameters, Regime
 
 PRIOR: Final = Held("say what is held of the remainder before anything is sampled")
 LEAST_FLAT_DB: Final = 1.0
@@ -15,6 +16,11 @@ OF_THE_REMAINDER: Final = frozenset(
     f"remainder.{name}" for name in ("speed_growth_db", "peak_frequency_hz", "slope_db")
 )
 """Without effect where a machine has no published level that leaves a remainder."""
+PEAKS: Final = (
+    Regime("unmodelled noise with its peak up to 1 kHz", 0.0, 1000.0),
+    Regime("unmodelled noise with its peak from 1 kHz", 1000.0, inf),
+)
+"""Halves, on a logarithm, of 250 Hz to 5 kHz."""
 DATUM: Final = Held("are data that the model is compared to")
 
 
@@ -58,7 +64,7 @@ class Remainder(Parameters):
 
     speed_growth_db: float = Field(default=30.0, ge=-100.0, le=200.0)
     """For ten times the speed; below zero where a resonance makes the slower speed the louder."""
-    peak_frequency_hz: float = Field(default=1600.0, ge=100.0, le=10000.0)
+    peak_frequency_hz: Annotated[float, *PEAKS] = Field(default=1600.0, ge=100.0, le=10000.0)
     """Of the A-weighted spectrum in third octaves."""
     slope_db: float = Field(default=4.0, ge=0.0, le=30.0)
     """For each octave off the peak."""

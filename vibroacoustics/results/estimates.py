@@ -15,6 +15,10 @@ QUANTILES: Final = (0.1, 0.9)
 """Probabilities of a smaller value at the ends of intervals."""
 
 
+ENSEMBLE_WEIGHT: Final = "prior_sample_weight"
+"""Variable that the digits of values follow from."""
+
+
 class Estimate(NamedTuple):
     """A value with the ends of its 80 % interval.
 

@@ -20,13 +20,13 @@ from ..study.sampling import Sample
 from ..study.study import Study
 from ..transfer.labelled import housing_variables
 from ..transfer.received import Transmission
+from ..uncertainty.alternative_sounds import ComputedSamples
 from ..uncertainty.bank import Bank
 from ..uncertainty.evidence import PAIRS, Evidence
 from ..uncertainty.representative import at_medians, nearest_row
 from .chain import Chain
 from .forces import PublishedCases, motion_of, with_published
 from .sampled import deviating
-from .samples import ComputedSamples
 from .stage import Given, Stage
 
 _NOISE = ("noise_band_level", "unmodelled_band_level")
@@ -85,7 +85,7 @@ class RepresentativeSample(Stage):
         row = nearest_row(chain.results)
         rows, pair = divmod(row, PAIRS)
         number = computed.numbers[rows]
-        sample, _, cases = deviating(with_published(chain), ensemble, number)
+        sample, _, cases, _ = deviating(with_published(chain), ensemble, number)
         gain = {key: of_case[pair] for key, of_case in sample.gain.items()}
         chosen = Representative(number, pair, ensemble.samples[number], sample.machine, cases, gain)
         lines, noise = _sound(chain, chosen, sample)

@@ -45,22 +45,26 @@ def values_of(
 def _values(chain: Chain, ensemble: Bank, number: int, count: int) -> SampleValues:
     """Levels and forces of a sample with its pairs of discrepancy and unmodelled level."""
     study, axes = chain.study, chain[NominalSound].axes
-    sample, pairs, sampled = deviating(chain, ensemble, number)
+    sample, pairs, sampled, sound = deviating(chain, ensemble, number)
     levels = sample_levels(study, axes, chain.results["order_frequency"].values, sample)
     lines = chain.results["judged_tone"].values.tolist()
     levels |= sampled_tones(study, axes, lines, sample, levels)
     levels |= sampled_rating(study, axes, levels)
     changed = sampled_forces(study, chain[Cases], sampled, chain.results)
-    return SampleValues.of(levels, force_variables(changed, chain.results), pairs, count)
+    forces = force_variables(changed, chain.results)
+    receiver = list(axes.receivers).index(study.catalogue_receiver)
+    mutual = axes.gathered(sound, "mutual")[:, :, :, :, receiver]
+    return SampleValues.of(levels, forces, count * pairs.weight, mutual)
 
 
-def deviating(chain: Chain, ensemble: Bank, number: int) -> tuple[Deviating, Pairs, Cases]:
+def deviating(chain: Chain, ensemble: Bank, number: int) -> tuple[Deviating, Pairs, Cases, Sound]:
     """Compute the sound of a sample with the discrepancies of its pairs.
 
 
     Returns
     -------
-    sound, pairs of discrepancy and unmodelled level, and cases of the sample
+    sound, pairs of discrepancy and unmodelled level, cases of the sample, and its sound without
+    discrepancy
     """
     study, evidence, axes = chain.study, chain[Evidence], chain[NominalSound].axes
     sampled = chain.at(ensemble.samples[number])[Cases]
@@ -70,7 +74,7 @@ def deviating(chain: Chain, ensemble: Bank, number: int) -> tuple[Deviating, Pai
     pairs = evidence.pairs_of(at_published, machine, number)
     gains, sounds = pairs.discrepancy.gains(sound), pairs.discrepancy.sounds(sound)
     noise = evidence.unmodelled_pa2(pairs, machine)
-    return Deviating(received, gains, sounds, machine, noise), pairs, sampled
+    return Deviating(received, gains, sounds, machine, noise), pairs, sampled, sound
 
 
 def timed_sounds(chain: Chain, study: Study, count: int) -> tuple[list[Sound], float]:

@@ -1,6 +1,6 @@
 """All cases with the samples that go on."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Final
 
 from ..base.registry import register
@@ -8,10 +8,11 @@ from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
 from ..study.study import Study
 from ..transfer.received import Transmission
+from ..uncertainty.alternative_sounds import ComputedSamples
 from ..uncertainty.bank import Bank
 from ..uncertainty.cost import samples_cost
 from ..uncertainty.evidence import Evidence
-from ..uncertainty.sample_variables import sample_variables
+from ..uncertainty.sample_variables import SampleValues, sample_variables
 from .chain import Chain
 from .forces import PublishedCases, with_published
 from .sampled import timed_sounds, values_of
@@ -21,11 +22,12 @@ _TIMED: Final = 2
 """Number of samples that are timed."""
 
 
-@dataclass(frozen=True)
-class ComputedSamples:
-    """Numbers in the ensemble of the samples that were computed in all cases."""
-
-    numbers: tuple[int, ...]
+def _computed(solved: Mapping[tuple[int, int], SampleValues]) -> ComputedSamples:
+    """Sound and foot force of samples by their number in the ensemble and how often they count."""
+    numbers, counts = zip(*solved, strict=True)
+    mutual = tuple(values.mutual for values in solved.values())
+    force = tuple(values.forces["largest_foot_force"][..., 1] for values in solved.values())
+    return ComputedSamples(numbers, counts, mutual, force)
 
 
 @register
@@ -69,20 +71,20 @@ class Samples(Stage):
 
         values = values_of(with_published(chain), ensemble, numbers, done)
         solved = {
-            number: value
-            for (number, _), value in zip(numbers, values, strict=True)
+            counted: value
+            for counted, value in zip(numbers, values, strict=True)
             if value is not None
         }
         if not solved:
             return Given()
         statistics, kept = sample_variables(
             chain.study,
-            [ensemble.samples[number] for number in solved],
+            [ensemble.samples[number] for number, _ in solved],
             list(solved.values()),
             ensemble.prior_names,
             chain.results,
         )
-        return Given(kept, (ComputedSamples(tuple(solved)),), statistics)
+        return Given(kept, (_computed(solved),), statistics)
 
     def tried(self, chain: Chain, study: Study) -> Trial:
         sounds, seconds = timed_sounds(with_published(chain), study, _TIMED)

@@ -69,7 +69,7 @@ def ranges_of(
         *tables, key = record.field.split(".")
         if record.lowest is None or record.highest is None or not _of_machine(record, machine):
             continue
-        owner, (name, factor) = _owner(machine, tables), si_key(key)
+        owner, (name, factor) = owner_of(machine, tables), si_key(key)
         field = type(owner).model_fields[name]
         integer = _is_integer(field.annotation)
         ends = [_si(end, factor, integer) for end in (record.lowest, record.highest)]
@@ -104,7 +104,8 @@ def _of_machine(record: ParameterRecord, machine: Machine) -> bool:
     return record.field.partition(".")[0] in type(machine).model_fields
 
 
-def _owner(machine: Machine, tables: Iterable[str]) -> Parameters:
+def owner_of(machine: Machine, tables: Iterable[str]) -> Parameters:
+    """Return the table of a machine by the names of it and of those that hold it."""
     owner: Parameters = machine
     for table in tables:
         owner = getattr(owner, table)

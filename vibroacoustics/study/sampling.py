@@ -41,6 +41,21 @@ def _value(limits: Range, share: float) -> float:
     return float(lowest + share * (highest - lowest))
 
 
+def density(limits: Range, value: float) -> float:
+    """Compute the probability density of a value that is sampled from a range; 0 outside.
+
+    For a whole number it is the probability.
+    """
+    lowest, highest = limits.lowest, limits.highest
+    if not lowest <= value <= highest:
+        return 0.0
+    if limits.integer:
+        return 1.0 / (highest - lowest + 1.0)
+    if _is_wide(limits):
+        return 1.0 / (value * log(highest / lowest))
+    return 1.0 / (highest - lowest)
+
+
 def narrowed(limits: Range, value: float, least: float, greatest: float) -> float:
     """A sampled value moved into the part of its range between two limits, at the same share of it.
 

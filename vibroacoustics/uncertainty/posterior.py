@@ -15,7 +15,6 @@ from ..levels.nominal import Sound
 from ..levels.spectrum_data import SpectrumData
 from ..study.samples import batches_of_samples, with_sample
 from ..study.sampling import Sample
-from .alternatives import alternative_variables
 from .bank import Bank, Weighted, bank_of
 from .conflict import conflict_variables
 from .evidence import Evidence
@@ -100,8 +99,6 @@ def _beside_data(evidence: Evidence, ensemble: Bank, before: Array) -> xr.Datase
         data = (*data, *spectrum.data)
         values += [datum.predicted(bands) for datum in spectrum.data]
     results = conflict_variables(data, np.array(values), weight, generator)
-    if not ensemble.suffices:
-        return results
-    if spectrum is not None:
+    if spectrum is not None and ensemble.suffices:
         results = results.merge(spectrum_variables(evidence, spectrum, ensemble, bands, weight))
-    return results.merge(alternative_variables(evidence, sounds, machines, before))
+    return results

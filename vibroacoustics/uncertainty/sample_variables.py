@@ -29,7 +29,7 @@ from ..study.sampling import Sample
 from ..study.study import Study
 from .choices import choice_information
 from .every_sample import sampled_values
-from .evidence import PAIRS, Pairs
+from .evidence import PAIRS
 
 _KEPT: Final = ("source_level", "level_modelled", "level_total", "level_unmodelled")
 """Levels that are kept by sample, the A-weighted ones."""
@@ -54,26 +54,22 @@ class SampleValues(NamedTuple):
     levels : by variable, the first axis is the pair of a discrepancy and an unmodelled level
     forces : by variable, shape (speed, option, ...)
     weight : of the pairs, shape (prior, pair)
+    mutual : A-weighted mean squares of pairs of sources at the published microphone without
+        discrepancy, shape (speed, option, source, source, gain band), Pa²
     """
 
     levels: Levels
     forces: Mapping[str, Array]
     weight: Array
+    mutual: Array
 
     @classmethod
     def of(
-        cls, levels: Levels, forces: Mapping[str, Array], pairs: Pairs, count: int
+        cls, levels: Levels, forces: Mapping[str, Array], weight: Array, mutual: Array
     ) -> "SampleValues":
-        """Return levels, large ones in single precision, and forces with the weight of pairs.
-
-        Parameters
-        ----------
-        levels, forces : by variable
-        pairs : of the sample
-        count : how many times it counts
-        """
+        """Return the values with large ones in single precision; parameters as the attributes."""
         single = {name: np.asarray(levels[name], "f4") for name in _LARGE & levels.keys()}
-        return cls({**levels, **single}, forces, count * pairs.weight)
+        return cls({**levels, **single}, forces, weight, np.asarray(mutual, "f4"))
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,22 @@
 """Keys of an Oldham ring in their slots: geometry, oil, material, friction."""
 
+from math import inf
+from typing import Annotated, Final
+
 from pydantic import Field
 
-from ...base.parameters import Parameters
+from ...base.parameters import Parameters, Regime
 
 INERTIA = Field(gt=0.0, le=10.0)
 SIDE = Field(ge=1e-3, le=0.1)
+
+OIL_FILMS: Final = (
+    Regime("keys nearly dry, oil layer up to 2 µm", 0.0, 2e-6),
+    Regime("keys starved of oil, layer up to 10 µm", 0.0, 10e-6),
+    Regime("slots full of oil, layer from 20 µm", 20e-6, inf),
+)
+"""Assumed limits: the net force of a loose ring falls by a third from dry keys to a layer of
+2 µm and by two thirds to 10 µm; 20 µm fill most slots of 8 to 40 µm."""
 
 
 class OldhamKeys(Parameters):
@@ -26,7 +37,7 @@ class OldhamKeys(Parameters):
     restitution_ratio: float = Field(ge=0.2, le=1.0)
     """Speed of rebound over speed of approach of dry faces."""
     oil_viscosity_pa_s: float = Field(ge=1e-5, le=1.0)
-    oil_layer_m: float = Field(ge=0.0, le=0.1)
+    oil_layer_m: Annotated[float, *OIL_FILMS] = Field(ge=0.0, le=0.1)
     """Thickness of the oil on key and slot face together; dry at 0, flooded beyond the slot."""
     friction_ratio: float = Field(ge=0.0, le=0.5)
     """Coulomb friction along the slot over the force of contact."""

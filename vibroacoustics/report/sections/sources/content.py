@@ -8,7 +8,7 @@ import xarray as xr
 from ....base import rounding
 from ....base.registry import register
 from ....base.vocabulary import SUFFIXES
-from ....results.bands import FINEST_DB, INTERVAL, Band, band, written
+from ....results.bands import INTERVAL, Band, band, written
 from ....results.estimates import estimate, has_samples, is_sampled
 from ....results.sample_words import prior_words
 from ....results.stored_study import (
@@ -26,7 +26,7 @@ from ...figures.stacked import stacked_lines, stacked_third_octaves
 from ...remainder import remainder_band
 from ...tables import DataTable, Table, data_table
 from .. import Section, text
-from .words import UNMODELLED, certainty_sentences, ranked, source_share, unmodelled_share
+from .words import certainty_sentences, ranked, source_share, unmodelled_share
 
 
 def sources_data(results: xr.Dataset) -> dict[str, DataTable]:
@@ -78,38 +78,6 @@ def source_table(results: xr.Dataset) -> Table:
 
 LEAST: Final = 0.01
 """Smaller shares are in uncertainty.csv."""
-_WORDS = {
-    "level alone": "published level alone",
-    "without the spectrum": "all published data",
-    "other prior": "second prior",
-}
-
-
-def alternatives_table(results: xr.Dataset) -> Table | None:
-    """Return level and shares with all data, and with alternatives; None without alternatives."""
-    if "alternative" not in results:
-        return None
-    speed, alternatives = nearest_speed(results), list(map(str, results["alternative"].values))
-    total = band(results, "level_total", **at_catalogue(results, speed=speed))
-    levels = [total, *(_level(results, name) for name in alternatives)]
-    texts = (level.middle_and_ends(rounding.level) for level in levels)
-    rows = [("Level of the machine, dB(A)", *texts)]
-    largest = results["alternative_share"].max("alternative")
-    for part in map(str, results["energy_part"].where(largest >= LEAST, drop=True).values):
-        here, name = unmodelled_share(results, speed), UNMODELLED
-        if part in results["sound_source"].values:
-            here, name = source_share(results, part, speed), source_name(results, part)
-        shares = [
-            here,
-            *(alternative_share(results, alternative, part) for alternative in alternatives),
-        ]
-        rows.append((f"Share of {name}", *(share.in_percent() for share in shares)))
-    effective = ", ".join(
-        f"{_effective(results, name):.0f} with {_WORDS[name]}" for name in alternatives
-    )
-    head = ("", "all data, first prior", *(_WORDS[name] for name in alternatives))
-    caption = f"Less evidence or another prior (shares from 1 %); effective sample size {effective}"
-    return Table(caption, head, tuple(rows))
 
 
 def spectrum_sentence(results: xr.Dataset) -> str:
@@ -141,11 +109,6 @@ def alternative_share(results: xr.Dataset, alternative: str, part: str) -> Band:
     return written(known, _effective(results, alternative))
 
 
-def _level(results: xr.Dataset, alternative: str) -> Band:
-    known = estimate(results, "alternative_level", alternative=alternative)
-    return written(known, _effective(results, alternative), FINEST_DB)
-
-
 def _effective(results: xr.Dataset, alternative: str) -> float:
     return float(results["alternative_effective"].sel(alternative=alternative))
 
@@ -162,7 +125,8 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Pictures((source_third_octaves(results), *_further(results))),
         Heading("Uncertainty"),
         Bullets(tuple(certainty_sentences(results))),
-        *_alternatives(results),
+        *text(spectrum_sentence(results)),
+        *text(_prior_sentence(results), "note"),
     ]
 
 
@@ -175,18 +139,11 @@ def _further(results: xr.Dataset) -> list[Chart]:
     return [make(results) for name, make in charts.items() if name in results]
 
 
-def _alternatives(results: xr.Dataset) -> list[Block]:
-    """Level and shares with less evidence or the second prior, and what the priors are."""
-    table = alternatives_table(results)
-    if table is None:
-        return []
-    priors = zip(("first", "second"), prior_words(results), strict=False)
-    named = "; ".join(f"{which} prior {what}" for which, what in priors)
-    return [
-        table,
-        *text(spectrum_sentence(results)),
-        Text(f"Level of unmodelled noise before the data: {named}.", "note"),
-    ]
+def _prior_sentence(results: xr.Dataset) -> str:
+    """Return words for the prior of unmodelled noise; empty where no level is published."""
+    if overall_noise(results) is None or "prior" not in results:
+        return ""
+    return f"Level of unmodelled noise before the data: {prior_words(results)[0]}."
 
 
 register(Section("sources", "Dominant sources", _blocks, has_sources, 30.0, tables=sources_data))

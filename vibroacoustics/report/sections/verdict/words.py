@@ -176,30 +176,42 @@ def _source(results: xr.Dataset) -> str:
         modelled = band(results, "level_modelled", **at).middle_text(rounding.level)
         rest = "" if overall_noise(results) is None else "; the rest is unmodelled noise"
         return f"Shaft orders of the rigid machine make {modelled} dB(A) of it{rest}."
-    names = ranked(results, speed)
-    shares = [source_share(results, name, speed) for name in names]
-    others = [*shares[1:], unmodelled_share(results, speed)]
-    name = source_name(results, names[0])
-    text = f"{shares[0].in_percent()} of the sound energy"
-    if shares[0].lowest > max(_HALF, *(other.highest for other in others)):
+    source, makes_most = leading_source(results)
+    name = source_name(results, source)
+    text = f"{source_share(results, source, speed).in_percent()} of the sound energy"
+    if makes_most:
         return f"{name[0].upper()}{name[1:]} make most of it: {text}."
     if not has_samples(results):
         return f"The dominant modelled source is {name}: {text}."
     return f"What makes it is not settled: {name} {text}."
 
 
+def leading_source(results: xr.Dataset) -> tuple[str, bool]:
+    """Return the source with the largest share, and whether it makes most of the energy."""
+    speed = nearest_speed(results)
+    first, *others = ranked(results, speed)
+    shares = [source_share(results, name, speed) for name in others]
+    highest = [share.highest for share in (*shares, unmodelled_share(results, speed))]
+    return first, source_share(results, first, speed).lowest > max(_HALF, *highest)
+
+
 def _options(results: xr.Dataset) -> str:
     shifts = {option: shift(results, TOTAL, option) for option in balancers(results)}
     if not shifts:
         return ""
-    least = measurable(results).level_db
-    by_change = sorted(shifts, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
-    lower = [name for name in by_change if shifts[name].improves and not shifts[name].worsens]
-    higher = [name for name in reversed(by_change) if shifts[name].worsens]
-    none = f"No option lowers it by {least:g} dB or more."
+    lower, higher = by_effect(results)
+    none = f"No option lowers it by {measurable(results).level_db:g} dB or more."
     lowered = _claim(results, shifts, lower, "lower") or none
     sentences = [lowered, _claim(results, shifts, higher, "raise")]
     return " ".join(filter(None, sentences))
+
+
+def by_effect(results: xr.Dataset) -> tuple[list[str], list[str]]:
+    """Return the options that lower the total, and those that raise it, the largest first."""
+    shifts = {option: shift(results, TOTAL, option) for option in balancers(results)}
+    by_change = sorted(shifts, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
+    lower = [name for name in by_change if shifts[name].improves and not shifts[name].worsens]
+    return lower, [name for name in reversed(by_change) if shifts[name].worsens]
 
 
 def _claim(
@@ -216,18 +228,31 @@ def _claim(
 
 
 def _vibration(results: xr.Dataset) -> str:
-    shifts = {option: shift(results, FOOT_FORCE, option) for option in balancers(results)}
-    better = [name for name, one in shifts.items() if one.improves and not one.worsens]
-    if not shifts:
+    if not balancers(results):
         return ""
-    if not better:
+    best, sure = best_for_feet(results)
+    if not best:
         return "No option reduces the 1× foot force measurably."
-    sure = [name for name in better if _at_largest(shifts[name]).highest < 0.0]
-    best = min(sure or better, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
-    change = _largest_change(results, shifts[best], "%")
+    change = _largest_change(results, shift(results, FOOT_FORCE, best), "%")
     if not sure:
         return f"{best} may reduce the 1× foot force: {change}."
     return f"Best for the feet: {best}, 1× foot force {change}."
+
+
+def best_for_feet(results: xr.Dataset) -> tuple[str, bool]:
+    """Return the option that reduces the 1x foot force most, and whether its interval agrees.
+
+    The name is empty where no option reduces it measurably.
+    """
+    shifts = {option: shift(results, FOOT_FORCE, option) for option in balancers(results)}
+    better = [name for name, of_force in shifts.items() if of_force.improves]
+    better = [name for name in better if not shifts[name].worsens]
+    sure = [name for name in better if _at_largest(shifts[name]).highest < 0.0]
+    candidates = sure or better
+    if not candidates:
+        return "", False
+    best = min(candidates, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
+    return best, bool(sure)
 
 
 def _measurement(results: xr.Dataset) -> str:
