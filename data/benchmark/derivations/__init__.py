@@ -1,0 +1,1 @@
+"""Where the expected values of the benchmark come from; no package is needed."""

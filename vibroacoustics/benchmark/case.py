@@ -1,0 +1,63 @@
+"""Cases of the open benchmark: their inputs, and what an answer is."""
+
+import csv
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from ..base.errors import StorageError
+from ..base.regular_file import read_text
+
+_MAXIMUM_BYTES = 1_000_000
+
+
+class Answer(NamedTuple):
+    """A value that answers a row of a case, in the unit that the case expects.
+
+    Attributes
+    ----------
+    key : of the row
+    unit : of the value
+    value : a number
+    """
+
+    key: str
+    unit: str
+    value: float
+
+
+Answers = Iterator[Answer]
+
+
+@dataclass(frozen=True)
+class Case:
+    """Inputs of a case.
+
+    Attributes
+    ----------
+    values : numbers by name, in the units of the file case.toml
+    rows : rows of the file inputs.csv, by column; none where the case has no such file
+    """
+
+    values: Mapping[str, float]
+    rows: tuple[Mapping[str, str], ...]
+
+
+def read_case(folder: Path) -> Case:
+    """Read the inputs of the case in a folder.
+
+    Raises
+    ------
+    StorageError
+        A file is missing or cannot be read.
+    """
+    file, table = folder / "case.toml", folder / "inputs.csv"
+    try:
+        tables = tomllib.loads(read_text(file, _MAXIMUM_BYTES))
+        values = {entry["name"]: float(entry["value"]) for entry in tables["inputs"]}
+        rows = read_text(table, _MAXIMUM_BYTES).splitlines() if table.exists() else []
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise StorageError(f"{folder}: is no case of the benchmark: {error}") from None
+    return Case(values, tuple(csv.DictReader(rows)))
