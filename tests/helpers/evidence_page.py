@@ -19,7 +19,7 @@ html_theme.sidebar_secondary.remove: true
 - **Exact**: a closed form or a law. **Printed**: a value that a document prints.
 - **Second code**: another program, or a second method. **Recording**: a recorded signal.
 - **Share**: distance between computed value and reference, in tolerances; a claim is met up to 1.
-  Of many values the worst is listed. A test fails where a verdict changes or a share moves by more
+  The worst of many values is listed. A test fails where a verdict changes or a share moves by more
   than 0.1.
 
 [`evidence.json`](../vibroacoustics/results/evidence.json) holds the same rows. A report lists those

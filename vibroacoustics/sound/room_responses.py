@@ -66,7 +66,7 @@ def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Ar
     """Pressure at listeners per acceleration, (listener, motion, sample), Pa/(m/s²) or Pa/(rad/s²).
 
     Of samples, so that the convolution of a sampled acceleration with it is the pressure. Below the
-    seam the waves; in it and above direct sound, a pulse at its time of travel, and noise that
+    crossover the waves; in it and above direct sound, a pulse at its time of travel, and noise that
     decays with the reverberation time from then on. The noise is a sum of those of all positions on
     the hemisphere, so that motions together have the power that they have there. Both are changed
     until the response has in each third octave the mean square of both methods. The square roots of
@@ -89,9 +89,9 @@ def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Ar
     parts = _received(room, hertz, np.array(noise))
     waves, others, square = _weighed(room, parts, hertz, length)
     spectrum = np.zeros((*waves.shape[:-1], length // 2 + 1), dtype=complex)
-    in_seam = waves * least_phase(np.sqrt(1.0 - room.ways.wave_share(hertz)), length)
+    in_crossover = waves * least_phase(np.sqrt(1.0 - room.ways.wave_share(hertz)), length)
     gate = _gate(room.distance_m / SPEED_OF_SOUND_M_PER_S, samples, length, sample_rate_hz)
-    scaled = _scaled(others, (waves, in_seam), square, hertz, gate)
+    scaled = _scaled(others, (waves, in_crossover), square, hertz, gate)
     spectrum[..., 1 : hertz.size + 1] = waves + scaled
     responses = np.asarray(fft.irfft(spectrum, length)[..., :samples])
     responses[..., decaying:] *= np.cos(0.5 * np.pi * np.arange(fading) / fading) ** 2
@@ -197,7 +197,7 @@ def _positions(room: WaysOfRoom) -> int:
 
 def _scaled(
     others: ComplexArray,
-    seam: tuple[ComplexArray, ComplexArray],
+    crossover: tuple[ComplexArray, ComplexArray],
     square: Array,
     hertz: Array,
     gate: Array,
@@ -205,7 +205,7 @@ def _scaled(
     """Direct sound and noise with the gain that gives, with the waves, the mean squares of both.
 
     In each third octave what they have in common with the waves is taken out of them, as waves in
-    the seam alone, by the waves' share of the energy: of a band that the waves hardly reach it
+    the crossover alone, by the waves' share of the energy: of a band that the waves hardly reach it
     would be a large factor for its neighbours. In a third octave |w + g n|² = s has then the gain
     g = (√(c² + |n|² (s - |w|²)) - c)/|n|² with c = Re{w* n}, sums over the band. Both go over
     smoothly between the middles of the bands. They have no phase and spread in time by the inverse
@@ -215,12 +215,12 @@ def _scaled(
     Parameters
     ----------
     others : direct sound and noise, shape (listener, motion, frequency)
-    seam : waves, and those in the seam, of the same shape
+    crossover : waves, and those at the crossover, of the same shape
     square : mean squares of all, of the same shape, Pa²
     hertz : shape (frequency,)
     gate : share of each sample that is kept, shape (listener, 1, time)
     """
-    waves, in_seam = seam
+    waves, in_crossover = crossover
     bands = bands_between(3, hertz[0], hertz[-1])
     edges = np.searchsorted(hertz, [band.lower_hz for band in bands])
     starts, kept = np.unique(edges[edges < hertz.size], return_index=True)
@@ -236,11 +236,11 @@ def _scaled(
 
     of_waves = summed(np.abs(waves) ** 2)
     wanted = np.maximum(summed(square) - of_waves, 0.0)
-    shared = summed(waves.conj() * in_seam) * (
+    shared = summed(waves.conj() * in_crossover) * (
         1.0 + wanted / np.where(of_waves == 0.0, 1.0, of_waves)
     )
     for _ in range(_ROUNDS):
-        others = others - ratio(summed(waves.conj() * others), shared) * in_seam
+        others = others - ratio(summed(waves.conj() * others), shared) * in_crossover
         common, energy = summed((waves.conj() * others).real), summed(np.abs(others) ** 2)
         uncorrelated = np.sqrt(energy * wanted)
         root = np.sqrt(common**2 + uncorrelated**2) - common

@@ -10,7 +10,7 @@ from ...base.errors import SolverError
 from ..arrays import Array, IndexArray
 from .box_step import pass_seams, step_series, sum_on_sides, to_nodes, to_sides
 from .cutting import AirBox, End, Face
-from .edges import seam_air_m
+from .edges import interface_air_m
 from .layout import (
     Layout,
     angular_frequencies,
@@ -168,7 +168,7 @@ def _seams(
             first, second = plan.ends[row], plan.ends[row + 1]
             nodes = int(first[4]), int(first[5])
             rows.append([first[3], second[3], nodes[0] * nodes[1]])
-            air_m = seam_air_m(boxes, face, nodes, mass)
+            air_m = interface_air_m(boxes, face, nodes, mass)
             give[first[3] : first[3] + air_m.size] = 1.0 / air_m.ravel()
         row += len(face.ends)
     return np.array(rows, dtype=np.intp).reshape(-1, 3), give

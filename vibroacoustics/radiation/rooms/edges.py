@@ -1,4 +1,4 @@
-"""Re-entrant edges: the air of seams where sound turns around an edge of furniture."""
+"""Re-entrant edges of furniture: less air at the interfaces of boxes beside them."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -9,14 +9,18 @@ from ..arrays import Array, IndexArray
 from .cutting import AirBox, Face
 
 EDGE_RATIO: Final = 0.163
-"""Air that a node beside a re-entrant edge has too much of, over its width: see `seam_air_m`."""
+"""Excess air of a node beside a re-entrant edge over its width, by `interface_air_m`."""
 _LEAST_RATIO: Final = 0.3
-"""Of the air of a node that is kept at least."""
+"""Least share of the air of a node that is kept."""
 _ASIDE_M: Final = 1e-5
 
 
-def seam_air_m(boxes: Sequence[AirBox], face: Face, nodes: Sequence[int], air_m: float) -> Array:
-    """Length of air at each node of a seam, less beside re-entrant edges, m, (node, node).
+def interface_air_m(
+    boxes: Sequence[AirBox], face: Face, nodes: Sequence[int], air_m: float
+) -> Array:
+    """Return the length of air at each node of an interface, shape (node, node), m.
+
+    It is less beside re-entrant edges.
 
     Around an edge of 270 degrees of air the flux grows as r^(-1/3) (P. Grisvard, Elliptic Problems
     in Nonsmooth Domains, 1985, section 4.4). A node beside it passes it as if it were even over its
@@ -28,7 +32,7 @@ def seam_air_m(boxes: Sequence[AirBox], face: Face, nodes: Sequence[int], air_m:
     Parameters
     ----------
     boxes : of the air
-    face : seam between two of them
+    face : interface between two of them
     nodes : its nodes along both axes
     air_m : length of air at a node away from edges, m
     """
@@ -51,7 +55,7 @@ def seam_air_m(boxes: Sequence[AirBox], face: Face, nodes: Sequence[int], air_m:
 def _turns(boxes: Sequence[AirBox], edge: Array, axes: tuple[int, int]) -> Array:
     """Whether two boxes fill three of the four quadrants around points of an edge, (point,).
 
-    Of three boxes two seams share the flux, and both have next to no air too much (0.02 to 0.04 of
+    Two interfaces of three boxes share the flux, and both have next to no air too much (0.02 to 0.04 of
     the width).
     """
     quadrants = []
