@@ -55,8 +55,7 @@ def interface_air_m(
 def _turns(boxes: Sequence[AirBox], edge: Array, axes: tuple[int, int]) -> Array:
     """Whether two boxes fill three of the four quadrants around points of an edge, (point,).
 
-    Two interfaces of three boxes share the flux, and both have next to no air too much (0.02 to 0.04 of
-    the width).
+    Two interfaces of three boxes share the flux; their excess is small (0.02 to 0.04 widths).
     """
     quadrants = []
     for first in (-_ASIDE_M, _ASIDE_M):
