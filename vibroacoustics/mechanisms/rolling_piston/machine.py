@@ -22,6 +22,8 @@ class RollingPistonMachine(RollingPistonTables):
     """The shaft is upright, the vane along x; with two cylinders the first one is the upper."""
 
     kind: ClassVar[str] = "rolling-piston"
+    template: ClassVar[str] = "rolling_piston.toml"
+    template_with_sources: ClassVar[str] = "rolling_piston_sources.toml"
     axes: ClassVar[str] = "along the vane (x), across (y) and along the shaft (z)"
     orders: ClassVar[str] = (
         "One cylinder compresses once a revolution: the gas torque swings the shaft's speed and "
@@ -38,7 +40,7 @@ class RollingPistonMachine(RollingPistonTables):
         "roller_spin_rpm": "Mean spin of the roller",
         "least_tip_force_n": "Least force of the vane's tip on the roller",
         "vane_jump_speed_rpm": "Speed above which the vane's tip leaves the roller",
-        "largest_landing_speed_m_per_s": "Largest speed at which the vane's tip lands on the roller",
+        "largest_landing_speed_m_per_s": "Largest landing speed of the vane's tip on the roller",
         "friction_w": "Friction of films, vane tip and vane slot",
     }  # fmt: skip
     derived: ClassVar[tuple[Derived, ...]] = ROUND_INERTIAS
@@ -106,7 +108,7 @@ _LEAVES_OUT: Final = (
 USUAL: Final = (
     Usual("gas.clearance_volume_m3", 5e-9, 1e-5, "port and recess of a discharge valve"),
     Usual("valve.mass_kg", 5e-5, 0.02, "free part of a reed"),
-    Usual("valve.seat_stiffness_n_per_m", 1e4, 1e7, "seat and stop with their oil"),
+    Usual("valve.seat_stiffness_n_per_m", 1e4, 1e8, "seat and stop with their oil"),
     Usual("vane.spring_stiffness_n_per_m", 50.0, 2e4, "springs behind a vane"),
     Usual("accumulator.stiffness_n_per_m", 1e4, 1e8, "brackets of strap and tube"),
 )

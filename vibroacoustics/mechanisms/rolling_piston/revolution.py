@@ -30,6 +30,11 @@ def cycle_for(machine: RollingPistonTables, speed_rpm: float, samples: int) -> R
     return steady_cycle(machine, speed_rpm, samples * (stride + stride * samples % 2))
 
 
+def cycle_with(machine: RollingPistonTables, speed_rpm: float, samples: int) -> RollingPistonCycle:
+    """Steady cycle at no fewer crank angles than wanted, if it can the kept one of `SAMPLES`."""
+    return steady_cycle(machine, speed_rpm, max(SAMPLES, samples + samples % 2))
+
+
 def rolling_piston_revolution(
     machine: RollingPistonTables, speed_rpm: float, samples: int
 ) -> Revolution:
@@ -135,7 +140,7 @@ def rolling_courses(machine: RollingPistonTables, speed_rpm: float, samples: int
     speed_rpm : mean over time
     samples : least number of crank angles
     """
-    cycle = cycle_for(machine, speed_rpm, samples)
+    cycle = cycle_with(machine, speed_rpm, samples)
     rotation, samples = cycle.rotation, cycle.load_n_m.size
     step_s = 2.0 * np.pi / samples / rotation.speed_rad_per_s
     torque = journal_drag_n_m_s(machine) * rotation.speed_rad_per_s
