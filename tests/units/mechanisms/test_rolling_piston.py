@@ -73,15 +73,15 @@ def outline_m(direction: float, contact: float) -> float:
 def area_m2(contact: float) -> float:
     """Area between bore and roller from the vane to the contact, by quadrature."""
     bore = single().cylinder.bore_radius_m
-    value, _ = quad(lambda at: 0.5 * (bore**2 - outline_m(at, contact) ** 2), 0.0, contact,
+    value, _ = quad(lambda to: 0.5 * (bore**2 - outline_m(to, contact) ** 2), 0.0, contact,
                     epsabs=0.0, epsrel=1e-12, limit=200)  # fmt: skip
     return float(value)
 
 
 def test_volumes_equal_the_quadrature_of_the_geometry() -> None:
     cylinder = single().cylinder
-    x = np.array([cylinder.bore_radius_m - outline_m(0.0, at) for at in ANGLES])
-    area = np.array([area_m2(at) for at in ANGLES])
+    x = np.array([cylinder.bore_radius_m - outline_m(0.0, angle) for angle in ANGLES])
+    area = np.array([area_m2(angle) for angle in ANGLES])
     vane = 0.5 * cylinder.vane_thickness_m * x
     expected = cylinder.height_m * (area - vane)
     scale = displaced_m3(cylinder)
@@ -199,10 +199,10 @@ def test_couple_of_the_twins_rollers_is_balanced_by_the_counterweights() -> None
     wrenches = housing_wrenches(machine, cycle)
     rollers = np.hypot(*wrenches["roller"].moment_n_m[:2])
     turning = [wrenches[name] for name in wrenches if name not in ("rotor", "vane")]
-    left = np.sum([each.moment_n_m[:2] for each in turning], axis=0)
+    unbalanced = np.sum([each.moment_n_m[:2] for each in turning], axis=0)
     expected = machine.roller.mass_kg * machine.cylinder.eccentricity_m * 0.02
     assert np.mean(rollers) == pytest.approx(expected * (2 * np.pi * 50) ** 2, rel=0.02)
-    assert np.max(np.hypot(*left)) < 1e-6 * np.max(rollers)
+    assert np.max(np.hypot(*unbalanced)) < 1e-6 * np.max(rollers)
 
 
 def on_housing(machine: RollingPistonMachine, cycle: RollingPistonCycle) -> tuple:

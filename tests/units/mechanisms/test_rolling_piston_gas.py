@@ -87,8 +87,8 @@ def by_radau(
     first = machine.cylinder.suction_end_rad
     volume = area_and_slope(machine, first)[0] + gas.clearance_volume_m3
     state = [p_s, rho_s * volume, *start]
-    at = 2.0 * pi * np.arange(np.ceil(first * SAMPLES / 2.0 / pi), SAMPLES) / SAMPLES
-    return solve_ivp(slope, (first, at[-1]), state, method, at, rtol=1e-7,
+    times = 2.0 * pi * np.arange(np.ceil(first * SAMPLES / 2.0 / pi), SAMPLES) / SAMPLES
+    return solve_ivp(slope, (first, times[-1]), state, method, times, rtol=1e-7,
                      atol=[1.0, 1e-12, 1e-10, 1e-7], max_step=0.02)  # fmt: skip
 
 
@@ -105,7 +105,7 @@ def test_valve_and_leakage_against_a_stiff_integration(speed_rpm: float, method:
     assert np.max(np.abs(turn.compression_pa[first:] / pressure - 1.0)) < 1e-3
     assert np.max(np.abs(turn.mass_kg[first:] - mass)) < 1e-3 * mass[0]
     assert np.max(np.abs(turn.lift_m[first:] - lift)) < 1e-3 * machine.valve.lift_m
-    moment = pressure * np.array([area_and_slope(machine, at)[1] for at in solved.t])
+    moment = pressure * np.array([area_and_slope(machine, angle)[1] for angle in solved.t])
     ours = turn.compression_pa[first:] * moment / pressure
     assert np.mean(ours) == pytest.approx(np.mean(moment), rel=1e-3)
 
@@ -116,7 +116,7 @@ def test_closed_chamber_is_isentropic() -> None:
     angle = 2.0 * pi * np.arange(SAMPLES) / SAMPLES
     closed = (angle > machine.cylinder.suction_end_rad) & (turn.compression_pa < 2.4e6)
     closed &= angle < pi
-    volume = [area_and_slope(machine, at)[0] + gas.clearance_volume_m3 for at in angle[closed]]
+    volume = [area_and_slope(machine, to)[0] + gas.clearance_volume_m3 for to in angle[closed]]
     density = turn.mass_kg[closed] / np.array(volume)
     expected = gas.suction_pressure_pa * (density / gas.suction_density_kg_per_m3) ** (
         gas.exponent_ratio

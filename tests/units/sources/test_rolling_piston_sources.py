@@ -34,13 +34,13 @@ def test_torques_on_block_and_stator_are_the_roll_of_the_machine() -> None:
     """What the shell gets of both is the momentum of what turns: rotor and roller."""
     case = case_of(machine())
     loads = RollingPistonGas().loads(case, {})
-    both = loads.lines[BEARING_HOUSING][5] + loads.lines[STATOR][5]
+    total = loads.lines[BEARING_HOUSING][5] + loads.lines[STATOR][5]
     cycle = steady_cycle(machine(), SPEED)
     wrenches = case.revolution.wrenches.values()
     roll = np.sum([each.moment_n_m[2] for each in wrenches], axis=0)
     speed = case.revolution.rotation.speed_rad_per_s
     expected = va.orders.order_spectrum_at_speed(roll, speed, 20)
-    assert both[1:6] == pytest.approx(expected[1:6], abs=2e-3 * abs(expected[1]))
+    assert total[1:6] == pytest.approx(expected[1:6], abs=2e-3 * abs(expected[1]))
     assert loads.shaft_torque_n_m is not None
     mean = np.mean(cycle.rotation.motor_torque_n_m / cycle.rotation.speed_rad_per_s)
     over_time = mean / np.mean(1.0 / cycle.rotation.speed_rad_per_s)

@@ -19,11 +19,11 @@ class Accumulator(Parameters):
     radius_m: float = Field(gt=0.0, le=0.5)
     length_m: float = Field(gt=0.0, le=1.0)
     distance_m: float = Field(gt=0.0, le=1.0)
-    """Of its axis from the shaft's axis, along x."""
+    """Distance of its axis from the shaft's axis, along x."""
     height_m: float = HEIGHT
-    """Of its middle from the centre of mass at rest."""
+    """Height of its middle from the centre of mass at rest."""
     bracket_height_m: float = HEIGHT
-    """Of bracket and tube as one elastic joint."""
+    """Height of bracket and tube as one elastic joint."""
     stiffness_n_per_m: float = STIFFNESS
     """Alike along all axes."""
     angular_stiffness_n_m: float = STIFFNESS

@@ -79,8 +79,8 @@ def first_contact(machine: RollingPistonTables, gas: GasTurn, speed_rad_per_s: f
     pressing = pressing_force_n(machine, gas.compression_pa, extension[0])
     flight, impacts = vane_flight(machine, pressing, extension, speed_rad_per_s)
     jump = jump_speed_rad_per_s(machine, pressing, extension[2])
-    both = np.zeros((2, still.size))
-    return Contact(extension, flight, impacts, jump, still, still, still, both, still, both, still,
+    pair = np.zeros((2, still.size))
+    return Contact(extension, flight, impacts, jump, still, still, still, pair, still, pair, still,
                    still, still, still)  # fmt: skip
 
 

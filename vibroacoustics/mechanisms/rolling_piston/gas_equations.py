@@ -137,9 +137,9 @@ def advance(state: Array, start: float, end: float, closed: bool, c: Chamber) ->
     angle = start
     while angle < end:
         a0, a1, a2, a3, fastest = rates(angle, p, m, y, v, closed, c)
-        left = (end - angle) / c.angular_speed
-        count = min(max(np.ceil(left * fastest / REACH), 1.0), float(MOST_STEPS))
-        h = left / count
+        duration = (end - angle) / c.angular_speed
+        count = min(max(np.ceil(duration * fastest / REACH), 1.0), float(MOST_STEPS))
+        h = duration / count
         to = end if count == 1.0 else angle + h * c.angular_speed
         half, mid = 0.5 * h, 0.5 * (angle + to)
         b0, b1, b2, b3, _ = rates(mid, p + half * a0, m + half * a1, y + half * a2,

@@ -2,7 +2,7 @@
 
 The angle θ goes from the vane to the line where the roller touches the bore, in the sense of the
 shaft. The suction chamber is behind this line, the compression chamber ahead of it. The vane's tip
-is a point on the middle of the vane.
+is a point in its mid-plane.
 """
 
 import numpy as np

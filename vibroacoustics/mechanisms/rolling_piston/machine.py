@@ -91,7 +91,7 @@ class RollingPistonMachine(RollingPistonTables):
         yield from USUAL
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What the model leaves out."""
+        """Effects that the model neglects."""
         return _LEAVES_OUT
 
 
@@ -99,7 +99,7 @@ _LEAVES_OUT: Final = (
     "The gas is ideal with a constant exponent, without heat from the walls, and compresses at the "
     "mean speed. The suction chamber is at suction pressure. Oil and gas that leak from the shell "
     "over vane and roller faces are neglected, and so is the momentum of the gas.",
-    "The vane's tip is a point in the middle of the vane. Where it leaves the roller no gas passes "
+    "The vane's tip is a point in the vane's mid-plane. Where it leaves the roller no gas passes "
     "it, and it lands without rebound. Friction at tip and slot is Coulomb's; the roller does not "
     "touch the bore.",
     "Shaft and rotor are rigid; cylinders of a twin have the same gas and the same suction. "

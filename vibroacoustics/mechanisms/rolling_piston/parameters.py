@@ -32,13 +32,13 @@ class Cylinder(Parameters):
     """Cylinders, two with eccentrics at 180° and vanes in one plane."""
     bore_radius_m: float = LENGTH
     eccentricity_m: float = LENGTH
-    """Of the roller's centre from the shaft's axis; the roller's radius is the difference."""
+    """Distance of the roller's centre from the shaft's axis; the roller's radius is the difference."""
     height_m: float = LENGTH
     vane_thickness_m: float = LENGTH
     suction_end_rad: float = ANGLE
     """Angle of the contact from the vane at which the suction port is passed."""
     middle_height_m: float = HEIGHT
-    """Of the cylinders' middle from the centre of mass at rest."""
+    """Height of the cylinders' middle from the centre of mass at rest."""
     spacing_m: float = Field(default=0.0, ge=0.0, le=0.5)
     """Between the middles of two cylinders, along the shaft."""
 
@@ -78,7 +78,7 @@ class RotaryGas(Parameters):
     exponent_ratio: float = Field(gt=1.0, le=2.0)
     """Isentropic exponent κ, constant."""
     clearance_volume_m3: float = Field(gt=0.0, le=1e-3)
-    """Of discharge port and recess, which expands back into the suction side."""
+    """Volume of discharge port and recess, which expands back into the suction side."""
 
     def contradictions(self) -> Contradictions:
         if self.discharge_pressure_pa <= self.suction_pressure_pa:
@@ -113,9 +113,9 @@ class ReedValve(Parameters):
     lift_m: float = Field(gt=0.0, le=0.05)
     """To the stop."""
     seat_stiffness_n_per_m: float = Field(gt=0.0, le=1e9)
-    """Of seat and stop."""
+    """Stiffness of seat and stop."""
     seat_damping_ratio: float = Field(ge=0.0, le=2.0)
-    """Of the mass on seat or stop."""
+    """Damping ratio of the mass on seat or stop."""
 
     def contradictions(self) -> Contradictions:
         most = 0.25 * self.port_diameter_m
@@ -155,7 +155,7 @@ class Roller(Parameters):
     mass_kg: float = PART_MASS
     inner_radius_m: float = LENGTH
     eccentric_mass_kg: float = Field(ge=0.0, le=100.0)
-    """Of the eccentric and what else of the shaft is on its side."""
+    """Mass of the eccentric and what else of the shaft is on its side."""
     film_gap_m: float = FILM
     """Between eccentric and roller."""
     face_gap_m: float = FILM
@@ -166,7 +166,7 @@ class RotaryShaft(Parameters):
     """Shaft with the motor's rotor in two plain bearings on both sides of the cylinders."""
 
     inertia_kg_m2: float = Field(gt=0.0, le=1e3)
-    """Of rotor and shaft without eccentrics, rollers and counterweights."""
+    """Moment of inertia of rotor and shaft without eccentrics, rollers and counterweights."""
     main_bearing_height_m: float = HEIGHT
     sub_bearing_height_m: float = HEIGHT
     journal_radius_m: float = LENGTH
@@ -175,7 +175,7 @@ class RotaryShaft(Parameters):
     clearance_m: float = FILM
     """Radial, of both."""
     oil_viscosity_pa_s: float = Field(gt=0.0, le=10.0)
-    """Of bearings and roller."""
+    """Oil of bearings and roller."""
 
     def contradictions(self) -> Contradictions:
         if self.main_bearing_height_m - self.sub_bearing_height_m < 1e-3:
@@ -194,7 +194,7 @@ class Drive(Parameters):
     torque_per_current_nm_per_a: float = Field(gt=0.0, le=1e3)
     """Torque over the peak of the phase current."""
     control: TorqueControl | None = None
-    """Of an inverter; none is a constant torque."""
+    """Control by an inverter; none is a constant torque."""
 
     @property
     def is_inverter(self) -> bool:
@@ -210,7 +210,7 @@ class CounterweightPlanes(BalancePlanes):
     """Planes at both ends of the rotor, and how much of the turning masses they balance."""
 
     balanced_ratio: float = Field(ge=0.0, le=2.0)
-    """Of force and couple of eccentrics and rollers; 1 is a balance in both planes."""
+    """Share of force and couple of eccentrics and rollers; 1 is a balance in both planes."""
 
 
 class RollingPistonTables(Machine):
@@ -230,7 +230,7 @@ class RollingPistonTables(Machine):
     synchronous_motor: SynchronousMotor | None = None
     """On an inverter, for the source of that name."""
     structure: ShellStructure | None = None
-    """Of the shell, where it may bend."""
+    """Wall of the shell, where it may bend."""
     variation: ShellVariation | None = None
     discharge_dome: DischargeDome | None = None
     """Gas of the shell above the motor; none where it is silent."""
