@@ -3,8 +3,8 @@ Machine: rolling-piston compressor
 ==================================
 
 The compressor of most air conditioners: the gas torque of its single cylinder swings the shaft's
-speed, and the rotor's reaction rolls the machine once a revolution. An inverter whose torque follows
-the load, or a second cylinder at 180°, stops that. Equations and checks:
+speed, and the rotor's reaction rolls the machine once a revolution. An inverter whose torque
+follows the load, or a second cylinder at 180°, stops that. Equations and checks:
 :doc:`/machines/rolling_piston`.
 
 .. literalinclude:: /gallery/studies/rolling_piston.toml

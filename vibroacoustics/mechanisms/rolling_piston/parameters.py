@@ -32,7 +32,7 @@ class Cylinder(Parameters):
     """Cylinders, two with eccentrics at 180° and vanes in one plane."""
     bore_radius_m: float = LENGTH
     eccentricity_m: float = LENGTH
-    """Distance of the roller's centre from the shaft's axis; the roller's radius is the difference."""
+    """Distance of the roller's centre from the shaft's axis, R_c - R_r."""
     height_m: float = LENGTH
     vane_thickness_m: float = LENGTH
     suction_end_rad: float = ANGLE
