@@ -25,21 +25,12 @@ from .own_machine import (
     without_published,
 )
 
-STUDIES: Final = {
-    "oldham-scroll": "copeland_derived.toml",
-    "minicrank-scroll": "zhao_minicrank.toml",
-    "reciprocating": "mayekawa_wbhe.toml",
-    "hermetic-reciprocating": "estupinan_hermetic.toml",
-    "slider-link": "dagilis_slider_link.toml",
-    "table": "reciprocating_table.toml",
-}
-"""The study that stands for a kind."""
+STUDIES: Final = {kind: of.template for kind, of in MACHINES.items() if of.template}
+"""The study that is the template of a kind."""
 WITH_SOURCES: Final = {
-    "oldham-scroll": "copeland_sources.toml",
-    "hermetic-reciprocating": "estupinan_sources.toml",
-    "slider-link": "dagilis_sources.toml",
+    kind: of.template_with_sources for kind, of in MACHINES.items() if of.template_with_sources
 }
-"""The study of a kind with sources of sound."""
+"""The template of a kind with sources of sound."""
 STUDY_NAME: Final = "study.toml"
 MACHINE_NAME: Final = "machine.toml"
 SCHEMAS_NAME: Final = "schemas"

@@ -114,6 +114,11 @@ class Machine(KindOfParameters):
     """Growth of the level of such machines with speed, where a file gives none; none where
     nothing is known of the kind."""
 
+    template: ClassVar[str | None] = None
+    """Shipped study with which `new` begins a machine of the kind; none where there is none."""
+    template_with_sources: ClassVar[str | None] = None
+    """Such a study with sources of sound."""
+
     reads: ClassVar[frozenset[str]] = frozenset(
         {
             "overall_noise",

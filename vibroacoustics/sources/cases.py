@@ -90,7 +90,7 @@ def added_by(option: Option, machine: Machine, revolution: Revolution) -> Added:
     with OPTIONS.fenced(option.kind, ParameterError):
         added = option.added(machine, revolution)
         check_added(added, revolution.rotation.crank_angle.size)
-    mass_kg = added.figures[ADDED_MASS] + machine.attached.mass_kg
+    mass_kg = added.figures[ADDED_MASS] + option.attached(machine).mass_kg
     return replace(added, figures={**added.figures, ADDED_MASS: mass_kg})
 
 

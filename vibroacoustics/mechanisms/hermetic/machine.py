@@ -17,6 +17,8 @@ class HermeticCompressor(HermeticTables):
     """The cylinder lies along x, the shaft stands upright with the motor below the crank."""
 
     kind: ClassVar[str] = "hermetic-reciprocating"
+    template: ClassVar[str] = "estupinan_hermetic.toml"
+    template_with_sources: ClassVar[str] = "estupinan_sources.toml"
     runs_up: ClassVar[bool] = False
     speed_growth: ClassVar[Growth] = RECIPROCATING
 

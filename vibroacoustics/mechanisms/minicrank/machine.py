@@ -18,6 +18,7 @@ class MiniCrankMachine(MiniCrankTables):
     """The shaft lies along y and the bracket's line along x, as the weight in (15) has it."""
 
     kind: ClassVar[str] = "minicrank-scroll"
+    template: ClassVar[str] = "zhao_minicrank.toml"
     speed_growth: ClassVar[Growth] = SCROLL_OR_SCREW
     labels: ClassVar[Mapping[str, str]] = {
         "minicrank_swing_deg": "Swing of the mini-crank, which does not turn",

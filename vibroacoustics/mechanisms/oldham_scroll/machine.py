@@ -19,6 +19,8 @@ class OldhamScroll(OldhamScrollTables):
     """The shaft stands upright, the ring slides along x."""
 
     kind: ClassVar[str] = "oldham-scroll"
+    template: ClassVar[str] = "copeland_derived.toml"
+    template_with_sources: ClassVar[str] = "copeland_sources.toml"
     speed_growth: ClassVar[Growth] = SCROLL_OR_SCREW
     axes: ClassVar[str] = "the Oldham stroke (x), across (y) and along the shaft (z)"
     orders: ClassVar[str] = (

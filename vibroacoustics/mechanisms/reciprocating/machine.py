@@ -18,6 +18,7 @@ class ReciprocatingMachine(ReciprocatingTables):
     """One upright cylinder, or banks of them; the shaft lies along y under the centre of mass."""
 
     kind: ClassVar[str] = "reciprocating"
+    template: ClassVar[str] = "mayekawa_wbhe.toml"
     speed_growth: ClassVar[Growth] = RECIPROCATING
     axes: ClassVar[str] = "across the shaft (x), along it (y) and upright (z)"
     orders: ClassVar[str] = (

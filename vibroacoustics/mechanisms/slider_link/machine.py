@@ -42,6 +42,8 @@ class SliderLinkMachine(SliderLinkTables):
     """
 
     kind: ClassVar[str] = "slider-link"
+    template: ClassVar[str] = "dagilis_slider_link.toml"
+    template_with_sources: ClassVar[str] = "dagilis_sources.toml"
     runs_up: ClassVar[bool] = False
     speed_growth: ClassVar[Growth] = RECIPROCATING
     axes: ClassVar[str] = "along the cylinder (x), across (y) and along the shaft (z)"

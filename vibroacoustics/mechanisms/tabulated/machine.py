@@ -71,6 +71,7 @@ class TabulatedMachine(Machine):
     """Force and moment come from a file; the shaft turns at constant speed."""
 
     kind: ClassVar[str] = "table"
+    template: ClassVar[str] = "reciprocating_table.toml"
     orders: ClassVar[str] = "Orders are those of the machine's table of forces."
     reads: ClassVar[frozenset[str]] = Machine.reads | {
         "shaft_axes", "sliding_mass", "oldham", "counterweights",
