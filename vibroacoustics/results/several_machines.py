@@ -12,6 +12,7 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import amplitude_of_level, energy_sum, mean_square_level, sound_pressure_level
 from ..base.vocabulary import AXES, HIGH, LOW, SUFFIXES, check, label_coordinates, stamped
 from ..base.weighting import WEIGHTING
+from ..levels.bands import Band
 from ..levels.beats import (
     Beat,
     MachineLine,
@@ -21,7 +22,6 @@ from ..levels.beats import (
     envelope_minimum,
     groups,
 )
-from ..levels.bands import Band
 from ..mechanics.added import third_octave_number
 from ..sound.ingredients import Ingredients, SoundBands, SoundLines
 from ..sound.machine_run import MachineRun

@@ -53,9 +53,8 @@ class MachinesOnFrame:
     def isolation(self) -> Isolation:
         """Assemble the frame, then the bodies of each machine, with all bushings."""
         centre = self.frame.centre_of_mass_m
-        bodies, bushings = [self.frame], []
-        for bushing in self.mounts.bushings(FRAME):
-            bushings.append(_bushing(bushing, "", centre, np.eye(3)))
+        bodies = [self.frame]
+        bushings = [_bushing(each, "", centre, np.eye(3)) for each in self.mounts.bushings(FRAME)]
         for name, machine in self.machines.items():
             inner, at = machine.body.isolation, (machine.origin_m, machine.turn)
             bodies += [_body(body, f"{name}/", *at) for body in inner.bodies]
