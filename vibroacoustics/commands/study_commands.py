@@ -144,6 +144,7 @@ def check_command(
 ) -> Outcome:
     """List all errors of a study or a machine, and what a run of the study would cost."""
     from ..pipeline.cost import run_cost
+    from ..radiation.cost import Cost
     from ..study.loading import load_study_or_machine
     from ..study.machine_studies import machine_studies
     from ..study.study import Study
@@ -155,7 +156,7 @@ def check_command(
         load_plugins(plugin)
         checked = load_study_or_machine(file)
         if isinstance(checked, Study):
-            lines, costs = [*study_lines(checked), *count_lines(checked)], []
+            lines, costs = [*study_lines(checked), *count_lines(checked)], list[Cost]()
             studies = machine_studies(checked) if checked.machines else {"": checked}
             for name, each in studies.items():
                 cost = run_cost(each, progress)

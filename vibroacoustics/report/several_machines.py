@@ -12,7 +12,7 @@ from ..results.number import Number, number
 from .analysis import Analysis, origin
 from .blocks import Block, Bullets, Part, Pictures, Sound, Sounds, Text
 from .figures.beats import beat_charts
-from .tables import Cell, DataTable, Table, data_table
+from .tables import Cell, DataTable, Table, data_table, phase_deg
 
 _LIMITS: Final = (
     "The levels of the machines add by their energies: lines at their own frequencies and noise "
@@ -149,7 +149,7 @@ def _frame(results: xr.Dataset) -> tuple[Block, ...]:
     """Natural frequencies, and the forces of the frame's feet at the first orders."""
     hertz = results["base_natural_frequency"].values
     words = ", ".join(rounding.three_digits(value) for value in hertz)
-    force = np.abs(results["base_floor_force"]).max("axis")
+    force = _size(results["base_floor_force"]).max("axis")
     firsts = [name for name in map(str, results["machine_line"].values) if name[-9:] == ": order 1"]
     rows = [
         (str(foot), *(rounding.three_digits(force.sel(base_foot=foot, machine_line=line).item())
@@ -204,8 +204,8 @@ def _line_data(results: xr.Dataset) -> DataTable:
             "microphone": results["common_receiver"],
             "line": results["machine_line"],
             "frequency_hz": results["machine_line_frequency"],
-            "pressure_peak_pa": np.abs(pressure),
-            "phase_deg": pressure.copy(data=np.degrees(np.angle(pressure.values))),
+            "pressure_peak_pa": _size(pressure),
+            "phase_deg": phase_deg(pressure),
         },
     )
 
@@ -219,7 +219,11 @@ def _frame_data(results: xr.Dataset) -> DataTable:
             "axis": results["axis"],
             "line": results["machine_line"],
             "frequency_hz": results["machine_line_frequency"],
-            "force_peak_n": np.abs(force),
-            "phase_deg": force.copy(data=np.degrees(np.angle(force.values))),
+            "force_peak_n": _size(force),
+            "phase_deg": phase_deg(force),
         },
     )
+
+
+def _size(peaks: xr.DataArray) -> xr.DataArray:
+    return peaks.copy(data=np.abs(peaks.values))

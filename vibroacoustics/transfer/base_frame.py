@@ -138,4 +138,4 @@ def _bushing(bushing: Bushing, prefix: str, origin_m: Array, turn: Array) -> Bus
 
 def _both(turn: Array) -> Array:
     """Turn of displacements and rotations together, shape (6, 6)."""
-    return np.kron(np.eye(2), turn)
+    return np.asarray(np.kron(np.eye(2), turn), dtype=np.float64)
