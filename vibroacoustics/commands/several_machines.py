@@ -99,9 +99,10 @@ def open_machines(folder: str | Path) -> xr.DataTree:
 
     Examples
     --------
-    >>> tree = va.open_machines("reports/two_compressors")
-    >>> list(tree.children)
-    ['west', 'east']
+    >>> va.open_machines("reports/nothing")
+    Traceback (most recent call last):
+        ...
+    vibroacoustics.base.errors.StorageError: reports/nothing/machines.nc: ...
     """
     root = open_results(Path(folder) / MACHINES_NAME)
     if "machine_speed" not in root:

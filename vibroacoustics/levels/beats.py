@@ -10,7 +10,8 @@ from ..base.arrays import Array, ComplexArray
 from ..base.decibel import sound_pressure_level
 
 LARGEST_BEAT_HZ: Final = 5.0
-"""Lines no further apart than this beat; faster than some 15 Hz a beat is heard as roughness."""
+"""Lines no further apart than this beat (assumed, range 4 to 20 Hz: faster than some 20 Hz it is
+heard as roughness; H. Fastl and E. Zwicker, Psychoacoustics, 2007, chapters 10 and 11)."""
 HIGHEST_ORDER: Final = 15
 _ROUNDING_HZ: Final = 1e-9
 

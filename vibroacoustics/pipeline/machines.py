@@ -28,13 +28,24 @@ def run_machines(
 
     Returns
     -------
-    tree of datasets: levels, lines and beats of all machines at its root, the results of each run
-    below, by the name of the machine
+    levels, lines and beats of all machines at the root, the results of each below, by its name
 
     Raises
     ------
     ParameterError, SolverError, StorageError
         An input is out of range, a computation failed, a file cannot be read.
+
+    Examples
+    --------
+    >>> study = va.load_study("pipelines/copeland_thesis.toml").replace({
+    ...     "machines.west": {"position_mm": [-200.0, 0.0], "speed_rpm": 2900.0},
+    ...     "machines.east": {"position_mm": [200.0, 0.0], "speed_rpm": 2880.0},
+    ...     "common_receivers.front": {"x_mm": 0.0, "y_mm": 1000.0, "height_mm": 230.0}})
+    >>> frequency = np.arange(25.0, 2501.0, 25.0)
+    >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers) + 1, 6, 1))  # made up
+    >>> tree = va.run_machines(study, radiation=va.given_radiation(vectors, frequency))
+    >>> list(tree.children)
+    ['west', 'east']
     """
     common, runs = tuple(study.common_receivers), {}
     studies = machine_studies(study)

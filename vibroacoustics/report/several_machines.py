@@ -95,9 +95,9 @@ def _sentences(results: xr.Dataset) -> Iterator[str]:
 
 def _strongest_beat(results: xr.Dataset) -> str:
     """Return a sentence on the beat with the highest maximum."""
-    loudest = results["beat_highest_level"].stack(at=("common_receiver", "beat"))
-    at = loudest.isel(at=int(np.argmax(loudest.values)))
-    receiver, beat = str(at["common_receiver"].item()), str(at["beat"].item())
+    loudest = results["beat_highest_level"].stack(pair=("common_receiver", "beat"))
+    pair = loudest.isel(pair=int(np.argmax(loudest.values)))
+    receiver, beat = str(pair["common_receiver"].item()), str(pair["beat"].item())
     labels = {"common_receiver": receiver, "beat": beat}
     highest, lowest = (
         rounding.level(results[f"beat_{end}_level"].sel(labels).item())
@@ -125,20 +125,20 @@ def _levels(results: xr.Dataset) -> Table:
     for receiver in _receivers(results):
         alone = (_level(results, "machine_level", common_receiver=receiver, machine=name)
                  for name in names)  # fmt: skip
-        both = (_level(results, name, common_receiver=receiver)
+        total = (_level(results, name, common_receiver=receiver)
                 for name in ("machines_level", "machines_highest_level"))  # fmt: skip
-        rows.append((receiver, *alone, *both))
+        rows.append((receiver, *alone, *total))
     head = ("Microphone", *names, "together", "beats at maximum")
     return Table("A-weighted levels, dB re 20 µPa; 80 % interval in brackets", head, tuple(rows))
 
 
 def _beats(results: xr.Dataset, receiver: str) -> Table:
-    at = results.sel(common_receiver=receiver)
+    heads = ("energy", "highest", "lowest")
     rows = []
-    for beat, hertz in zip(at["beat"].values, at["beat_frequency"].values, strict=True):
-        of_beat = at.sel(beat=beat)
+    for beat, hertz in zip(results["beat"].values, results["beat_frequency"].values, strict=True):
+        of_beat = results.sel(common_receiver=receiver, beat=beat)
         lines = of_beat["beat_line_level"].values.tolist()
-        others = (of_beat[f"beat_{name}_level"].item() for name in ("energy", "highest", "lowest"))
+        others = (of_beat[f"beat_{name}_level"].item() for name in heads)
         levels = (rounding.level(value) for value in (*lines, *others))
         rows.append((str(beat), rounding.fixed(float(hertz), 3), *levels))
     head = ("Lines", "beat, Hz", "first", "second", "energies", "maximum", "minimum")

@@ -68,15 +68,15 @@ def sound_of(results: xr.Dataset, receiver: str) -> Ingredients:
     results : of `results_together`
     receiver : one of its common receivers
     """
-    at = results.sel(common_receiver=receiver)
+    received = results.sel(common_receiver=receiver)
     lines = SoundLines(
-        at["machine_line_frequency"].values,
-        at["machines_pressure_line"].values,
-        tuple(map(str, at["machine_line"].values)),
+        received["machine_line_frequency"].values,
+        received["machines_pressure_line"].values,
+        tuple(map(str, received["machine_line"].values)),
     )
-    numbers = third_octave_number(at["machine_noise_band"].values).tolist()
+    numbers = third_octave_number(received["machine_noise_band"].values).tolist()
     centres = np.array([Band(3, int(number) - _AT_1_KHZ).middle_hz for number in numbers])
-    level_db = at["machines_noise_band_level"].values
+    level_db = received["machines_noise_band_level"].values
     noise = SoundBands(centres, REFERENCE_PRESSURE_PA * amplitude_of_level(level_db))
     return Ingredients(lines, noise)
 

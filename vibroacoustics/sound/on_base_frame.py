@@ -58,11 +58,12 @@ class FrameSound:
         for receiver, lined in on_floor.items():
             row = run.row(receiver)
             by_name = dict(lined)
-            for at, line in enumerate(received.lines.names):
-                if received.lines.frequency_hz[at] > 0.0 and change[row, at] != 0.0:
-                    alone = pressure[row, at]
+            for number, line in enumerate(received.lines.names):
+                of_line = change[row, number]
+                if received.lines.frequency_hz[number] > 0.0 and of_line != 0.0:
+                    alone = pressure[row, number]
                     ratio = lined.get(line, 0.0) / alone if alone != 0.0 else 1.0
-                    by_name[line] = ratio * (alone + change[row, at])
+                    by_name[line] = ratio * (alone + of_line)
             changed[receiver] = by_name
         return changed
 
@@ -81,8 +82,8 @@ class FrameSound:
             per_velocity = radiating.microphones(hertz)
             for receiver in run.common:
                 of_receiver = per_velocity[radiating.row(receiver)]
-                heard = np.einsum("mf,fm->f", of_receiver, of_other)
-                change[run.row(receiver)] += radiating.behind(heard, hertz)
+                radiated = np.einsum("mf,fm->f", of_receiver, of_other)
+                change[run.row(receiver)] += radiating.behind(radiated, hertz)
         return change
 
 

@@ -13,7 +13,7 @@ from .rendering import SAMPLE_RATE_HZ, rendered, whole_revolutions
 
 _ORDER: Final = "order "
 DURATION_S: Final = 12.0
-"""Of a sound: some beats of each order."""
+"""Duration of a sound: some beats of each order."""
 _PER_RPM: Final = 1000
 """Parts of 1 rpm in which speeds are compared."""
 
@@ -51,7 +51,7 @@ def together(parts: Mapping[str, Ingredients]) -> Ingredients:
     pressure = np.concatenate([part.lines.pressure_pa for part in parts.values()])
     names = [line_name(name, line) for name, part in parts.items() for line in part.lines.name]
     rising = np.argsort(hertz, kind="stable")
-    lines = SoundLines(hertz[rising], pressure[rising], tuple(names[at] for at in rising))
+    lines = SoundLines(hertz[rising], pressure[rising], tuple(names[number] for number in rising))
     return Ingredients(lines, _noise([part.bands for part in parts.values()]))
 
 

@@ -21,7 +21,7 @@ from .toml_files import read_toml
 _ALONE = ("machines", "base_frame", "common_receivers")
 """Tables of several machines, which the study of each of them lacks."""
 _DECIMALS = 9
-"""Of a turned position in m: less is rounding."""
+"""Decimals of a turned position in m: less is rounding."""
 
 
 def machine_studies(study: Study) -> dict[str, Study]:
@@ -96,9 +96,9 @@ def _study_of(study: Study, machine: StudyMachine) -> Study:
     changed = base.replace(changes)
     names = dict.fromkeys((REFERENCE_OPTION, machine.option))
     options = {name: changed.options[name] for name in names}
-    given = {name: values for name, values in changed.given.items() if name in options}
+    judged = {name: values for name, values in changed.given.items() if name in options}
     words = study.coarsened or changed.coarsened
-    kept = {"options": options, "given": given, "coarsened": words}
+    kept = {"options": options, "given": judged, "coarsened": words}
     return changed.model_copy(update=kept)
 
 
@@ -157,6 +157,9 @@ def _floors(study: Study, studies: Mapping[str, Study]) -> Iterator[str]:
     """Give machines with a floor of their own on a common frame, a line each."""
     for name, each in studies.items() if study.base_frame is not None else ():
         if each.machine.floor is not None or each.machine.floor_mobility is not None:
-            yield f"machines.{name}: has a floor that gives way, and is on base_frame; remove one"
+            yield (
+                f"machines.{name}: has floor, floor_mobility or structure_borne beside base_frame; "
+                "remove one"
+            )
         if each.measured is not None and each.measured.sound is not None:
             yield f"machines.{name}: has measured.sound on its floor, and is on base_frame"

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from ..base.parameters import Parameters
-from ..base.vocabulary import REFERENCE_OPTION
+from ..base.vocabulary import COORDINATES, REFERENCE_OPTION, VARIABLES
 from ..machine.feet import Feet
 from ..machine.housing import Housing
 from ..machine.mounts import Mounts
@@ -37,7 +37,7 @@ class BaseFrame(Parameters):
     position_m: tuple[_Metres, _Metres]
     """x and y of its centre of mass, in the axes of the common receivers."""
     height_m: float = Field(ge=0.0, le=3.0)
-    """Of its centre of mass above the floor."""
+    """Height of its centre of mass above the floor."""
     top_height_m: float = Field(ge=0.0, le=0.4)
     """Above the floor, of the surface on which the mounts of the machines stand."""
     mounts: Mounts
@@ -68,6 +68,9 @@ def machines_problems(
         return
     if len(machines) == 1:
         yield f"machines.{next(iter(machines))}: is the only one; give at least two"
+    for name in machines:
+        if set(name) & set("/:") or name in COORDINATES or name in VARIABLES:
+            yield f"machines.{name}: rename it; no / or :, and no name of a variable of results"
     if not common_receivers:
         yield "common_receivers: is missing; give microphones about the origin of the positions"
     for (name, machine), (other_name, other) in combinations(machines.items(), 2):

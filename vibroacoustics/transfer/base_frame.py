@@ -56,9 +56,9 @@ class MachinesOnFrame:
         bodies = [self.frame]
         bushings = [_bushing(each, "", centre, np.eye(3)) for each in self.mounts.bushings(FRAME)]
         for name, machine in self.machines.items():
-            inner, at = machine.body.isolation, (machine.origin_m, machine.turn)
-            bodies += [_body(body, f"{name}/", *at) for body in inner.bodies]
-            bushings += [_bushing(bushing, f"{name}/", *at) for bushing in inner.bushings]
+            inner, axes = machine.body.isolation, (machine.origin_m, machine.turn)
+            bodies += [_body(body, f"{name}/", *axes) for body in inner.bodies]
+            bushings += [_bushing(bushing, f"{name}/", *axes) for bushing in inner.bushings]
         return Isolation(tuple(bodies), tuple(bushings))
 
     def row(self, name: str, port: BodyPort = HOUSING) -> int:

@@ -205,9 +205,13 @@ def test_all_housings_on_a_frame_radiate(study, on_frame, driving):
 
 
 def test_a_frame_that_does_not_move_changes_nothing(study, tree):
-    """Its mass of 1e14 kg leaves 1e-12 of the motion."""
+    """Its mass of 1e14 kg leaves 1e-12 of the motion; its mounts are the stiffest allowed."""
     rigid = dict.fromkeys(("inertia_xx_kg_m2", "inertia_yy_kg_m2", "inertia_zz_kg_m2"), 1e14)
-    frame = study.replace(BASE_FRAME | {"base_frame.top_height_mm": 0.0}).base_frame
+    stiff = {"base_frame.mounts": {
+        "pitch_mm": 600.0, "lateral_stiffness_n_per_mm": 1e6, "vertical_stiffness_n_per_mm": 1e6,
+        "loss_factor_ratio": 0.1,
+    }}  # fmt: skip
+    frame = study.replace(BASE_FRAME | stiff | {"base_frame.top_height_mm": 0.0}).base_frame
     huge = frame.model_copy(update={"body": Housing.model_construct(mass_kg=1e14, **rigid)})
     still = study.model_copy(update={"base_frame": huge}).remember(*study._as_read())
     fixed = va.run_machines(still, radiation=made_up_radiation)
@@ -258,6 +262,8 @@ def test_one_machine_is_not_several(study):
         ("[200.0, 0.0]", "[-200.0, 0.0]", "machines.east.position_mm = [-200, 0] mm: is the pos"),
         ("[200.0, 0.0]", "[-100.0, 0.0]", "machines.east.position_mm: is 100 mm from machines.w"),
         ("[200.0, 0.0]", "[200.0]", "machines.east.position_mm"),
+        ("[machines.east]", "[machines.beat]", "machines.beat: rename it"),
+        ("[machines.east]", '[machines."a/b"]', "machines.a/b: rename it"),
         ("angle_deg = 90.0", 'file = "nothing.toml"', "nothing.toml: no such file"),
         ("[common_receivers.side]", "[common_receivers.front_1m]", "common_receivers.front_1m: is"),
         ("[machines.east]", "[common_receivers.x]\n[machines.east]", "common_receivers.x.x_mm"),
