@@ -9,6 +9,7 @@ import xarray as xr
 from ..base import rounding
 from ..results.estimates import Estimate
 from ..results.number import Number, number
+from ..results.stored_study import parameters
 from .analysis import Analysis, origin
 from .blocks import Block, Bullets, Part, Pictures, Sound, Sounds, Text
 from .figures.beats import beat_charts
@@ -53,7 +54,9 @@ def analysis_of_machines(results: xr.Dataset, sounds: Mapping[str, str]) -> Anal
         parts.append(Part("frame", "Base frame", frame))
         tables["base_frame.csv"] = _frame_data(results)
         shown += frame
-    parts.append(Part("limits", "Assumptions and limits", (Bullets(_LIMITS),), True))
+    coarse = tuple(f"Coarse run: {words}." for words in parameters(results).get("coarsened", ()))
+    limits = Bullets((*coarse, *_LIMITS))
+    parts.append(Part("limits", "Assumptions and limits", (limits,), not coarse))
     return Analysis(
         "machines",
         about="Several machines that run at the same time.",
