@@ -2,7 +2,7 @@
 
 import xarray as xr
 
-from ..base.progress import Progress, no_progress
+from ..base.progress import Progress, no_progress, stage
 from ..machine.cases import Cases
 from ..radiation.given import Radiation
 from ..results.several_machines import results_together
@@ -37,25 +37,24 @@ def run_machines(
 
     Examples
     --------
-    >>> study = va.load_study("pipelines/copeland_thesis.toml").replace({
-    ...     "machines.west": {"position_mm": [-200.0, 0.0], "speed_rpm": 2900.0},
-    ...     "machines.east": {"position_mm": [200.0, 0.0], "speed_rpm": 2880.0},
-    ...     "common_receivers.front": {"x_mm": 0.0, "y_mm": 1000.0, "height_mm": 230.0}})
-    >>> frequency = np.arange(25.0, 2501.0, 25.0)
-    >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers) + 1, 6, 1))  # made up
-    >>> tree = va.run_machines(study, radiation=va.given_radiation(vectors, frequency))
-    >>> list(tree.children)
+    >>> study = va.load_study("pipelines/two_compressors.toml").replace({"sources": None})
+    >>> vectors = np.ones((len(study.receivers) + 2, 6, 2))  # made up, Pa s/m
+    >>> radiation = va.given_radiation(vectors, [25.0, 4000.0])
+    >>> list(va.run_machines(study, radiation=radiation).children)
     ['west', 'east']
     """
-    common, runs = tuple(study.common_receivers), {}
     studies = machine_studies(study)
-    for number, (name, of_machine) in enumerate(studies.items()):
-        progress("machines", number, len(studies))
-        results, chain = carried(of_machine, progress, radiation)
-        chosen, machine = chain.get(Representative), study.machines[name]
-        key = machine.speed_rpm, machine.option
-        cases = chain[Cases] if chosen is None else chosen.cases
-        runs[name] = MachineRun(results, key, common, chain[Transmission], cases)
-    progress("machines", len(studies), len(studies))
+    runs = {name: _run(study, name, each, progress, radiation) for name, each in studies.items()}
     tree = {"/": results_together(study, runs)}
     return xr.DataTree.from_dict(tree | {name: run.results for name, run in runs.items()})
+
+
+def _run(
+    study: Study, name: str, of_machine: Study, progress: Progress, radiation: Radiation
+) -> MachineRun:
+    with stage(progress, f"machine {name}"):
+        results, chain = carried(of_machine, progress, radiation)
+    chosen, machine = chain.get(Representative), study.machines[name]
+    cases = chain[Cases] if chosen is None else chosen.cases
+    key, common = (machine.speed_rpm, machine.option), tuple(study.common_receivers)
+    return MachineRun(results, key, common, chain[Transmission], cases)
