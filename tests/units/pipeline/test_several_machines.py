@@ -300,3 +300,11 @@ def test_a_machine_may_have_its_file_and_its_study(study: va.Study, tmp_path: Pa
     assert west.operation.maximum_order == 16
     assert east.operation.maximum_order == 12
     assert list(east.receivers) == ["front_1m", "front", "side"]
+
+
+def test_check_states_the_cost_of_each_machine() -> None:
+    outcome = command_here("check", TWO)
+    assert outcome.returncode == 0, outcome.stderr
+    assert [f"machine {name}:" in outcome.stdout for name in SPEEDS] == [True, True]
+    assert outcome.stdout.count("processor time") == 2
+    assert outcome.stdout.endswith("two_tiny.toml: nothing is wrong\n")
