@@ -5,6 +5,8 @@
 **Studies.**
 `load_study(path)` reads a `Study`; its method `replace({...})` changes values of it.
 `run(study)` carries it from the machine's parameters to levels and scores, one `xarray.Dataset`.
+`run_machines(study)` runs several machines of one study, an `xarray.DataTree`;
+`open_machines(folder)` reads what the command wrote of one.
 `radiate(study)` computes the housing's radiation alone.
 `given_radiation(...)` makes measured transfer vectors what `run` takes.
 `score(results)` scores and ranks the options again.

@@ -28,6 +28,7 @@ from .commands.exporting import export_recording as export_recording
 from .commands.listening import listen as listen
 from .commands.outputs import write_data_sheet as write_data_sheet
 from .commands.outputs import write_report as write_report
+from .commands.several_machines import open_machines as open_machines
 from .declaration.sheet import data_sheet as data_sheet
 from .design.engine.seen import Need as Need
 from .design.figure import DesignFigure as DesignFigure
@@ -90,6 +91,7 @@ from .orders.recorded_speed import PulseWarning as PulseWarning
 from .pipeline import impulse_responses as impulse_responses
 from .pipeline import radiate as radiate
 from .pipeline import run as run
+from .pipeline import run_machines as run_machines
 from .radiation import rooms as rooms
 from .radiation.given import given_radiation as given_radiation
 from .recordings import CalibratorReading as CalibratorReading

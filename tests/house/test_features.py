@@ -19,6 +19,8 @@ from vibroacoustics.commands import cli
 FEATURES = {
     "run of a study": "command run",
     "run in Python": "va.run",
+    "several machines, in Python": "va.run_machines",
+    "results of several machines": "va.open_machines",
     "values of a study changed": "va.Study.replace",
     "study from a file": "va.load_study",
     "sweep of designs": "command sweep",

@@ -122,6 +122,10 @@ def _run(study: "Study", folder: Path, progress: Progress, prints: "Printer | No
 
     start = time.monotonic()
     messages.note(f"run: {study.source_file}")
+    if study.machines:
+        from .several_machines import run_and_write
+
+        return run_and_write(study, folder, progress, prints)
     results = pipeline.run(study, progress)
     with stage(progress, "report"):
         analysis, files = outputs.write_study(results, folder, prints)
@@ -140,7 +144,9 @@ def check_command(
 ) -> Outcome:
     """List all errors of a study or a machine, and what a run of the study would cost."""
     from ..pipeline.cost import run_cost
+    from ..radiation.cost import Cost
     from ..study.loading import load_study_or_machine
+    from ..study.machine_studies import machine_studies
     from ..study.study import Study
     from ..study.summary import study_lines
     from .example_values import count_lines
@@ -150,9 +156,13 @@ def check_command(
         load_plugins(plugin)
         checked = load_study_or_machine(file)
         if isinstance(checked, Study):
-            cost = run_cost(checked, progress)
-            lines = [*study_lines(checked), *count_lines(checked), *cost_lines(cost)]
-            tables = {"cost": columns([each._asdict() for each in cost.costs])}
+            lines, costs = [*study_lines(checked), *count_lines(checked)], list[Cost]()
+            studies = machine_studies(checked) if checked.machines else {"": checked}
+            for name, each in studies.items():
+                cost = run_cost(each, progress)
+                lines += [f"machine {name}:"] * bool(name) + list(cost_lines(cost))
+                costs += cost.costs
+            tables = {"cost": columns([each._asdict() for each in costs])}
         elif example:
             raise ParameterError(f"{file}: is a machine; --example needs a study that reads it")
         else:

@@ -56,10 +56,15 @@ def run(
     >>> results["force_amplitude"].sel(option="none", order=1).round(1).values  # N
     array([45.3])
     """
+    return carried(study, progress, radiation)[0]
+
+
+def carried(study: Study, progress: Progress, radiation: Radiation) -> tuple[xr.Dataset, Chain]:
+    """Run a study as `run` does; return its results and the chain with what is not stored."""
     # What is large runs in threads of its own; two of linear algebra would wait in busy loops.
     with one_thread_of_linear_algebra(), collected() as lines:
-        results = surviving(study, partial(_run, progress=progress, radiation=radiation))
-        return keep_lines(results, (*study.left_out, *lines))
+        results, chain = surviving(study, partial(_run, progress=progress, radiation=radiation))
+        return keep_lines(results, (*study.left_out, *lines)), chain
 
 
 def chain_with(
@@ -89,7 +94,7 @@ def chain_with(
     return chain
 
 
-def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
+def _run(study: Study, progress: Progress, radiation: Radiation) -> tuple[xr.Dataset, Chain]:
     study = on_measured_floor(study)
     chain = Chain(study, radiation, progress)
     for stage in applying(study):
@@ -103,4 +108,4 @@ def _run(study: Study, progress: Progress, radiation: Radiation) -> xr.Dataset:
         for name, option in study.options.items()
     }
     results.attrs["crank_frames"] = canonical_json(frames)
-    return check(label_coordinates(results))
+    return check(label_coordinates(results)), chain

@@ -19,4 +19,5 @@ from .rendered import check_kept as check_kept
 from .rendered import keep as keep
 from .rendered import render as render
 from .replay import analysis_of_replay as analysis_of_replay
+from .several_machines import analysis_of_machines as analysis_of_machines
 from .study import analysis_of_study as analysis_of_study

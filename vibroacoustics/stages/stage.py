@@ -7,7 +7,7 @@ from typing import ClassVar, Final, NamedTuple
 
 import xarray as xr
 
-from ..base.errors import PluginError
+from ..base.errors import ParameterError, PluginError
 from ..base.registry import Registry
 from ..base.vocabulary import VARIABLES, check
 from ..radiation.cost import Cost, about
@@ -111,7 +111,9 @@ STAGES: Final[Registry[type[Stage]]] = Registry(
 
 
 def applying(study: Study) -> list[Stage]:
-    """Return the stages that a study asks for, in their order."""
+    """Return the stages that a study of one machine asks for, in their order."""
+    if study.machines:
+        raise ParameterError("machines: several machines run by `run_machines` and the command run")
     stages = []
     for name, kind in STAGES.items():
         with STAGES.spared(), STAGES.fenced(name):

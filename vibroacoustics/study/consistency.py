@@ -13,6 +13,7 @@ from ..machine.option import Option
 from ..machine.shell_structure import ShellStructure, ShellVariation
 from ..machine.stopping import Stopping, TurningBack
 from .criterion import CRITERIA
+from .machines import machines_problems
 from .scoring import check_given, check_scales
 from .tables import StudyTables
 
@@ -39,7 +40,7 @@ def check_consistent(study: StudyTables) -> None:
     _raise_all(partial(_check_fits, study, name, one) for name, one in study.options.items())
     checks = (
         _check_catalogue, _check_orders, _check_sources, _check_sound_power, _check_room,
-        _check_spectrum, _check_rating, _check_criteria,
+        _check_spectrum, _check_rating, _check_criteria, _check_machines,
     )  # fmt: skip
     _raise_all(
         (
@@ -68,6 +69,13 @@ def _check_measured(study: StudyTables) -> None:
         names, speeds = list(study.receivers), study.operation.speed_rpm
         if problems := list(study.measured.problems(names, speeds)):
             raise ValueError(*problems)
+
+
+def _check_machines(study: StudyTables) -> None:
+    """Refuse several machines that are one, or stand at one position."""
+    tables = (study.machines, study.base_frame, study.common_receivers, study.receivers)
+    if problems := list(machines_problems(*tables)):
+        raise ValueError(*problems)
 
 
 def _check_spectrum(study: StudyTables) -> None:

@@ -228,7 +228,7 @@ FILLED_IN: Final = (
 """Here, not by a file."""
 
 
-_WITH_DATA_FILES: Final = ("options", "shell_modes", "sources")
+_WITH_DATA_FILES: Final = ("machines", "options", "shell_modes", "sources")
 
 
 """Tables in which every `file`, at any depth, is the name of a data file."""

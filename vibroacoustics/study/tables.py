@@ -12,6 +12,7 @@ from ..machine.source import AnySource
 from .baseline import MeasuredSound
 from .design import Design
 from .evidence import Evidence
+from .machines import BaseFrame, StudyMachine
 from .operation import Operation
 from .radiation import RadiationSettings
 from .rating import Rating
@@ -57,6 +58,12 @@ class StudyTables(Parameters):
     """Room into which the machine is put, with listeners."""
     rating: Rating | None = None
     """Windows at which the sound is rated."""
+    machines: dict[str, StudyMachine] = Field(default_factory=dict)
+    """Several machines that run at the same time, each an ordinary study of its own."""
+    common_receivers: dict[str, Receiver] = Field(default_factory=dict)
+    """Microphones at which they are heard together, about the origin of their positions."""
+    base_frame: BaseFrame | None = None
+    """Frame on which they all stand; the floor where there is none."""
     sources: dict[str, AnySource] = Field(default_factory=dict)
     """Who drives the machine beside its moving parts."""
     uncertainty: Uncertainty = Uncertainty()
@@ -77,7 +84,7 @@ class StudyTables(Parameters):
     """A line on what runs without: what failed when the study was read, sources not wanted."""
     source_file: str = ""
 
-    @field_validator("options", "receivers")
+    @field_validator("options", "receivers", "machines", "common_receivers")
     @classmethod
     def _named(cls, given: dict[str, Any]) -> dict[str, Any]:
         if not all(name.strip() for name in given):
