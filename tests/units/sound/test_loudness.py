@@ -16,7 +16,6 @@ from vibroacoustics.sound.ingredients import Ingredients, SoundBands, SoundLines
 from vibroacoustics.sound.loudness import CENTRES_HZ, filter_gain, loudness_of, loudness_of_thirds
 from vibroacoustics.sound.recorded import narrow_bands
 
-pytest.importorskip("mosqito")
 REFERENCE = 4e-10
 SIGNAL_1 = (
     -60, -60, 78, 79, 89, 72, 80, 89, 75, 87, 85, 79, 86, 80,
@@ -61,7 +60,7 @@ def test_loudness_of_third_octaves():
     assert heard.loudness_sone == pytest.approx(83.296, rel=0.006)  # as it is
     square = (effective**2)[None]
     (direct,) = loudness_of_thirds(square)
-    assert direct.loudness_sone == pytest.approx(83.296, abs=0.01)
+    assert direct.loudness_sone == pytest.approx(83.296, abs=0.005)  # printed to 0.01
 
 
 def test_a_diffuse_field_counts_as_the_standard_has_it():
@@ -126,11 +125,7 @@ def test_silence_has_no_sharpness():
 
 
 def test_too_loud_bass_is_refused_in_one_line():
-    with pytest.raises(ParameterError, match=r"^loudness: .*exceed 120 dB[^\n]*$"):
+    with pytest.raises(
+        ParameterError, match=r"^loudness: .*has 12\d.* dB; ISO 532-1 holds up to 120 dB$"
+    ):
         loudness_of([tone(50.0, 125.0)])
-
-
-def test_without_mosqito_one_line_says_what_to_install(monkeypatch):
-    monkeypatch.setattr(loudness, "find_spec", lambda name: None)
-    with pytest.raises(ParameterError, match=r"pip install 'vibroacoustics\[sound\]'"):
-        loudness_of([tone(1000.0, 40.0)])
