@@ -144,12 +144,12 @@ def filter_gain(frequency_hz: Array) -> Array:
 def _thirds(parts: Ingredients) -> Array:
     """Mean squares in the bands `CENTRES_HZ`, Pa²; noise is even over the logarithm in its band."""
     lines = 0.5 * np.abs(parts.lines.pressure_pa) ** 2 @ filter_gain(parts.lines.frequency_hz)
-    gain = _noise_gain(tuple(parts.bands.centre_hz.tolist()))
+    gain = noise_gain(tuple(parts.bands.centre_hz.tolist()))
     return np.asarray(lines + parts.bands.pressure_pa**2 @ gain)
 
 
 @lru_cache(maxsize=16)
-def _noise_gain(centre_hz: tuple[float, ...]) -> Array:
+def noise_gain(centre_hz: tuple[float, ...]) -> Array:
     """Gain of the filters on noise in third octaves, shape (band, filter)."""
     across = HALF_BAND ** (2.0 * (np.arange(_ACROSS) + 0.5) / _ACROSS - 1.0)
     hertz = np.array(centre_hz)[:, None] * across

@@ -12,6 +12,7 @@ from ..keys import acts_on
 from ..space import OPTION, Space
 from .closed_form import CLOSED_FORMS, of_many
 from .deviating import Gains
+from .hearing import HEARING
 from .machine_sample import MachineSample
 from .option_engine import ARRAYS, OptionEngine, Outcome
 from .probe import Probe
@@ -90,7 +91,9 @@ class Engine:
         limits = self.limits.copy()
         if space.names[:1] == [OPTION]:
             limits[0] = space.options.index(option)
-        explorer = Explorer(samples, limits, speeds, ARRAYS | figures, self.template is not None)
+        unmodelled = self._unmodelled(option)
+        wanted = ARRAYS | figures | ({"thirds"} if unmodelled[0] is not None else set())
+        explorer = Explorer(samples, limits, speeds, wanted, self.template is not None)
         by_runs = any(need.what == "criterion" for need in self.needs)
         variables = dict(enumerate(space.variables))
         idle = [
@@ -100,7 +103,8 @@ class Engine:
         forms = _closed_forms(space, option)
         if by_runs:
             linear, forms = [], ()
-        runs = CachedRuns(space, option, self.needs, self.ways, self.machine, self.gains)
+        beside = self.gains, unmodelled
+        runs = CachedRuns(space, option, self.needs, self.ways, self.machine, *beside)
         template = None if self.template is None else self.template.of_option(option)
         return OptionEngine(
             explorer,
@@ -110,9 +114,15 @@ class Engine:
             tuple(idle),
             forms,
             runs,
-            self.gains,
+            *beside,
             template,
         )
+
+    def _unmodelled(self, option: str) -> tuple[Array | None, ...]:
+        """Unmodelled noise by speed, shape (pair, receiver, band), Pa²; none if not asked for."""
+        if not any(need in HEARING for need in self.needs):
+            return (None,) * len(self.gains)
+        return tuple(np.moveaxis(self.machine.unmodelled(option).thirds, 1, 0))
 
     def _probe(self, option: str, design: Array) -> Probe:
         key = design.tobytes()
