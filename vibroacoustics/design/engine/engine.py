@@ -7,6 +7,9 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.units import si_key
+from ...machine.combination import Combination
+from ...machine.machine import Machine
+from ...machine.option import Option
 from ...study.study import Study
 from ..keys import acts_on
 from ..space import OPTION, Space
@@ -132,8 +135,15 @@ class Engine:
 
 
 def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:
-    """The closed form of an option's kind, of the variables that are its values."""
-    given = space.study.options[option]
+    """Closed forms of an option, or of those that it joins, of variables that are its values."""
+    joined = space.study.options[option]
+    machine = joined.applied_to(space.study.machine)
+    names = joined.names if isinstance(joined, Combination) else (option,)
+    each = zip(names, joined.members, strict=True)
+    return tuple(form for one in each for form in _closed_form(space, *one, machine))
+
+
+def _closed_form(space: Space, option: str, given: Option, machine: Machine) -> tuple[Basis, ...]:
     form = CLOSED_FORMS.get(given.kind)
     if form is None:
         return ()
@@ -145,7 +155,6 @@ def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:
     of_form = {field: columns[field] for field in form.fields if field in columns}
     if not of_form:
         return ()
-    machine = given.applied_to(space.study.machine)
     present = {field: getattr(given, field) for field in form.fields}
 
     def functions(values: Array, speed_rpm: float) -> Array:
