@@ -200,5 +200,5 @@ def _row(figure: str, lines: Lines, arrays: Arrays, body: Arrays) -> ComplexArra
     if figure == "foot_force_n":
         added = {name: arrays[name] for name in ADDED if name in arrays}
         return foot_forces(body, added, wrench, lines.frequency_hz, line).ravel()
-    on_mechanism = wrench.reshape(-1, 6).sum(axis=0)
+    on_mechanism: ComplexArray = wrench.reshape(-1, 6).sum(axis=0)
     return on_mechanism[:3] if figure == "force_n" else on_mechanism[3:]

@@ -43,8 +43,7 @@ def least_squares_moments(response: ComplexArray, influence: ComplexArray) -> Co
     response, influence : see `sums_of_squares`
     """
     rows = influence.reshape(-1, influence.shape[-1])
-    solution: ComplexArray = np.linalg.lstsq(rows, -response.ravel(), rcond=None)[0]
-    return solution
+    return np.asarray(np.linalg.lstsq(rows, -response.ravel(), rcond=None)[0], dtype=complex)
 
 
 def worst_speed_moments(response: ComplexArray, influence: ComplexArray) -> ComplexArray:
@@ -165,6 +164,23 @@ def chosen_moments(
     return search.best()
 
 
+class _Node(NamedTuple):
+    """Some weights in their places, the last ones of all.
+
+    Attributes
+    ----------
+    bound : least worst speed with these places
+    numbers : of the places
+    response : turned, with these weights, shape (speed, row)
+    sums : sum of squares that no other weight changes, shape (speed,)
+    """
+
+    bound: float
+    numbers: tuple[int, ...]
+    response: ComplexArray
+    sums: Array
+
+
 class _Search(NamedTuple):
     """Search for the places of weights, the last weight first.
 
@@ -184,24 +200,24 @@ class _Search(NamedTuple):
     def best(self) -> IndexArray:
         """Search depth first, the most promising places first."""
         weights = self.triangle.shape[-1]
-        best, chosen = np.inf, np.zeros(weights, dtype=np.intp)
-        pending = [(float(self.rest.max()), weights, (), self.turned, self.rest)]
+        best, chosen = np.inf, tuple([0] * weights)
+        pending = [_Node(float(self.rest.max()), (), self.turned, self.rest)]
         while pending:
-            bound, weight, numbers, response, sums = pending.pop()
+            bound, numbers, response, sums = pending.pop()
             if bound >= best:
                 continue
-            if weight == 0:
-                best, chosen = bound, np.array(numbers, dtype=np.intp)
+            if len(numbers) == weights:
+                best, chosen = bound, numbers
                 continue
-            number = weight - 1
+            number = weights - len(numbers) - 1
             candidates = response + self.triangle[:, :, number] * self.places[number][:, None, None]
             further = np.broadcast_to(sums, (len(candidates), len(sums)))
             if number < self.triangle.shape[1]:
                 further = further + np.abs(candidates[:, :, number]) ** 2
             bounds = further.max(axis=1)
             pending += [
-                (float(bounds[row]), number, (row, *numbers), candidates[row], further[row])
+                _Node(float(bounds[row]), (row, *numbers), candidates[row], further[row])
                 for row in np.argsort(-bounds, kind="stable").tolist()
                 if bounds[row] < best
             ]
-        return chosen
+        return np.array(chosen, dtype=np.intp)

@@ -1,6 +1,6 @@
 """Options that a study joins by their names: `[options."twin + weight"]`."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from itertools import combinations
 from typing import Any
 
@@ -8,8 +8,11 @@ from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.combination import SEPARATOR, Combination, joined_names
 from ..machine.machine import Machine
-from ..machine.option import Option
+from ..machine.option import OPTIONS, Option
+from .kinds import validate_kinds
+from .machine_file import change_of
 from .reader import Reader
+from .record import ParameterRecord
 from .toml_files import leaves
 
 BESIDE = frozenset({"title", "given"})
@@ -124,3 +127,53 @@ def with_combinations(
             continue
         result[name] = Combination(names=names, parts=tuple(parts), machine=machines.get(name))
     return result
+
+
+def joined_machine(
+    where: str,
+    names: tuple[str, ...],
+    changes: Mapping[str, dict[str, Any]],
+    read: Callable[[dict[tuple[str, ...], Any]], tuple[Machine, Reader, list[ParameterRecord]]],
+) -> Machine | None:
+    """Return the machine with the changes of all redesigns of a combination; None without one.
+
+    Parameters
+    ----------
+    where : file and key of the combination
+    names : of the options that are joined
+    changes : of each redesign of the study
+    read : the machine with further tables of changes, by their keys
+
+    Raises
+    ------
+    ParameterError
+        Two redesigns change one value, or the machine is refused.
+    """
+    ordered = joined_changes(names, changes, where)
+    if not ordered:
+        return None
+    machine, _, _ = read({change_of(name): change for name, change in ordered.items()})
+    return machine
+
+
+def validate_options(
+    content: dict[str, Any],
+    joined: Mapping[str, tuple[str, ...]],
+    machines: Mapping[str, Machine],
+    reader: Reader,
+) -> None:
+    """Turn the tables of the options into options, combinations among them, in their order.
+
+    Parameters
+    ----------
+    content : of the study
+    joined, machines, reader : see `with_combinations`
+    """
+    tables = content.get("options")
+    if not isinstance(tables, dict):  # refused by the study
+        return
+    order = list(tables)
+    content["options"] = {name: table for name, table in tables.items() if name not in joined}
+    validate_kinds(content, "options", OPTIONS, reader)
+    options = with_combinations(content["options"], joined, machines, reader)
+    content["options"] = {name: options[name] for name in order if name in options}

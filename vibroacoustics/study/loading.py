@@ -9,12 +9,11 @@ from typing import Any, Final
 from ..base.errors import ParameterError
 from ..base.fault import FaultError, collected
 from ..machine.machine import Machine
-from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
 from .automatic import fill_in_automatic
 from .baseline import BaselineSettings
 from .baseline_files import read_baseline
-from .combinations import joined_changes, take_combinations, with_combinations
+from .combinations import joined_machine, take_combinations, validate_options
 from .evidence_files import read_published_table, take_evidence
 from .failing import without_failing, without_source
 from .file_names import resolve_file_names
@@ -127,7 +126,7 @@ def _study_of(written: Written) -> Study:
     content.update(source_file=path.name, given=given, evidence=evidence, titles=titles)
     for name, (redesigned, _, _) in redesigns.items():
         content["options"][name]["machine"] = _under(plate, redesigned)
-    _validate_options(
+    validate_options(
         content, joined, {n: _under(plate, one) for n, one in joined_machines.items()}, reader
     )
     validate_kinds(content, "sources", SOURCES, reader)
@@ -179,44 +178,13 @@ def _redesigns(
             del content["options"][name]
         else:
             redesigns[name] = redesigned
-    machines = {}
+    machines: dict[str, Machine] = {}
     for option, names in joined.items():
         where = reader.file_and_key(("options", option))
         if set(names) & set(all_changes) <= set(redesigns):
-            changed = reader.tried(partial(_joined_machine, where, names, all_changes, read))
+            changed = reader.tried(partial(joined_machine, where, names, all_changes, read))
             machines |= {} if changed is None else {option: changed}
     return redesigns, machines
-
-
-def _joined_machine(
-    where: str,
-    names: tuple[str, ...],
-    changes: Mapping[str, dict[str, Any]],
-    read: Callable[[dict[tuple[str, ...], Any]], _Redesign],
-) -> Machine | None:
-    """Machine with the changes of all redesigns of a combination; None without one."""
-    ordered = joined_changes(names, changes, where)
-    if not ordered:
-        return None
-    machine, _, _ = read({change_of(name): change for name, change in ordered.items()})
-    return machine
-
-
-def _validate_options(
-    content: dict[str, Any],
-    joined: Mapping[str, tuple[str, ...]],
-    machines: Mapping[str, Machine],
-    reader: Reader,
-) -> None:
-    """Turn the tables of the options into options, combinations among them, in their order."""
-    tables = content.get("options")
-    if not isinstance(tables, dict):  # refused by the study
-        return
-    order = list(tables)
-    content["options"] = {name: table for name, table in tables.items() if name not in joined}
-    validate_kinds(content, "options", OPTIONS, reader)
-    options = with_combinations(content["options"], joined, machines, reader)
-    content["options"] = {name: options[name] for name in order if name in options}
 
 
 def _under(plate: StructureBorne | None, machine: Machine) -> Machine:

@@ -173,12 +173,15 @@ class FixedSpectrum:
         columns : products of the variables, shape (design, product)
         """
         _, weighted = self.lines.weighted(None)
-        random = (
-            np.tensordot(columns[: None if len(part) > 1 else 1, : len(part)], part, axes=1)
-            for part in (self.noise, self.thirds)
-        )
-        spectrum = weighted.spectrum(summed(columns, self.pressure), *random)
+        noise, thirds = (_of_designs(columns, part) for part in (self.noise, self.thirds))
+        spectrum = weighted.spectrum(summed(columns, self.pressure), noise, thirds)
         return hearing_at(needs, self.lines, *spectrum)
+
+
+def _of_designs(columns: Array, factors: Array) -> Array:
+    """Sums of products of each design; of one where `factors` has the constant alone."""
+    count = len(columns) if len(factors) > 1 else 1
+    return np.asarray(np.tensordot(columns[:count, : len(factors)], factors, axes=1))
 
 
 def _constant(factors: Array) -> Array:
