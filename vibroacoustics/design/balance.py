@@ -43,6 +43,13 @@ class Balanced:
     before, after : root of the sum of squares without and with the counterweights, shape (speed,):
         of forces or moments, N or N m peak; of pressures the effective value over the microphones,
         Pa
+
+    Examples
+    --------
+    >>> values = {"options.weight.mass_kg": 0.005, "options.weight.angle_deg": 180.0}
+    >>> best = va.Balanced(np.array([-1e-4 + 0j]), values, np.array([40.0]), np.array([10.0]))
+    >>> (best.after / best.before).tolist()
+    [0.25]
     """
 
     moment_kg_m: ComplexArray
