@@ -66,7 +66,7 @@ def balance(
     holes: Mapping[str, tuple[int, Sequence[float]]] | None = None,
     radiation: Radiation = transfer_vectors,
 ) -> Balanced:
-    """Find masses and angles of the counterweights of an option, all other values as given.
+    """Find masses and angles of the counterweights of an option, the other values kept.
 
     Forces and sound are linear in the complex moments of counterweights at given radii and heights.
     Their influence is found with each of them turned by 180°.
@@ -113,14 +113,14 @@ def balance(
     else:
         places = [_places(name, weight, holes) for name, weight in weights.items()]
         numbers = chosen_moments(*rows, places)
-        moment = np.array([some[one] for some, one in zip(places, numbers, strict=True)])
+        moment = np.array([some[item] for some, item in zip(places, numbers, strict=True)])
     before, after = (
-        np.sqrt(sums_of_squares(response, influence, one)) for one in (0.0 * moment, moment)
+        np.sqrt(sums_of_squares(response, influence, item)) for item in (0.0 * moment, moment)
     )
     values: dict[str, float] = {}
-    for (name, weight), one in zip(weights.items(), moment.tolist(), strict=True):
-        values[f"options.{name}.mass_kg"] = max(abs(one) / weight.radius_m, _LIGHTEST_KG)
-        values[f"options.{name}.angle_deg"] = float(np.angle(one, deg=True))
+    for (name, weight), item in zip(weights.items(), moment.tolist(), strict=True):
+        values[f"options.{name}.mass_kg"] = max(abs(item) / weight.radius_m, _LIGHTEST_KG)
+        values[f"options.{name}.angle_deg"] = float(np.angle(item, deg=True))
     return Balanced(moment, values, before, after)
 
 
@@ -130,9 +130,9 @@ def _weights(study: Study, option: str) -> dict[str, Counterweight]:
         raise ParameterError(
             f"option = {option}: there is no such option; allowed {', '.join(study.options)}"
         )
-    given = study.options[option]
-    names = joined_names(option) if isinstance(given, Combination) else (option,)
-    each = zip(names, given.members, strict=True)
+    option_as_written = study.options[option]
+    names = joined_names(option) if isinstance(option_as_written, Combination) else (option,)
+    each = zip(names, option_as_written.members, strict=True)
     weights = {name: part for name, part in each if isinstance(part, Counterweight)}
     if not weights:
         raise ParameterError(f"options.{option}: has no counterweight; join some to it")
@@ -170,11 +170,11 @@ def _response(
     study: Study, option: str, changed: Mapping[str, Option], figure: str, ways: Ways
 ) -> ComplexArray:
     """Response with some counterweights changed, shape (speed, row)."""
-    given = study.options[option]
-    other = changed.get(option, given)
-    if isinstance(given, Combination):
-        parts = zip(given.names, given.parts, strict=True)
-        other = given.model_copy(
+    option_as_written = study.options[option]
+    other = changed.get(option, option_as_written)
+    if isinstance(option_as_written, Combination):
+        parts = zip(option_as_written.names, option_as_written.parts, strict=True)
+        other = option_as_written.model_copy(
             update={"parts": tuple(changed.get(name, part) for name, part in parts)}
         )
     options = {REFERENCE_OPTION: study.options[REFERENCE_OPTION], option: other}

@@ -155,11 +155,13 @@ def chosen_moments(
     response, influence : see `sums_of_squares`
     places : complex moments that each weight may have, such as those of its bolt holes, kg m
     """
-    factors = [np.linalg.qr(one) for one in influence]
-    turned = [q.conj().T @ one for (q, _), one in zip(factors, response, strict=True)]
-    rest = np.sum(np.abs(response) ** 2, axis=1) - [np.sum(np.abs(one) ** 2) for one in turned]
+    factors = [np.linalg.qr(item) for item in influence]
+    turned = [q.conj().T @ item for (q, _), item in zip(factors, response, strict=True)]
+    constant = np.sum(np.abs(response) ** 2, axis=1) - [
+        np.sum(np.abs(item) ** 2) for item in turned
+    ]
     search = _Search(
-        np.array(turned), np.array([r for _, r in factors]), places, np.maximum(rest, 0.0)
+        np.array(turned), np.array([r for _, r in factors]), places, np.maximum(constant, 0.0)
     )
     return search.best()
 
@@ -189,19 +191,19 @@ class _Search(NamedTuple):
     turned : response, shape (speed, row)
     triangle : upper triangular influence, shape (speed, row, weight)
     places : moments that each weight may have
-    rest : sum of squares that no weight changes, shape (speed,)
+    constant : sum of squares that no weight changes, shape (speed,)
     """
 
     turned: ComplexArray
     triangle: ComplexArray
     places: Sequence[ComplexArray]
-    rest: Array
+    constant: Array
 
     def best(self) -> IndexArray:
         """Search depth first, the most promising places first."""
         weights = self.triangle.shape[-1]
         best, chosen = np.inf, tuple([0] * weights)
-        pending = [_Node(float(self.rest.max()), (), self.turned, self.rest)]
+        pending = [_Node(float(self.constant.max()), (), self.turned, self.constant)]
         while pending:
             bound, numbers, response, sums = pending.pop()
             if bound >= best:

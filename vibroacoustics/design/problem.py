@@ -296,7 +296,7 @@ class Problem:
 
         def unmodelled() -> Array:
             of_options = map(compared.machine.unmodelled, self.space.options)
-            each = np.array([one.square for one in of_options])
+            each = np.array([noise.square for noise in of_options])
             chooses = len(self.space.options) > 1
             return _rows(each[np.rint(pieces[:, 0] * chooses).astype(int)])
 

@@ -128,29 +128,30 @@ def together(names: Sequence[str], each: Sequence[Added]) -> Added:
         Two add a second Oldham ring, act on the ring in ways that do not add up, or report a figure
         of one name.
     """
-    for (first, one), (second, other) in combinations(zip(names, each, strict=True), 2):
-        if reason := _why_not(one, other):
-            raise ParameterError(f"{first} and {second} {reason}")
+    for pair in combinations(zip(names, each, strict=True), 2):
+        (name, added), (other_name, other) = pair
+        if reason := _why_not(added, other):
+            raise ParameterError(f"{name} and {other_name} {reason}")
     total = each[0]
     for other in each[1:]:
         total = _sum(total, other)
     return total
 
 
-def _why_not(one: Added, other: Added) -> str | None:
+def _why_not(first: Added, other: Added) -> str | None:
     """Why two options exclude each other; None where they do not."""
-    if one.rings and other.rings:
+    if first.rings and other.rings:
         return "both add a second Oldham ring; join one of them only"
-    if one.on_ring is not None and other.on_ring is not None and not _alike(one, other):
+    if first.on_ring is not None and other.on_ring is not None and not _alike(first, other):
         return "both act on the Oldham ring, one from the housing; their forces do not add up"
-    reported = [name for name in one.figures if name in other.figures and not _adds_up(name)]
+    reported = [name for name in first.figures if name in other.figures and not _adds_up(name)]
     if reported:
         return f"both report {reported[0]}; join one of them only"
     return None
 
 
-def _alike(one: Added, other: Added) -> bool:
-    kinds = [(ring.from_housing, ring.inertial) for ring in (one.on_ring, other.on_ring) if ring]
+def _alike(first: Added, other: Added) -> bool:
+    kinds = [(ring.from_housing, ring.inertial) for ring in (first.on_ring, other.on_ring) if ring]
     return len(set(kinds)) == 1
 
 
@@ -158,21 +159,21 @@ def _adds_up(figure: str) -> bool:
     return figure.endswith(_SUMMED)
 
 
-def _sum(one: Added, other: Added) -> Added:
+def _sum(first: Added, other: Added) -> Added:
     """Two options that do not exclude each other."""
-    shared = one.figures.keys() & other.figures.keys()
-    figures = {**one.figures, **other.figures}
-    figures |= {name: one.figures[name] + other.figures[name] for name in shared}
+    shared = first.figures.keys() & other.figures.keys()
+    figures = {**first.figures, **other.figures}
+    figures |= {name: first.figures[name] + other.figures[name] for name in shared}
     return Added(
-        one.parts + other.parts,
+        first.parts + other.parts,
         figures,
-        _sum_on_ring(one.on_ring, other.on_ring),
-        one.rings + other.rings,
-        one.on_scroll_n_m + other.on_scroll_n_m,
+        _sum_on_ring(first.on_ring, other.on_ring),
+        first.rings + other.rings,
+        first.on_scroll_n_m + other.on_scroll_n_m,
     )
 
 
-def _sum_on_ring(one: RingForce | None, other: RingForce | None) -> RingForce | None:
-    if one is None or other is None:
-        return one or other
-    return replace(one, force_n=np.asarray(one.force_n + other.force_n))
+def _sum_on_ring(first: RingForce | None, other: RingForce | None) -> RingForce | None:
+    if first is None or other is None:
+        return first or other
+    return replace(first, force_n=np.asarray(first.force_n + other.force_n))

@@ -86,12 +86,12 @@ def joined_changes(
         Two redesigns change one value.
     """
     ordered = {name: changes[name] for name in names if name in changes}
-    for one, other in combinations(ordered, 2):
-        both = set(leaves(ordered[one])) & set(leaves(ordered[other]))
-        if both:
-            key = ".".join(min(both))
+    for item, other in combinations(ordered, 2):
+        shared = set(leaves(ordered[item])) & set(leaves(ordered[other]))
+        if shared:
+            key = ".".join(min(shared))
             raise ParameterError(
-                f"{where}: {one} and {other} both change machine.{key}; join one of them"
+                f"{where}: {item} and {other} both change machine.{key}; join one of them"
             )
     return ordered
 
@@ -117,7 +117,9 @@ def with_combinations(
         if len(parts) < len(names):
             continue  # the part is refused already
         losses = [
-            part for part, one in zip(names, parts, strict=True) if one.insertion_loss() is not None
+            part
+            for part, item in zip(names, parts, strict=True)
+            if item.insertion_loss() is not None
         ]
         if len(losses) > 1:
             reader.problems.append(

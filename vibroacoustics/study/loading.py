@@ -127,7 +127,7 @@ def _study_of(written: Written) -> Study:
     for name, (redesigned, _, _) in redesigns.items():
         content["options"][name]["machine"] = _under(plate, redesigned)
     validate_options(
-        content, joined, {n: _under(plate, one) for n, one in joined_machines.items()}, reader
+        content, joined, {n: _under(plate, each) for n, each in joined_machines.items()}, reader
     )
     validate_kinds(content, "sources", SOURCES, reader)
     if read is None:

@@ -87,11 +87,11 @@ class StudyTables(Parameters):
 
     @field_validator("options")
     @classmethod
-    def _rejoined(cls, given: dict[str, Any]) -> dict[str, Any]:
+    def _rejoined(cls, options: dict[str, Any]) -> dict[str, Any]:
         """Give combinations the present values of the options that they join."""
         return {
-            name: option.rejoined(given) if isinstance(option, Combination) else option
-            for name, option in given.items()
+            name: option.rejoined(options) if isinstance(option, Combination) else option
+            for name, option in options.items()
         }
 
     @property

@@ -140,7 +140,7 @@ def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:
     machine = joined.applied_to(space.study.machine)
     names = joined.names if isinstance(joined, Combination) else (option,)
     each = zip(names, joined.members, strict=True)
-    return tuple(form for one in each for form in _closed_form(space, *one, machine))
+    return tuple(form for member in each for form in _closed_form(space, *member, machine))
 
 
 def _closed_form(space: Space, option: str, given: Option, machine: Machine) -> tuple[Basis, ...]:

@@ -243,7 +243,7 @@ class FixedMounts:
         sounds = [need for need in needs if need.what == "sound"]
         spectra: tuple[FixedSpectrum, ...] = ()
         if any(need in HEARING for need in needs):
-            spectra = tuple(FixedSpectrum.of(*one, bare) for one in both)
+            spectra = tuple(FixedSpectrum.of(*speed, bare) for speed in both)
         if lines[0].gains is not None:
             columns = [one.terms.at(designs, one.speed_rpm) for one in by_speed]
             paired = {
@@ -282,8 +282,8 @@ class FixedMounts:
         seen |= {need: self._sound(need, by_speed) for need in sounds}
         hearing = [need for need in needs if need in HEARING]
         each = [
-            one.hearing(hearing, columns)
-            for one, columns in zip(self.spectra, by_speed, strict=bool(hearing))
+            spectrum.hearing(hearing, columns)
+            for spectrum, columns in zip(self.spectra, by_speed, strict=bool(hearing))
         ]
         return seen | {need: np.stack([part[need] for part in each], axis=2) for need in hearing}
 

@@ -23,9 +23,9 @@ class Loudness(DesignFigure):
         """Loudness."""
         return (LOUDNESS,)
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
+    def values(self, responses: Seen, setting: Setting) -> Array:
         """Loudness by speed and microphone, sone."""
-        return seen[LOUDNESS]
+        return responses[LOUDNESS]
 
 
 @register
@@ -41,6 +41,6 @@ class Audibility(DesignFigure):
         """Decisive audibility."""
         return (AUDIBILITY,)
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
+    def values(self, responses: Seen, setting: Setting) -> Array:
         """Power that the audibility is the level of: its mean is that of energies."""
-        return power_of_level(seen[AUDIBILITY])
+        return power_of_level(responses[AUDIBILITY])
