@@ -12,7 +12,7 @@
 `score(results)` scores and ranks the options again.
 `sweep(study, {...})` computes every design of a grid or a sample of values;
 `optimise(study)` searches for the best designs of its table `[design]`, which is a `Problem` for
-searches of your own.
+searches of your own. `balance(study, option)` finds its counterweights, each `Balanced`.
 `write_report(results, folder)` writes the report with tables and figures.
 `data_sheet(results, option)` makes the data sheet of an option, a `DataSheet`, predicted;
 `write_data_sheet(sheet, folder)` writes it as page, CSV and JSON.

@@ -30,6 +30,8 @@ from .commands.outputs import write_data_sheet as write_data_sheet
 from .commands.outputs import write_report as write_report
 from .commands.several_machines import open_machines as open_machines
 from .declaration.sheet import data_sheet as data_sheet
+from .design.balance import Balanced as Balanced
+from .design.balance import balance as balance
 from .design.engine.seen import Need as Need
 from .design.figure import DesignFigure as DesignFigure
 from .design.optimising import optimise as optimise

@@ -12,7 +12,7 @@ from vibroacoustics.base.arrays import Array
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.decibel import mean_square_level
 from vibroacoustics.design.engine.engine import Engine
-from vibroacoustics.design.engine.machine_sample import MachineSample
+from vibroacoustics.design.engine.machine_sample import MachineSample, Unmodelled
 from vibroacoustics.design.engine.seen import Need
 from vibroacoustics.design.engine.sound_way import Ways
 from vibroacoustics.design.space import Space
@@ -59,7 +59,7 @@ def engine_of(
 ) -> Engine:
     """Engine of the study's designs."""
     space = Space.of(study)
-    machine = MachineSample(np.ones(1), lambda _: np.zeros((1, 1, 1)))
+    machine = MachineSample(np.ones(1), lambda _: Unmodelled(np.zeros((1, 1, 1)), np.zeros(1)))
     gains = (None,) * len(study.operation.speed_rpm)
     return Engine(space, space.limits, needs, Ways(radiation), machine, gains)
 

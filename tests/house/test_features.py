@@ -27,6 +27,8 @@ FEATURES = {
     "sweep in Python": "va.sweep",
     "best designs": "command optimise",
     "best designs, in Python": "va.optimise",
+    "counterweights balanced": "va.balance",
+    "what balancing finds": "va.Balanced",
     "radiation alone": "command radiation",
     "radiation alone, in Python": "va.radiate",
     "measured transfer vectors": "va.given_radiation",

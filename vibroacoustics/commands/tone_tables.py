@@ -16,7 +16,6 @@ from ..report.tables import Cell, DataTable, Table, columns_of
 from ..results.number import Number
 from ..sound.audibility import NO_TONE_AUDIBILITY_DB
 from ..sound.critical_bands import noise_criterion_db, prominence_criterion_db
-from ..sound.loudness import NEEDED, available
 from ..sound.tonality import Tone
 
 MOST_TONES: Final = 20
@@ -50,13 +49,12 @@ def analysis_of_tones(tones: xr.Dataset) -> Analysis:
         blocks = tuple(_of_channel(tones, name))
         parts.append(Part(f"channel_{number}", name, blocks))
         shown += blocks
-    needed = () if available() else (f"{NEEDED}.",)
-    parts.append(Part("method", "Method", (Bullets((_BELOW_RANGE, *_METHOD, *needed)),)))
+    parts.append(Part("method", "Method", (Bullets((_BELOW_RANGE, *_METHOD)),)))
     return Analysis(
         "tones",
         about="Tones above the noise of their critical band, the strongest first.",
         parts=tuple(parts),
-        shown=(*shown, Text(_BELOW_RANGE), *map(Text, needed)),
+        shown=(*shown, Text(_BELOW_RANGE)),
         tables={"tones.csv": _rows(tones), "audibility.csv": _over_time(tones)},
         numbers=(*_loudness(tones), *_rated(tones)),
         **origin(tones, "Recording"),

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..machine.combination import SEPARATOR, Combination, joined_names
 from ..study.toml_files import merge
 from ..study.toml_text import toml_text
 from .problem import Problem
@@ -34,31 +35,39 @@ def best_studies(
             )
             for rank, row in enumerate(rows, 1)
         }
-    options = {f"best-{rank}": _option(problem, row) for rank, row in enumerate(rows, 1)}
+    options: dict[str, Any] = {}
+    for rank, row in enumerate(rows, 1):
+        options |= _options(problem, row, f"best-{rank}")
     content = {**head, "title": f"{title}: best designs", "options": options}
     return {"best.toml": toml_text(content)}
 
 
 def _changes(problem: Problem, design: np.ndarray[Any, Any]) -> dict[str, Any]:
     """Tables of a study in which the option and the machine have a design's values."""
+    tables: dict[str, Any] = {}
+    for key, value in problem.space.written(design).items():
+        first, *rest = key.split(".")
+        if first == "machine":
+            _put(tables, [first, "override", *rest], {"value": value, "source": _SOURCE})
+    return {**tables, "options": _options(problem, design, "best")}
+
+
+def _options(problem: Problem, design: np.ndarray[Any, Any], name: str) -> dict[str, Any]:
+    """Tables of an option with a design's values; of a combination, of all that it joins."""
     option = problem.space.option_of(design)
     tables: dict[str, Any] = {}
     for key, value in problem.space.written(design).items():
         first, *rest = key.split(".")
-        is_machine = first == "machine"
-        given = {"value": value, "source": _SOURCE} if is_machine else value
-        _put(tables, [first, *(["override"] if is_machine else []), *rest], given)
-    named = tables.get("options", {}).get(option)
-    return {**tables, "options": {"best": merge(_given(problem, option), named or {})}}
-
-
-def _option(problem: Problem, design: np.ndarray[Any, Any]) -> Mapping[str, Any]:
-    """Table of an option with a design's values."""
-    option = problem.space.option_of(design)
-    tables: dict[str, Any] = {}
-    for key, value in problem.space.written(design).items():
-        _put(tables, key.split(".")[2:], value)
-    return merge(_given(problem, option), tables)
+        if first == "options":
+            _put(tables, rest, value)
+    if not isinstance(problem.study.options[option], Combination):
+        return {name: merge(_given(problem, option), tables.get(option, {}))}
+    copies = {part: f"{name}-{part}" for part in joined_names(option)}
+    parts = {
+        copy: merge(_given(problem, part), tables.get(part, {})) for part, copy in copies.items()
+    }
+    joined = {**_given(problem, option), "title": name}
+    return {**parts, SEPARATOR.join(copies.values()): joined}
 
 
 def _given(problem: Problem, option: str) -> Mapping[str, Any]:

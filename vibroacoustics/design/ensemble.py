@@ -15,12 +15,14 @@ from ..base.progress import no_progress
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.baseline import with_baseline
 from ..levels.by_source import SourceSound, gain_band_number
+from ..levels.continuous import unmodelled_in_bands
 from ..levels.nominal import NominalSound, by_source
 from ..levels.remainder import remaining
 from ..machine.cases import Cases
 from ..machine.source import CaseKey
 from ..pipeline.study import chain_with, run
 from ..radiation.given import Radiation
+from ..sound.tone_spectra import band_square
 from ..stages.chain import Chain
 from ..study.study import Study
 from ..transfer.received import Transmission
@@ -29,7 +31,7 @@ from ..uncertainty.discrepancy import Discrepancy
 from ..uncertainty.evidence import Evidence
 from .engine.deviating import Gains, energy
 from .engine.engine import Engine
-from .engine.machine_sample import Deviation, MachineSample
+from .engine.machine_sample import Deviation, MachineSample, Unmodelled
 from .engine.on_mounts import lines_of_speed, pressure_by_source
 from .engine.response import a_weight
 from .engine.runs import probe_of
@@ -138,8 +140,10 @@ def _samples(study: Study, radiation: Radiation) -> Iterator[MachineSample]:
         )
 
 
-def _unmodelled(chain: Chain, number: int, discrepancy: Discrepancy, noise: Array) -> Array:
-    """Mean square beside the modelled sound, (option, pair, speed, receiver), Pa²."""
+def _unmodelled(
+    chain: Chain, number: int, discrepancy: Discrepancy, noise: Array
+) -> list[Unmodelled]:
+    """Noise beside the modelled sound of each option."""
     study, nominal, ensemble = chain.study, chain[NominalSound], chain[Bank]
     machine, axes = ensemble.batch.machines[number], nominal.axes
     unmodelled = [remaining(study, axes, machine, of_pair) for of_pair in noise]
@@ -151,13 +155,15 @@ def _unmodelled(chain: Chain, number: int, discrepancy: Discrepancy, noise: Arra
         with_baseline(study, axes, nominal.points, sound, of_pair)
         for sound, of_pair in zip(sounds, unmodelled, strict=True)
     ]
-    return np.moveaxis(np.array(each), 2, 0)
+    thirds = unmodelled_in_bands(np.array(unmodelled))
+    by_option = (np.moveaxis(part, 2, 0) for part in (np.array(each), thirds))
+    return [Unmodelled(*part) for part in zip(*by_option, strict=True)]
 
 
-def unmodelled_of(study: Study, radiation: Radiation) -> Callable[[str], Array]:
-    """Return what gives the mean square beside the modelled sound of an option as given.
+def unmodelled_of(study: Study, radiation: Radiation) -> Callable[[str], Unmodelled]:
+    """Return what gives the noise beside the modelled sound of an option as given.
 
-    Its result has the shape (1, speed, receiver), in Pa². The study is run at the first call.
+    It has one pair. The study is run at the first call.
 
     Raises
     ------
@@ -166,14 +172,17 @@ def unmodelled_of(study: Study, radiation: Radiation) -> Callable[[str], Array]:
     """
 
     @cache
-    def of_options() -> dict[str, Array]:
+    def of_options() -> dict[str, Unmodelled]:
         operation = study.operation.model_copy(update={"stopping": False, "turning_back": False})
         nominal = study.model_copy(update={"ranges": (), "operation": operation})
         results = run(nominal, no_progress, radiation)
         modelled = results["level_modelled"].sel(weighting="A")
         left = power_of_level(results["level_total"]) - power_of_level(modelled)
-        squares = REFERENCE_PRESSURE_PA**2 * left.transpose("option", "speed", "receiver").values
+        dims = ("option", "speed", "receiver")
+        squares = REFERENCE_PRESSURE_PA**2 * left.transpose(*dims).values
+        level_db = results["unmodelled_band_level"].transpose(*dims, "noise_band").values
+        parts = zip(np.maximum(squares, 0.0)[:, None], band_square(level_db)[:, None], strict=True)
         options = results["option"].values.tolist()
-        return dict(zip(options, np.maximum(squares, 0.0)[:, None], strict=True))
+        return {name: Unmodelled(*part) for name, part in zip(options, parts, strict=True)}
 
     return lambda option: of_options()[option]

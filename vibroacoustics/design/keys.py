@@ -5,12 +5,14 @@ from typing import Any
 
 from ..base.errors import ParameterError
 from ..base.units import si_key
+from ..machine.combination import joined_names
 from ..study.study import Study
 
 
 def acts_on(key: str, option: str) -> bool:
-    """Whether a key is a value of an option, or of the machine."""
-    return not key.startswith("options.") or key.startswith(f"options.{option}.")
+    """Whether a key is a value of an option, of one that it joins, or of the machine."""
+    prefixes = tuple(f"options.{name}." for name in joined_names(option))
+    return not key.startswith("options.") or key.startswith(prefixes)
 
 
 def check_key(key: str, options: Sequence[str], where: str) -> None:
@@ -18,9 +20,10 @@ def check_key(key: str, options: Sequence[str], where: str) -> None:
     first, _, rest = key.partition(".")
     if first == "machine" and rest:
         return
-    if first == "options" and any(key.startswith(f"options.{name}.") for name in options):
+    names = dict.fromkeys(name for option in options for name in joined_names(option))
+    if first == "options" and any(key.startswith(f"options.{name}.") for name in names):
         return
-    allowed = ", ".join(["machine.…", *(f"options.{name}.…" for name in options)])
+    allowed = ", ".join(["machine.…", *(f"options.{name}.…" for name in names)])
     raise ParameterError(f"{where}: no such value; allowed {allowed}")
 
 

@@ -17,7 +17,7 @@ from ..study.criterion import CRITERIA
 from ..study.design import Constraint, Design, Objective, Statistic, Wanted
 from ..study.study import Study
 from .engine.engine import Engine
-from .engine.seen import Need, Seen
+from .engine.seen import PAIRED, Need, Seen
 from .ensemble import ComparedMachine, compared_machines
 from .figure import FIGURES, DesignFigure, OfCriterion, Setting
 from .space import Space
@@ -295,7 +295,8 @@ class Problem:
         _, _, reference = self._reference(compared, shares)
 
         def unmodelled() -> Array:
-            each = np.array([compared.machine.unmodelled(name) for name in self.space.options])
+            of_options = map(compared.machine.unmodelled, self.space.options)
+            each = np.array([noise.square for noise in of_options])
             chooses = len(self.space.options) > 1
             return _rows(each[np.rint(pieces[:, 0] * chooses).astype(int)])
 
@@ -328,7 +329,8 @@ class Problem:
 
         def setting(wanted: Wanted) -> Setting:
             def unmodelled() -> Array:
-                return np.tile(compared.machine.unmodelled(REFERENCE_OPTION), (len(pieces), 1, 1))
+                unmodelled_square = compared.machine.unmodelled(REFERENCE_OPTION).square
+                return np.tile(unmodelled_square, (len(pieces), 1, 1))
 
             return Setting(wanted, self._speeds, unmodelled)
 
@@ -364,11 +366,11 @@ def by_row(seen: Seen, pairs: int) -> Seen:
 
     Parameters
     ----------
-    seen : sound of shape (design, pair, ...), others of shape (design, ...)
+    seen : what is `PAIRED` of shape (design, pair, ...), others of shape (design, ...)
     pairs : of a discrepancy and an unmodelled level
     """
     return {
-        need: _rows(values) if need.what == "sound" else np.repeat(values, pairs, axis=0)
+        need: _rows(values) if need.what in PAIRED else np.repeat(values, pairs, axis=0)
         for need, values in seen.items()
     }
 
@@ -395,7 +397,8 @@ def _figure(study: Study, design: Design, name: str, wanted: Wanted) -> DesignFi
         raise ParameterError(
             f"{study.source_file}: design.constraints.{name}: is an objective's name too"
         )
-    if wanted.figure in FIGURES:
+    takes_run = wanted.figure in CRITERIA and study.baseline is not None  # measured noise
+    if wanted.figure in FIGURES and not takes_run:
         return FIGURES[wanted.figure]()
     if wanted.figure in CRITERIA:
         return OfCriterion(wanted.figure)

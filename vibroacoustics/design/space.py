@@ -13,6 +13,7 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.units import si_key
 from ..base.vocabulary import REFERENCE_OPTION
+from ..machine.combination import joined_names
 from ..study.design import DesignVariable
 from ..study.study import Study
 from .changed import changed, is_plain
@@ -223,7 +224,7 @@ def _variable(study: Study, key: str, given: DesignVariable, options: Sequence[s
 
 def without_others(study: Study, options: Sequence[str]) -> Study:
     """The study without the options that no design has, where the rest can stand without them."""
-    kept = {REFERENCE_OPTION, *options}
+    kept = {REFERENCE_OPTION, *options, *(n for name in options for n in joined_names(name))}
     try:
         return study.replace({f"options.{n}": None for n in study.options if n not in kept})
     except ParameterError:  # something else names them

@@ -47,6 +47,11 @@ class Option(KindOfParameters):
     labels: ClassVar[Mapping[str, str]] = {}
     """Plain words for its reported figures, where the name does not say it."""
 
+    @property
+    def members(self) -> tuple["Option", ...]:
+        """Options that it consists of: itself, but for a combination."""
+        return (self,)
+
     def applied_to(self, machine: Machine) -> Machine:
         """The machine as the option leaves it: itself, but for a redesign."""
         return machine

@@ -12,7 +12,7 @@ from ..base.errors import ParameterError
 from ..base.vocabulary import label_coordinates, stamped
 from ..results import provenance
 from ..sound.audibility import tonal_adjustment_db
-from ..sound.loudness import available, recorded_loudness
+from ..sound.loudness import recorded_loudness
 from ..sound.mean_audibility import MeanAudibility, mean_audibility
 from ..sound.recorded import narrow_bands, recorded_spectrum
 from ..sound.tonality import Tone, tones
@@ -29,7 +29,7 @@ FIELDS: Final = {
 
 
 def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
-    """Find the tones of every channel in Pa, with loudness and sharpness if mosqito is installed.
+    """Find the tones of every channel in Pa, with its loudness and sharpness.
 
     Returns
     -------
@@ -54,9 +54,9 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         bands = narrow_bands(channel.values, rate_hz)
         judged = tones(recorded_spectrum(bands))
         listed.append([tone for tone in judged if tone.noise_ratio_db > 0.0])
-        loud = recorded_loudness(bands) if available() else None
+        loud = recorded_loudness(bands)
         means.append(mean_audibility(channel.values, rate_hz))
-        loudness.append((loud.loudness_sone, loud.sharpness_acum) if loud else (np.nan, np.nan))
+        loudness.append((loud.loudness_sone, loud.sharpness_acum))
     coords = {
         "channel": microphones["channel"].values,
         "recorded_tone": np.arange(1.0, max(map(len, listed)) + 1.0),

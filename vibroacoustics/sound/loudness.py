@@ -1,31 +1,32 @@
-"""Loudness of stationary sound (ISO 532-1, Zwicker) and sharpness (DIN 45692), by mosqito."""
+"""Loudness of stationary sound (ISO 532-1, Zwicker) and sharpness (DIN 45692)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.util import find_spec
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level
-from ..base.errors import ParameterError
 from ..levels.bands import bands_between
 from .ingredients import HALF_BAND, Ingredients
 from .recorded import NarrowBands
+from .zwicker import SoundField, core_loudness, specific_loudness, total_loudness
 
 CENTRES_HZ: Final[Array] = np.array([one.middle_hz for one in bands_between(3, 25.0, 12500.0)])
 """Exact midband frequencies of the third octaves from 25 Hz to 12.5 kHz."""
-NEEDED: Final = "loudness and sharpness need mosqito: pip install 'vibroacoustics[sound]'"
 _ACROSS: Final = 20
 _SILENT_DB: Final = -60.0
 _QUIET_SONE: Final = 0.1
 """Below it sharpness is not judged."""
-
-SoundField = Literal["free", "diffuse"]
-"""How the sound comes to the ears: from the front, or from everywhere (ISO 532-1)."""
+_BARK: Final[Array] = np.arange(1, 241) / 10.0
+"""Critical-band rates at which sharpness reads the specific loudness, Bark (DIN 45692)."""
+_SHARPNESS_WEIGHT: Final[Array] = _BARK * np.where(
+    _BARK > 15.8, 0.15 * np.exp(0.42 * (_BARK - 15.8)) + 0.85, 1.0
+)
+"""Weight of specific loudness in sharpness, z g(z) (DIN 45692, clause 5)."""
 
 
 @dataclass(frozen=True)
@@ -49,11 +50,6 @@ class Loudness:
         return float(max(40.0 * (self.loudness_sone + 0.0005) ** 0.35, 3.0))
 
 
-def available() -> bool:
-    """Whether mosqito is installed."""
-    return find_spec("mosqito") is not None
-
-
 def loudness_of(parts: Sequence[Ingredients], field: SoundField = "free") -> list[Loudness]:
     """Loudness and sharpness of computed sounds.
 
@@ -65,7 +61,7 @@ def loudness_of(parts: Sequence[Ingredients], field: SoundField = "free") -> lis
     Raises
     ------
     ParameterError
-        mosqito is not installed, or a band below 300 Hz exceeds 120 dB.
+        A third octave below 300 Hz exceeds 120 dB.
     """
     return loudness_of_thirds(np.array([_thirds(part) for part in parts]), field)
 
@@ -101,24 +97,33 @@ def loudness_of_thirds(mean_square: Array, field: SoundField = "free") -> list[L
     ParameterError
         As `loudness_of`.
     """
-    if not available():
-        raise ParameterError(NEEDED)
-    from mosqito.sq_metrics.loudness.loudness_zwst._calc_slopes import _calc_slopes
-    from mosqito.sq_metrics.loudness.loudness_zwst._main_loudness import _main_loudness
-    from mosqito.sq_metrics.sharpness.sharpness_din.sharpness_din_from_loudness import (
-        sharpness_din_from_loudness,
-    )
+    core = core_loudness(thirds_db(mean_square), field)
+    total = total_loudness(core)
+    sharp = sharpness(core, total)
+    return [Loudness(*pair) for pair in zip(total.tolist(), sharp.tolist(), strict=True)]
 
-    level_db = np.maximum(mean_square_level(mean_square, REFERENCE_PRESSURE_PA), _SILENT_DB)
-    try:
-        core = _main_loudness(level_db.T, field)
-    except ValueError as error:
-        raise ParameterError(f"loudness: {' '.join(str(error).split())}") from None
-    total, specific = _calc_slopes(core)
-    sharp = sharpness_din_from_loudness(np.maximum(total, _QUIET_SONE), specific)
-    sharp = np.where(np.asarray(total) < _QUIET_SONE, np.nan, sharp)
-    pairs = zip(np.atleast_1d(total), np.atleast_1d(sharp), strict=True)
-    return [Loudness(float(sone), float(acum)) for sone, acum in pairs]
+
+def thirds_db(mean_square: Array) -> Array:
+    """Return the levels of third octaves, the same shape, dB; silence is -60 dB.
+
+    Parameters
+    ----------
+    mean_square : any shape, Pa²
+    """
+    return np.maximum(mean_square_level(mean_square, REFERENCE_PRESSURE_PA), _SILENT_DB)
+
+
+def sharpness(core: Array, loudness_sone: Array) -> Array:
+    """Compute sharpness 0.11 ∫ N' g z dz / N (DIN 45692), acum; not a number below 0.1 sone.
+
+    Parameters
+    ----------
+    core : core loudness, shape (..., 20), sone/Bark
+    loudness_sone : loudness, shape (...), sone
+    """
+    weighted = 0.1 * specific_loudness(core, _BARK) @ _SHARPNESS_WEIGHT
+    is_loud = loudness_sone >= _QUIET_SONE
+    return np.where(is_loud, 0.11 * weighted / np.where(is_loud, loudness_sone, 1.0), np.nan)
 
 
 def filter_gain(frequency_hz: Array) -> Array:
@@ -139,12 +144,12 @@ def filter_gain(frequency_hz: Array) -> Array:
 def _thirds(parts: Ingredients) -> Array:
     """Mean squares in the bands `CENTRES_HZ`, Pa²; noise is even over the logarithm in its band."""
     lines = 0.5 * np.abs(parts.lines.pressure_pa) ** 2 @ filter_gain(parts.lines.frequency_hz)
-    gain = _noise_gain(tuple(parts.bands.centre_hz.tolist()))
+    gain = noise_gain(tuple(parts.bands.centre_hz.tolist()))
     return np.asarray(lines + parts.bands.pressure_pa**2 @ gain)
 
 
 @lru_cache(maxsize=16)
-def _noise_gain(centre_hz: tuple[float, ...]) -> Array:
+def noise_gain(centre_hz: tuple[float, ...]) -> Array:
     """Gain of the filters on noise in third octaves, shape (band, filter)."""
     across = HALF_BAND ** (2.0 * (np.arange(_ACROSS) + 0.5) / _ACROSS - 1.0)
     hertz = np.array(centre_hz)[:, None] * across

@@ -9,7 +9,8 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamped
 from .ingredients import Ingredients, ingredients
-from .loudness import NEEDED, SoundField, available, loudness_of
+from .loudness import loudness_of
+from .zwicker import SoundField
 
 _AT_RECEIVERS = ("pressure_line", "noise_band_level", "unmodelled_band_level")
 _IN_ROOM = ("room_pressure_line", "noise_band_level")
@@ -24,14 +25,7 @@ def hearing_variables(results: xr.Dataset) -> xr.Dataset:
     Parameters
     ----------
     results : with the sound of every option
-
-    Raises
-    ------
-    ParameterError
-        mosqito is not installed.
     """
-    if not available():
-        raise ParameterError(NEEDED)
     labelled = xr.Dataset()
     if set(_AT_RECEIVERS) <= set(results):
         loud, sharp = _of_every_case(results, "receiver", "free")

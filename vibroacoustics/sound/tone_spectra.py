@@ -58,9 +58,9 @@ class ToneSpectra(NamedTuple):
         square = self.square.copy()
         columns = [list(names).index(order_name(order)) for order in orders]
         square[..., columns] = np.where(
-            np.isnan(order_db), square[..., columns], _mean_square(order_db)
+            np.isnan(order_db), square[..., columns], band_square(order_db)
         )
-        measured = _mean_square(band_db)
+        measured = band_square(band_db)
         replaced = self._replace(square=square)
         noise = measured - replaced.in_bands()
         noise = np.where(noise > DUST * measured, noise, 0.0)
@@ -82,7 +82,7 @@ def noise_square(noise_db: Array, unmodelled_db: Array) -> Array:
     noise_db : levels of the sources' noise, shape (..., speed, option, receiver, band)
     unmodelled_db : of unmodelled noise, the same shape
     """
-    return np.asarray(_mean_square(noise_db) + _mean_square(unmodelled_db))
+    return np.asarray(band_square(noise_db) + band_square(unmodelled_db))
 
 
 def tone_levels(spectra: ToneSpectra) -> dict[str, Array]:
@@ -185,7 +185,12 @@ def _with_baseline(
     return wider.with_measured(every, orders, order_db, band_db), every
 
 
-def _mean_square(level_db: Array) -> Array:
-    """Mean squares of levels, Pa²; zero of those that stand for silence."""
+def band_square(level_db: Array) -> Array:
+    """Return the mean squares of levels, the same shape, Pa²; zero of those that are silence.
+
+    Parameters
+    ----------
+    level_db : any shape, dB
+    """
     square = REFERENCE_PRESSURE_PA**2 * power_of_level(level_db)
     return np.where(level_db > SILENCE_DB + 100.0, square, 0.0)

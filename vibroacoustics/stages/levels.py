@@ -8,7 +8,6 @@ from ..levels.structure_borne import structure_borne_variables
 from ..machine.cases import Cases
 from ..radiation.spreading import spreading_of
 from ..sound.ingredients import AT_MICROPHONE, IN_ROOM
-from ..sound.loudness import available
 from ..sound.of_results import hearing_variables
 from ..sound.tone_spectra import tone_variables
 from ..sources.cases import sources_of
@@ -55,14 +54,11 @@ class Levels(Stage):
 
 @register
 class Loudness(Stage):
-    """Loudness and sharpness at the microphones and in a room, where mosqito is installed."""
+    """Loudness and sharpness at the microphones and in a room."""
 
     name = "loudness"
     reads = (*AT_MICROPHONE, *IN_ROOM, "representative_value")
     gives = ("loudness", "sharpness", "loudness_in_room")
-
-    def applies(self, study: Study) -> bool:
-        return available()
 
     def run(self, chain: Chain) -> Given:
         return Given(hearing_variables(chain.results))

@@ -292,12 +292,13 @@ def _gas_flows_into(study: StudyTables) -> list[str]:
 
 def _check_fits(study: StudyTables, name: str, option: Option) -> None:
     """Refuse an option that the machine has no part for, or that changes what all share."""
-    needed = option.needs
-    if needed is not None and study.machine.capability(needed) is None:
-        raise ValueError(
-            f"options.{name}.kind = {option.kind}: needs {needed.words}; the machine is "
-            f"{study.machine.kind}"
-        )
+    for member in option.members:
+        needed = member.needs
+        if needed is not None and study.machine.capability(needed) is None:
+            raise ValueError(
+                f"options.{name}.kind = {member.kind}: needs {needed.words}; the machine is "
+                f"{study.machine.kind}"
+            )
     try:
         changed = option.built_into(study.machine)
     except ParameterError as error:

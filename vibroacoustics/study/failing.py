@@ -1,18 +1,22 @@
 """A study without what fails in a plug-in: options and criteria go, a source must be named."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from copy import deepcopy
 from typing import Any, TypeVar
 
 from ..base.errors import ParameterError
 from ..base.fault import FaultError, leave_out
+from ..machine.combination import joined_names
 from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
+from .combinations import is_combination
 from .criterion import CRITERIA
 from .study import Study
 from .toml_files import Written
 
 Result = TypeVar("Result")
+_Kinds = Mapping[str, set[Any]]
+"""Kinds by the name of an option or a source."""
 
 
 def surviving(study: Study, job: Callable[[Study], Result]) -> Result:
@@ -35,8 +39,10 @@ def surviving(study: Study, job: Callable[[Study], Result]) -> Result:
 
 
 def _without_options(study: Study, fault: FaultError) -> Study:
-    kinds = {name: option.kind for name, option in study.options.items()}
-    failing = _failing(fault, kinds, {name: entry.kind for name, entry in study.sources.items()})
+    kinds = {
+        name: {member.kind for member in option.members} for name, option in study.options.items()
+    }
+    failing = _failing(fault, kinds, {name: {entry.kind} for name, entry in study.sources.items()})
     options = {name: entry for name, entry in study.options.items() if name not in failing}
     given = {name: values for name, values in study.given.items() if name not in failing}
     return study.model_copy(update={"options": options, "given": given})
@@ -80,7 +86,7 @@ def without_source(written: Written, name: str) -> Written:
     return written._replace(content=content)
 
 
-def _failing(fault: FaultError, options: dict[str, Any], sources: dict[str, Any]) -> list[str]:
+def _failing(fault: FaultError, options: _Kinds, sources: _Kinds) -> list[str]:
     """Names of the options that a fault takes out; raised again where it takes out none.
 
     Parameters
@@ -102,8 +108,8 @@ def _hinted(fault: FaultError, names: Iterable[str]) -> FaultError:
     return fault.with_hint(f"run with {words} omits it") if words else fault
 
 
-def _of_kind(fault: FaultError, noun: str, kinds: dict[str, Any]) -> list[str]:
-    return [name for name, kind in kinds.items() if (fault.noun, fault.name) == (noun, kind)]
+def _of_kind(fault: FaultError, noun: str, kinds: _Kinds) -> list[str]:
+    return [name for name, some in kinds.items() if fault.noun == noun and fault.name in some]
 
 
 def _table(content: Any, *keys: str) -> dict[str, Any]:
@@ -112,5 +118,13 @@ def _table(content: Any, *keys: str) -> dict[str, Any]:
     return content if isinstance(content, dict) else {}
 
 
-def _kinds(tables: dict[str, Any]) -> dict[str, Any]:
-    return {name: entry.get("kind") for name, entry in tables.items() if isinstance(entry, dict)}
+def _kinds(tables: dict[str, Any]) -> _Kinds:
+    """Kinds of tables by name; of a combination, of all that it joins."""
+    kinds: dict[str, set[Any]] = {
+        name: {table.get("kind")} for name, table in tables.items() if isinstance(table, dict)
+    }
+    joined = [name for name, table in tables.items() if is_combination(name, table)]
+    return kinds | {
+        name: set().union(*(kinds.get(part, set()) for part in joined_names(name)))
+        for name in joined
+    }

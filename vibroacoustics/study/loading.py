@@ -9,11 +9,11 @@ from typing import Any, Final
 from ..base.errors import ParameterError
 from ..base.fault import FaultError, collected
 from ..machine.machine import Machine
-from ..machine.option import OPTIONS
 from ..machine.source import SOURCES
 from .automatic import fill_in_automatic
 from .baseline import BaselineSettings
 from .baseline_files import read_baseline
+from .combinations import joined_machine, take_combinations, validate_options
 from .evidence_files import read_published_table, take_evidence
 from .failing import without_failing, without_source
 from .file_names import resolve_file_names
@@ -102,10 +102,12 @@ def _study_of(written: Written) -> Study:
         at_catalogue = reader.tried(
             lambda: read_machine(machine_file, changes, reader, catalogue_point, without)
         )
-    redesigns = _redesigns(
+    joined = take_combinations(content, reader)
+    redesigns, joined_machines = _redesigns(
         content,
         reader,
         lambda change: read_redesign(machine_file, {**changes, **change}, reader, point, without),
+        joined,
     )
     reader.tried(lambda: _read_published(content, reader))
     _resolve_file_names(content, reader)
@@ -124,7 +126,9 @@ def _study_of(written: Written) -> Study:
     content.update(source_file=path.name, given=given, evidence=evidence, titles=titles)
     for name, (redesigned, _, _) in redesigns.items():
         content["options"][name]["machine"] = _under(plate, redesigned)
-    validate_kinds(content, "options", OPTIONS, reader)
+    validate_options(
+        content, joined, {n: _under(plate, each) for n, each in joined_machines.items()}, reader
+    )
     validate_kinds(content, "sources", SOURCES, reader)
     if read is None:
         raise _refused_with_machine(content, reader)
@@ -156,23 +160,31 @@ def _redesigns(
     content: dict[str, Any],
     reader: Reader,
     read: Callable[[dict[tuple[str, ...], Any]], _Redesign],
-) -> dict[str, _Redesign]:
-    """Machines of the options that change values; options that are refused are taken out.
+    joined: dict[str, tuple[str, ...]],
+) -> tuple[dict[str, _Redesign], dict[str, Machine]]:
+    """Machines of the options, and of combinations, that change values; refused ones are taken out.
 
     Parameters
     ----------
     content : of the study
     reader : gets what is refused
-    read : the machine with a further table of changes, by its keys
+    read : the machine with further tables of changes, by their keys
+    joined : names that each combination joins
     """
-    redesigns = {}
-    for name, change in take_changes(content, reader):
+    redesigns, all_changes = {}, dict(take_changes(content, reader))
+    for name, change in all_changes.items():
         redesigned = reader.tried(partial(read, {change_of(name): change}))
         if redesigned is None:
             del content["options"][name]
         else:
             redesigns[name] = redesigned
-    return redesigns
+    machines: dict[str, Machine] = {}
+    for option, names in joined.items():
+        where = reader.file_and_key(("options", option))
+        if set(names) & set(all_changes) <= set(redesigns):
+            changed = reader.tried(partial(joined_machine, where, names, all_changes, read))
+            machines |= {} if changed is None else {option: changed}
+    return redesigns, machines
 
 
 def _under(plate: StructureBorne | None, machine: Machine) -> Machine:

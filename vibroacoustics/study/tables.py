@@ -6,6 +6,7 @@ from pydantic import Field, field_validator
 
 from ..base.parameters import Parameters
 from ..base.units import orders_below
+from ..machine.combination import Combination
 from ..machine.machine import AnyMachine
 from ..machine.option import AnyOption
 from ..machine.source import AnySource
@@ -90,6 +91,15 @@ class StudyTables(Parameters):
         if not all(name.strip() for name in given):
             raise ValueError("a name is blank")
         return given
+
+    @field_validator("options")
+    @classmethod
+    def _rejoined(cls, options: dict[str, Any]) -> dict[str, Any]:
+        """Give combinations the present values of the options that they join."""
+        return {
+            name: option.rejoined(options) if isinstance(option, Combination) else option
+            for name, option in options.items()
+        }
 
     @property
     def catalogue_speed_rpm(self) -> float:

@@ -36,14 +36,17 @@ figure = "level_total_dba"
 [design.objectives.order]
 figure = "order_level_db"
 
+[design.objectives.audibility]
+figure = "audibility_db"
+
 [design.objectives.feet]
 figure = "foot_force_n"
 
 [design.objectives.force]
 figure = "force_n"
 """
-VARIABLES = ("level_modelled", "change_total", "level_total", "order_level", "largest_foot_force",
-             "force_amplitude")  # fmt: skip
+VARIABLES = ("level_modelled", "change_total", "level_total", "order_level", "decisive_audibility",
+             "largest_foot_force", "force_amplitude")  # fmt: skip
 CLOSE_DB = 1e-5
 """Levels by order are kept in single precision."""
 
@@ -90,7 +93,7 @@ def test_estimates_of_an_option_are_those_of_its_run(problem, results):
     assert problem.is_sampled
     assert problem.is_linear
     assert of_run[2, 1] - of_run[0, 1] > 100.0 * CLOSE_DB  # the interval of the change is one
-    levels = slice(0, 4)  # forces have a weight by sample in the run, and by pair here
+    levels = slice(0, 5)  # forces have a weight by sample in the run, and by pair here
     assert np.abs(ends - of_run)[:, levels].max() < CLOSE_DB, ends - of_run
 
 

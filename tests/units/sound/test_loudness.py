@@ -18,7 +18,6 @@ from vibroacoustics.sound.ingredients import Ingredients, SoundBands, SoundLines
 from vibroacoustics.sound.loudness import CENTRES_HZ, filter_gain, loudness_of, loudness_of_thirds
 from vibroacoustics.sound.recorded import narrow_bands
 
-pytest.importorskip("mosqito")
 REFERENCE = 4e-10
 SIGNAL_1 = (
     -60, -60, 78, 79, 89, 72, 80, 89, 75, 87, 85, 79, 86, 80,
@@ -69,7 +68,7 @@ def test_loudness_of_third_octaves():
     (direct,) = loudness_of_thirds(square)
     claim(
         "Loudness of third octaves, signal 1", kind="printed", source=ISO_532_1("annex B.2"),
-        computed=direct.loudness_sone, reference=83.296, tolerance=0.01, unit="sone",
+        computed=direct.loudness_sone, reference=83.296, tolerance=0.005, unit="sone",
         topics=("receivers",),
     )  # fmt: skip
 
@@ -140,11 +139,7 @@ def test_silence_has_no_sharpness():
 
 
 def test_too_loud_bass_is_refused_in_one_line():
-    with pytest.raises(ParameterError, match=r"^loudness: .*exceed 120 dB[^\n]*$"):
+    with pytest.raises(
+        ParameterError, match=r"^loudness: .*has 12\d.* dB; ISO 532-1 holds up to 120 dB$"
+    ):
         loudness_of([tone(50.0, 125.0)])
-
-
-def test_without_mosqito_one_line_says_what_to_install(monkeypatch):
-    monkeypatch.setattr(loudness, "find_spec", lambda name: None)
-    with pytest.raises(ParameterError, match=r"pip install 'vibroacoustics\[sound\]'"):
-        loudness_of([tone(1000.0, 40.0)])

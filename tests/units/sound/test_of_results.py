@@ -10,7 +10,6 @@ from vibroacoustics.study.criterion import CRITERIA
 
 
 def test_loudness_and_sharpness_are_the_worst_over_the_speeds_of_the_mean(results):
-    pytest.importorskip("mosqito")
     names = [str(name) for name in results["receiver"].values]
     at = [
         [ingredients(results, "none", name, speed) for name in names] for speed in (900.0, 1200.0)

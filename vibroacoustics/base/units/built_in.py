@@ -63,6 +63,7 @@ for _unit in (
     Unit("rpm", "rpm", "rpm", 1.0),  # the label of a speed; see shaft_frequency_hz
     Unit("db", "dB", "db", 1.0),
     Unit("dba", "dB(A)", "dba", 1.0),
+    Unit("sone", "sone", "sone", 1.0),
     Unit("eur", "€", "eur", 1.0),
     Unit("percent", "%", "ratio", 1e-2),
     Unit("ratio", "", "ratio", 1.0),

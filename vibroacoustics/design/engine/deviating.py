@@ -71,13 +71,33 @@ class WeightedLines:
         pressure : complex peaks, shape (design or 1, source, receiver, line), Pa
         noise : A-weighted mean squares, shape (design or 1, source, receiver, band), Pa²
         """
-        gain: Array = np.ones((1, 1, 1, 1, noise.shape[-1]))
-        if self.gains is not None:
-            gain = self.gains.of_designs(energy(pressure, self.a_weight, self.band, noise))
+        gain = self._gain(pressure, noise)
         square = line_squares(pressure, gain, self.band) @ self.level_weight
         if self.noise and noise.any():
             square = square + np.einsum("nksri,nsri->nkr", gain, noise)
         return np.asarray(square)
+
+    def spectrum(self, pressure: ComplexArray, noise: Array, thirds: Array) -> tuple[Array, Array]:
+        """Compute the unweighted mean squares of the lines and of the noise of all sources.
+
+        Parameters
+        ----------
+        pressure, noise : see `mean_square`
+        thirds : unweighted mean squares of noise, shape (design or 1, source, receiver, band), Pa²
+
+        Returns
+        -------
+        shapes (design, pair, receiver, line) and (design or 1, pair, receiver, band), Pa²
+        """
+        gain = self._gain(pressure, noise)
+        random = np.einsum("nksri,nsri->nkri", gain, thirds)
+        return 0.5 * line_squares(pressure, gain, self.band), np.asarray(random)
+
+    def _gain(self, pressure: ComplexArray, noise: Array) -> Array:
+        """Factors on the power, shape (design or 1, pair, source, receiver, band)."""
+        if self.gains is None:
+            return np.ones((1, 1, 1, 1, noise.shape[-1]))
+        return self.gains.of_designs(energy(pressure, self.a_weight, self.band, noise))
 
     def some(self, lines: Mask, bands: Mask) -> "WeightedLines":
         """Return some lines, whose bands are among some bands, alone."""

@@ -7,11 +7,15 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.units import si_key
+from ...machine.combination import Combination
+from ...machine.machine import Machine
+from ...machine.option import Option
 from ...study.study import Study
 from ..keys import acts_on
 from ..space import OPTION, Space
 from .closed_form import CLOSED_FORMS, of_many
 from .deviating import Gains
+from .hearing import HEARING
 from .machine_sample import MachineSample
 from .option_engine import ARRAYS, OptionEngine, Outcome
 from .probe import Probe
@@ -90,7 +94,9 @@ class Engine:
         limits = self.limits.copy()
         if space.names[:1] == [OPTION]:
             limits[0] = space.options.index(option)
-        explorer = Explorer(samples, limits, speeds, ARRAYS | figures, self.template is not None)
+        unmodelled = self._unmodelled(option)
+        wanted = ARRAYS | figures | ({"thirds"} if unmodelled[0] is not None else set())
+        explorer = Explorer(samples, limits, speeds, wanted, self.template is not None)
         by_runs = any(need.what == "criterion" for need in self.needs)
         variables = dict(enumerate(space.variables))
         idle = [
@@ -100,7 +106,8 @@ class Engine:
         forms = _closed_forms(space, option)
         if by_runs:
             linear, forms = [], ()
-        runs = CachedRuns(space, option, self.needs, self.ways, self.machine, self.gains)
+        beside = self.gains, unmodelled
+        runs = CachedRuns(space, option, self.needs, self.ways, self.machine, *beside)
         template = None if self.template is None else self.template.of_option(option)
         return OptionEngine(
             explorer,
@@ -110,9 +117,15 @@ class Engine:
             tuple(idle),
             forms,
             runs,
-            self.gains,
+            *beside,
             template,
         )
+
+    def _unmodelled(self, option: str) -> tuple[Array | None, ...]:
+        """Unmodelled noise by speed, shape (pair, receiver, band), Pa²; none if not asked for."""
+        if not any(need in HEARING for need in self.needs):
+            return (None,) * len(self.gains)
+        return tuple(np.moveaxis(self.machine.unmodelled(option).thirds, 1, 0))
 
     def _probe(self, option: str, design: Array) -> Probe:
         key = design.tobytes()
@@ -122,8 +135,15 @@ class Engine:
 
 
 def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:
-    """The closed form of an option's kind, of the variables that are its values."""
-    given = space.study.options[option]
+    """Closed forms of an option, or of those that it joins, of variables that are its values."""
+    joined = space.study.options[option]
+    machine = joined.applied_to(space.study.machine)
+    names = joined.names if isinstance(joined, Combination) else (option,)
+    each = zip(names, joined.members, strict=True)
+    return tuple(form for member in each for form in _closed_form(space, *member, machine))
+
+
+def _closed_form(space: Space, option: str, given: Option, machine: Machine) -> tuple[Basis, ...]:
     form = CLOSED_FORMS.get(given.kind)
     if form is None:
         return ()
@@ -135,7 +155,6 @@ def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:
     of_form = {field: columns[field] for field in form.fields if field in columns}
     if not of_form:
         return ()
-    machine = given.applied_to(space.study.machine)
     present = {field: getattr(given, field) for field in form.fields}
 
     def functions(values: Array, speed_rpm: float) -> Array:

@@ -9,8 +9,9 @@ import numpy as np
 from ...base.arrays import Array, ComplexArray, IndexArray
 from .deviating import WeightedLines, varied_bands
 from .expansion import Expansion, summed
-from .on_mounts import Arrays, Lines, pressure_by_source, seen_of
-from .seen import Need
+from .hearing import HEARING
+from .on_mounts import Arrays, Lines, hearing_at, pressure_by_source, seen_of
+from .seen import PAIRED, Need
 
 RANK: Final = 1e-13
 """Of the largest singular value: what is smaller is rounding."""
@@ -139,6 +140,55 @@ class PairedSound:
         return square + self.constant
 
 
+@dataclass(frozen=True)
+class FixedSpectrum:
+    """Lines and noise of designs at one speed, from which loudness and audibility are computed.
+
+    Attributes
+    ----------
+    lines : of the speed
+    pressure : per product of the variables, shape (product, source, receiver, line), Pa
+    noise, thirds : random loads, A-weighted and unweighted, shape (product or 1, source, receiver,
+        band), Pa²; a single product where designs do not change them
+    """
+
+    lines: Lines
+    pressure: ComplexArray
+    noise: Array
+    thirds: Array
+
+    @classmethod
+    def of(cls, lines: Lines, arrays: Expansion, body: Arrays) -> "FixedSpectrum":
+        """Prepare a speed; see `compressed`."""
+        pressure = _factors(lines, lines.row(None), arrays, body)
+        noise, thirds = (_constant(arrays.factors[name].real) for name in ("noise", "thirds"))
+        return cls(lines, pressure, noise, thirds)
+
+    def hearing(self, needs: Sequence[Need], columns: Array) -> dict[Need, Array]:
+        """Compute loudness and audibility of designs, shape (design, pair, receiver).
+
+        Parameters
+        ----------
+        needs : of hearing
+        columns : products of the variables, shape (design, product)
+        """
+        _, weighted = self.lines.weighted(None)
+        noise, thirds = (_of_designs(columns, part) for part in (self.noise, self.thirds))
+        spectrum = weighted.spectrum(summed(columns, self.pressure), noise, thirds)
+        return hearing_at(needs, self.lines, *spectrum)
+
+
+def _of_designs(columns: Array, factors: Array) -> Array:
+    """Sums of products of each design; of one where `factors` has the constant alone."""
+    count = len(columns) if len(factors) > 1 else 1
+    return np.asarray(np.tensordot(columns[:count, : len(factors)], factors, axes=1))
+
+
+def _constant(factors: Array) -> Array:
+    """The factors, or that of the constant alone where the others are zero."""
+    return factors if factors[1:].any() else factors[:1]
+
+
 def _squeezed(matrices: Array) -> Array:
     """S Vᵀ of each matrix, shape (receiver, rank, product)."""
     _, sizes, directions = np.linalg.svd(matrices, full_matrices=False)
@@ -159,6 +209,7 @@ class FixedMounts:
     sound : by need, rows of these sums, whose own sums make the mean square, shape
         (speed, receiver, row, sum)
     paired : by need and speed, in place of these where the machine is a sample
+    spectra : by speed, where loudness or audibility is asked for
     """
 
     speeds: tuple[FixedSpeed, ...]
@@ -166,6 +217,7 @@ class FixedMounts:
     sums: Array
     sound: dict[Need, Array]
     paired: dict[Need, list[PairedSound]]
+    spectra: tuple[FixedSpectrum, ...] = ()
 
     @classmethod
     def of(
@@ -189,6 +241,9 @@ class FixedMounts:
         both = list(zip(lines, by_speed, strict=True))
         speeds = tuple(FixedSpeed.of(needs, *one) for one in both)
         sounds = [need for need in needs if need.what == "sound"]
+        spectra: tuple[FixedSpectrum, ...] = ()
+        if any(need in HEARING for need in needs):
+            spectra = tuple(FixedSpectrum.of(*speed, bare) for speed in both)
         if lines[0].gains is not None:
             columns = [one.terms.at(designs, one.speed_rpm) for one in by_speed]
             paired = {
@@ -198,13 +253,14 @@ class FixedMounts:
                 ]
                 for need in sounds
             }
-            return cls(speeds, bare, np.zeros((1, 1)), {}, paired)
+            return cls(speeds, bare, np.zeros((1, 1)), {}, paired, spectra)
         rows = {
             need: _stacked([compressed(need.order, *one, bare) for one in both]) for need in sounds
         }
         nothing = np.zeros((1, len(by_speed[0].terms.products)))
         sums = _directions(np.concatenate([nothing, *map(_scaled, rows.values())]))
-        return cls(speeds, bare, sums, {need: part @ sums.T for need, part in rows.items()}, {})
+        sound = {need: part @ sums.T for need, part in rows.items()}
+        return cls(speeds, bare, sums, sound, {}, spectra)
 
     def seen(self, needs: Sequence[Need], values: Array) -> dict[Need, Array]:
         """What is seen of designs.
@@ -215,7 +271,7 @@ class FixedMounts:
         values : shape (design, variable)
         """
         by_speed = self._columns(values)
-        others = [need for need in needs if need.what != "sound"]
+        others = [need for need in needs if need.what not in PAIRED]
         arrays = [
             {name: summed(columns, factors) for name, factors in one.arrays.factors.items()}
             for one, columns in zip(self.speeds, by_speed, strict=True)
@@ -223,7 +279,13 @@ class FixedMounts:
         lines = [one.lines for one in self.speeds]
         seen = seen_of(others, lines, arrays, self.body, len(values))
         sounds = [need for need in needs if need.what == "sound"]
-        return seen | {need: self._sound(need, by_speed) for need in sounds}
+        seen |= {need: self._sound(need, by_speed) for need in sounds}
+        hearing = [need for need in needs if need in HEARING]
+        each = [
+            spectrum.hearing(hearing, columns)
+            for spectrum, columns in zip(self.spectra, by_speed, strict=bool(hearing))
+        ]
+        return seen | {need: np.stack([part[need] for part in each], axis=2) for need in hearing}
 
     def _columns(self, values: Array) -> list[Array]:
         """Products of the variables by speed, once where they are the same at all."""

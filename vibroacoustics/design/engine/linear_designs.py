@@ -8,6 +8,7 @@ from ...base.arrays import Array
 from .deviating import Gains
 from .expansion import Expansion
 from .fixed_mounts import FixedMounts, is_fixed
+from .hearing import HEARING
 from .on_mounts import Lines, lines_of_speed, seen_of
 from .probe import Probe
 from .seen import Need
@@ -43,6 +44,7 @@ class LinearDesigns:
         expansions: Sequence[Expansion],
         way: SoundWay,
         gains: Sequence[Gains | None],
+        unmodelled: Sequence[Array | None],
         designs: Array,
     ) -> "LinearDesigns":
         """Prepared for what is asked.
@@ -55,11 +57,13 @@ class LinearDesigns:
         expansions : by speed, last that of the body
         way : to the microphones
         gains : of the sample by speed; none of the nominal machine
+        unmodelled : noise by speed, shape (pair, receiver, band), Pa²; none where not asked for
         designs : that fill the space, shape (design, variable)
         """
-        each = zip(speeds_rpm, probe.frequency_hz, probe.order, gains, strict=True)
+        each = zip(speeds_rpm, probe.frequency_hz, probe.order, strict=True)
+        beside = zip(gains, unmodelled, strict=True)
         lines = tuple(
-            lines_of_speed(speed, hertz, order, way, one) for speed, hertz, order, one in each
+            lines_of_speed(*one, way, *two) for one, two in zip(each, beside, strict=True)
         )
         *by_speed, body = expansions
         fixed = None
@@ -80,9 +84,17 @@ class LinearDesigns:
         if self.fixed is not None:
             numbers = 4 * len(self.expansions[0].terms.products)
         else:
-            pairs = [1 if one.gains is None else one.gains.added.size for one in self.lines]
-            numbers = 2 * max(one.order.size for one in self.lines) * 16 * max(pairs)
+            numbers = 32 * self._lines_and_pairs
+        if any(need in HEARING for need in self.needs):
+            receivers = len(self.lines[0].per_velocity)
+            numbers = max(numbers, 8 * receivers * self._lines_and_pairs)
         return max(int(CHUNK_BYTES / (8.0 * numbers)), 1)
+
+    @property
+    def _lines_and_pairs(self) -> int:
+        """Most lines of a speed times pairs of a discrepancy and an unmodelled level."""
+        pairs = [1 if one.gains is None else one.gains.added.size for one in self.lines]
+        return max(one.order.size for one in self.lines) * max(pairs)
 
     def _of_chunk(self, values: Array) -> dict[Need, Array]:
         if self.fixed is not None:

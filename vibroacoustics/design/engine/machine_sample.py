@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Final, NamedTuple
 
 from ...base.arrays import Array
 from ...machine.source import Result, Shared
@@ -37,6 +37,19 @@ class Deviation:
     added: Array
 
 
+class Unmodelled(NamedTuple):
+    """Noise beside the modelled sound of an option.
+
+    Attributes
+    ----------
+    square : A-weighted mean square, with a measured baseline in its place, (pair, speed, receiver)
+    thirds : unweighted mean square without a baseline, (pair, speed, receiver, gain band), Pa²
+    """
+
+    square: Array
+    thirds: Array
+
+
 @dataclass(frozen=True)
 class MachineSample:
     """The machine with the values of a sample; without values it is the nominal one.
@@ -44,15 +57,14 @@ class MachineSample:
     Attributes
     ----------
     weight : of the pairs of the sample, shape (pair,)
-    unmodelled : gives the mean square beside the modelled sound of an option as given, shape
-        (pair, speed, receiver), Pa²
+    unmodelled : gives what is beside the modelled sound of an option as given
     values : by table and field
     deviation : of the pairs; none for the nominal machine
     shared : results that designs of the sample share
     """
 
     weight: Array
-    unmodelled: Callable[[str], Array]
+    unmodelled: Callable[[str], Unmodelled]
     values: Sample = field(default_factory=dict)
     deviation: Deviation | None = None
     shared: Shared = field(default_factory=Recent, repr=False)

@@ -9,8 +9,9 @@ from ...base.arrays import Array, ComplexArray, IndexArray
 from ...base.errors import ParameterError
 from ...levels.by_source import gain_band_number
 from .deviating import Gains, WeightedLines
+from .hearing import HEARING, hearing_of
 from .response import a_weight, displacement, foot_force, natural_modes, pressure, size_of_vector
-from .seen import Need
+from .seen import PAIRED, Need
 from .sound_way import SoundWay
 
 Arrays = Mapping[str, ComplexArray]
@@ -29,6 +30,8 @@ class Lines:
     frequency_hz, order : shape (line,); order 0 for tones that are none
     per_velocity : pressure per velocity, shape (receiver, 6, line), Pa s/m
     gains : of a sample; none of the nominal machine
+    unmodelled : mean squares of unmodelled noise, shape (pair, receiver, band), Pa²; none where
+        nothing depends on it
     """
 
     speed_rpm: float
@@ -36,6 +39,7 @@ class Lines:
     order: IndexArray
     per_velocity: ComplexArray
     gains: Gains | None = None
+    unmodelled: Array | None = None
 
     def at(self, rows: IndexArray) -> "Lines":
         """Some of the lines."""
@@ -70,9 +74,11 @@ def lines_of_speed(
     order: IndexArray,
     way: SoundWay,
     gains: Gains | None = None,
+    unmodelled: Array | None = None,
 ) -> Lines:
     """Lines of one speed on their way to the microphones."""
-    return Lines(speed_rpm, frequency_hz, order, way.per_velocity(frequency_hz), gains)
+    vectors = way.per_velocity(frequency_hz)
+    return Lines(speed_rpm, frequency_hz, order, vectors, gains, unmodelled)
 
 
 def seen_of(
@@ -93,11 +99,52 @@ def seen_of(
         if need.what == "natural":
             seen[need] = _natural_hz(body, by_speed, n)
             continue
+        if need in HEARING:
+            continue
         parts = [_at_speed(need, *speed, body) for speed in zip(lines, by_speed, strict=True)]
-        axis = 2 if need.what == "sound" else 1
+        axis = 2 if need.what in PAIRED else 1
         every = [np.broadcast_to(part, (n, *part.shape[1:])) for part in parts]
         seen[need] = np.stack(every, axis=axis)
-    return seen
+    hearing = [need for need in needs if need in HEARING]
+    if not hearing:
+        return seen
+    each = [_hearing(hearing, *speed, body, n) for speed in zip(lines, by_speed, strict=True)]
+    return seen | {need: np.stack([part[need] for part in each], axis=2) for need in hearing}
+
+
+def _hearing(
+    needs: Sequence[Need], lines: Lines, arrays: Arrays, body: Arrays, n: int
+) -> dict[Need, Array]:
+    """Loudness and audibility at one speed, shape (design, pair, receiver)."""
+    _, weighted = lines.weighted(None)
+    few = {name: arrays[name] for name in SOUND if name in arrays}
+    pressure = pressure_by_source(lines, few, body)
+    spectrum = weighted.spectrum(pressure, arrays["noise"].real, arrays["thirds"].real)
+    return {
+        need: np.broadcast_to(part, (n, *part.shape[1:]))
+        for need, part in hearing_at(needs, lines, *spectrum).items()
+    }
+
+
+def hearing_at(
+    needs: Sequence[Need], lines: Lines, square: Array, noise: Array
+) -> dict[Need, Array]:
+    """Compute loudness and audibility at one speed, with the unmodelled noise.
+
+    Parameters
+    ----------
+    needs : of hearing
+    lines : of the speed
+    square : mean squares of the lines, shape (design or 1, pair, receiver, line), Pa²
+    noise : of random loads, shape (design or 1, pair, receiver, band), Pa²
+
+    Returns
+    -------
+    by need, shape (design or 1, pair, receiver)
+    """
+    if lines.unmodelled is not None:
+        noise = noise + lines.unmodelled
+    return hearing_of(needs, lines.frequency_hz, square, noise)
 
 
 def _natural_hz(body: Arrays, by_speed: Sequence[Arrays], n: int) -> Array:

@@ -62,6 +62,7 @@ class OptionEngine:
     forms : closed forms of the option
     run : computes one design
     gains : of the sample by speed; none of the nominal machine
+    unmodelled : noise by speed, shape (pair, receiver, band), Pa²; none where not asked for
     template : products and routes that designs of another sample were found to have
     """
 
@@ -73,6 +74,7 @@ class OptionEngine:
     forms: tuple[Basis, ...]
     run: Run
     gains: tuple[Gains | None, ...]
+    unmodelled: tuple[Array | None, ...]
     template: "OptionEngine | None" = None
     _groups: dict[bytes, LinearDesigns | None] = field(default_factory=dict, repr=False)
 
@@ -162,6 +164,7 @@ class OptionEngine:
             expansions,
             self.ways.of(probe.way),
             self.gains,
+            self.unmodelled,
             designs,
         )
 

@@ -37,6 +37,7 @@ class Probe:
         load (line, source, motion): on the bodies, the one on the feet first
         other (line, source, receiver): pressure that does not come of the rigid motion, Pa
         noise (source, receiver, gain band): A-weighted mean square of random loads, Pa²
+        thirds (source, receiver, gain band): unweighted mean square of random loads, Pa²
         factor (line,): what the option's insertion loss leaves of the pressure
         and one of shape () for each reported figure
         and, where stiffness changes over frequency or loss is viscous, what is added to it:
@@ -131,7 +132,7 @@ def _of_case(
 ) -> dict[str, ComplexArray]:
     body = on_mounts(case.machine)
     loss = study.options[option].insertion_loss() or NO_LOSS
-    other, noise = way.besides_rigid(case.machine, lines, loads, loss, shared)
+    other, noise, thirds = way.besides_rigid(case.machine, lines, loads, loss, shared)
     figures = {**case.revolution.figures, **case.added.figures}
     for one in loads.values():
         figures |= one.figures
@@ -142,6 +143,7 @@ def _of_case(
         "load": np.stack(on_body, axis=1)[1:],
         "other": np.moveaxis(other, -1, 0)[1:],
         "noise": noise.astype(complex),
+        "thirds": thirds.astype(complex),
         "factor": loss.amplitude_factor(lines.frequency_hz)[1:].astype(complex),
         **{name: np.asarray(complex(value)) for name, value in figures.items()},
     }
@@ -150,7 +152,8 @@ def _of_case(
 def _together(part: Parts) -> Parts:
     """All sources as one."""
     one = {name: part[name].sum(axis=1, keepdims=True) for name in ("load", "other")}
-    return {**part, **one, "noise": part["noise"].sum(axis=0, keepdims=True)}
+    one |= {name: part[name].sum(axis=0, keepdims=True) for name in ("noise", "thirds")}
+    return {**part, **one}
 
 
 def _loaded(body: MachineOnMounts, loads: PortLoads, lines: int) -> ComplexArray:

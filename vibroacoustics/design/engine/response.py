@@ -105,6 +105,22 @@ def foot_force(
 
     Parameters
     ----------
+    body, added, wrench, frequency_hz, line : see `foot_forces`
+    """
+    return size_of_vector(foot_forces(body, added, wrench, frequency_hz, line))
+
+
+def foot_forces(
+    body: Mapping[str, ComplexArray],
+    added: Mapping[str, ComplexArray],
+    wrench: ComplexArray,
+    frequency_hz: Array,
+    line: IndexArray,
+) -> ComplexArray:
+    """Return complex forces into each foot at one line, shape (design, foot, 3), N peak.
+
+    Parameters
+    ----------
     body : mass, stiffness, foot
     added : of the lines, `added` and `foot_added`; empty where stiffness is constant
     wrench : on the bodies, shape (design or 1, motion)
@@ -114,7 +130,7 @@ def foot_force(
     more = added["added"][:, line] if added else None
     motion = displacement(body, more, wrench[:, None], frequency_hz[line])[:, 0]
     per_motion = body["foot"] + (added["foot_added"][:, line[0]] if added else 0.0)
-    return size_of_vector(np.einsum("nfam,nm->nfa", *_alike(per_motion, motion)))
+    return np.asarray(np.einsum("nfam,nm->nfa", *_alike(per_motion, motion)))
 
 
 def _alike(*arrays: ComplexArray) -> Sequence[ComplexArray]:

@@ -42,6 +42,7 @@ class CachedRuns:
     ways : to the microphones
     machine : nominal, or a sample
     gains : of the sample by speed; none of the nominal machine
+    unmodelled : noise by speed, shape (pair, receiver, band), Pa²; none where not asked for
     """
 
     space: Space
@@ -50,6 +51,7 @@ class CachedRuns:
     ways: Ways
     machine: MachineSample
     gains: tuple[Gains | None, ...]
+    unmodelled: tuple[Array | None, ...]
     _known: dict[bytes, Seen] = field(default_factory=dict, repr=False)
     _slow: bool = True
 
@@ -72,6 +74,8 @@ class CachedRuns:
         if not self._slow:
             return self._seen(study)
         material = _material(study, self.option, self.needs, way) | _of_sample(self.machine)
+        noise = [part.tobytes() for part in self.unmodelled if part is not None]
+        material["unmodelled"] = sha256(b"".join(noise))
         result, _ = storage.cached("design", material, lambda: self._timed(study), study.title)
         self._slow = result.attrs["seconds"] >= SLOW_S
         return {need: result[str(number)].values for number, need in enumerate(self.needs)}
@@ -87,7 +91,8 @@ class CachedRuns:
         """What is seen of one design, shape (1, ...)."""
         made = probe_of(self.space, study, self.option, self.ways, self.machine)
         speeds = study.operation.speed_rpm
-        seen = seen_of_probe(self.needs, made, speeds, self.ways(study), self.gains)
+        beside = list(zip(self.gains, self.unmodelled, strict=True))
+        seen = seen_of_probe(self.needs, made, speeds, self.ways(study), beside)
         criteria = [need for need in self.needs if need.what == "criterion"]
         if not criteria:
             return seen
@@ -161,11 +166,11 @@ def seen_of_probe(
     made: Probe,
     speeds_rpm: Sequence[float],
     way: SoundWay,
-    gains: Sequence[Gains | None],
+    beside: Sequence[tuple[Gains | None, Array | None]],
 ) -> dict[Need, Array]:
     """What is seen of one design by its probe, shape (1, ...)."""
-    each = zip(speeds_rpm, made.frequency_hz, made.order, gains, strict=True)
-    lines = [lines_of_speed(speed, hertz, order, way, one) for speed, hertz, order, one in each]
+    each = zip(speeds_rpm, made.frequency_hz, made.order, strict=True)
+    lines = [lines_of_speed(*one, way, *two) for one, two in zip(each, beside, strict=True)]
     groups = [{name: np.asarray(a)[None] for name, a in one.items()} for one in made.groups()]
     simple = [need for need in needs if need.what != "criterion"]
     return seen_of(simple, lines, groups[:-1], groups[-1], 1)

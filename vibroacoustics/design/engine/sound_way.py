@@ -9,7 +9,7 @@ import numpy as np
 from ...base.arrays import Array, ComplexArray
 from ...base.hashing import canonical_json, sha256
 from ...base.progress import no_progress
-from ...levels.by_source import GAIN_BANDS, a_weight_by_band
+from ...levels.by_source import GAIN_BANDS, a_weight_by_band, membership
 from ...machine.machine import Machine
 from ...machine.source import Shared
 from ...mechanics.added import InsertionLoss
@@ -55,25 +55,27 @@ class SoundWay:
         loads: Mapping[str, Loads],
         loss: InsertionLoss,
         shared: Shared,
-    ) -> tuple[ComplexArray, Array]:
+    ) -> tuple[ComplexArray, Array, Array]:
         """Compute the sound of each source that does not come of the rigid motions.
 
         Returns
         -------
-        pressure of what bends the shell, shape (source, receiver, line), Pa, and A-weighted mean
-        squares of random loads, shape (source, receiver, gain band), Pa²
+        pressure of what bends the shell, shape (source, receiver, line), Pa, and mean squares of
+        random loads, A-weighted and unweighted, shape (source, receiver, gain band), Pa²
         """
         path = self.transmission.path(shared, machine, loads)
         microphones, hertz = self.transmission.microphones, lines.frequency_hz
         other = np.zeros((len(loads), self.receivers, hertz.size), dtype=complex)
         noise = np.zeros((len(loads), self.receivers, len(GAIN_BANDS)))
+        thirds = np.zeros_like(noise)
         for number, (source, load) in enumerate(loads.items()):
             other[number] += path.observed(microphones, in_shell(lines.loads[source]), hertz)
             for part in load.noise:
                 power = path.noise_power(microphones, part)
                 power = power * loss.power_factor(part.frequency_hz)
                 noise[number] += power @ a_weight_by_band(part.frequency_hz)
-        return other, noise
+                thirds[number] += power @ membership(part.frequency_hz, GAIN_BANDS)
+        return other, noise, thirds
 
 
 @dataclass

@@ -24,7 +24,8 @@ AUDIBILITY: Final = "decisive_audibility"
 AUDIBILITY_HEAD: Final = ("audibility, dB", "K_T, dB")
 NOT_PROMINENT: Final = "not prominent"
 NO_LOUDNESS: Final = (
-    "The results have no loudness: a run needs mosqito for it, pip install 'vibroacoustics[sound]'."
+    "The results have no loudness: they are of a version that computed it with mosqito only. Run "
+    "the study again."
 )
 
 

@@ -11,7 +11,7 @@ from ...study.criterion import Criterion
 class Loudness(Criterion):
     """Loudness (ISO 532-1), mean of the microphones.
 
-    Worst over the speeds; of the values as given. It needs mosqito, extra `sound`.
+    Worst over the speeds; of the values as given.
     """
 
     name = "loudness_sone"

@@ -11,7 +11,7 @@ from ...study.criterion import Criterion
 class Sharpness(Criterion):
     """Sharpness (DIN 45692), mean of the microphones.
 
-    Worst over the speeds; of the values as given. It needs mosqito, extra `sound`.
+    Worst over the speeds; of the values as given.
     """
 
     name = "sharpness_acum"

@@ -21,6 +21,8 @@ _TITLE: Final[Schema] = {
     "maxLength": LONGEST,
     "description": "What reports show in place of the name",
 }
+_JOINED: Final = r" \+ "
+"""Pattern of the name of a combination of options."""
 _IN_PART: Final = "machine_in_part"
 _PART: Final[Schema] = {"$ref": f"#/$defs/{_IN_PART}"}
 _REMOVABLE: Final = ("options", "receivers", "sources")
@@ -57,6 +59,9 @@ def study_schema() -> Schema:
     for name in _REMOVABLE:
         table = properties[name]["additionalProperties"]
         properties[name]["additionalProperties"] = {"anyOf": [{"const": False}, table]}
+    properties["options"]["patternProperties"] = {
+        _JOINED: _table({"given": _JUDGED, "title": _TITLE})
+    }
     definitions["Evidence"]["properties"]["forces"] = _FILE
     scoring = definitions["Scoring"]["properties"]
     del scoring["published"]
@@ -118,13 +123,19 @@ def _table(properties: Schema) -> Schema:
     return {"type": "object", "additionalProperties": False, "properties": properties}
 
 
+_JUDGED: Final[Schema] = {
+    "type": "object",
+    "additionalProperties": sourced({"type": "number"}),
+}
+"""Values of criteria that an option gives."""
+
+
 def _with_judgements(options: Schema) -> None:
     """Add to each kind of option what its file may say beside its parameters."""
-    judged = {"type": "object", "additionalProperties": sourced({"type": "number"})}
     for choice in options["allOf"]:
         kind = choice["if"]["properties"]["kind"]["const"]
         properties = choice["then"]["properties"]
-        properties |= {"given": judged, "title": _TITLE}
+        properties |= {"given": _JUDGED, "title": _TITLE}
         if OPTIONS[kind].changes_machine:
             properties.pop("machine", None)
             properties["change"] = _PART

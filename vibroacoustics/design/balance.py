@@ -1,0 +1,211 @@
+"""Counterweights of a study's option: best moments by influence coefficients of the machine."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import pi
+from typing import Final, Literal
+
+import numpy as np
+
+from ..balancers.counterweight import Counterweight
+from ..base.arrays import Array, ComplexArray
+from ..base.errors import ParameterError
+from ..base.vocabulary import REFERENCE_OPTION
+from ..machine.combination import Combination, joined_names
+from ..machine.option import Option
+from ..radiation.given import Radiation
+from ..stages.radiation import transfer_vectors
+from ..study.study import Study
+from .balancing import (
+    chosen_moments,
+    least_squares_moments,
+    sums_of_squares,
+    worst_speed_moments,
+)
+from .engine.on_mounts import ADDED, SOUND, Arrays, Lines, lines_of_speed, pressure_by_source
+from .engine.probe import Probe, probe
+from .engine.response import foot_forces
+from .engine.sound_way import SoundWay, Ways
+
+BALANCED: Final = ("force_n", "moment_nm", "foot_force_n", "pressure_pa")
+"""Figures whose sum of squares at the shaft frequency may be made least."""
+_LIGHTEST_KG: Final = 1e-9
+
+
+@dataclass(frozen=True)
+class Balanced:
+    """Counterweights with the least sum of squares of a figure at the shaft frequency.
+
+    Attributes
+    ----------
+    moment_kg_m : mass times radius of each counterweight, at its angle, complex, shape (weight,)
+    values : masses and angles by key, for `Study.replace`
+    before, after : root of the sum of squares without and with the counterweights, shape (speed,):
+        of forces or moments, N or N m peak; of pressures the effective value over the microphones,
+        Pa
+
+    Examples
+    --------
+    >>> values = {"options.weight.mass_kg": 0.005, "options.weight.angle_deg": 180.0}
+    >>> best = va.Balanced(np.array([-1e-4 + 0j]), values, np.array([40.0]), np.array([10.0]))
+    >>> (best.after / best.before).tolist()
+    [0.25]
+    """
+
+    moment_kg_m: ComplexArray
+    values: Mapping[str, float]
+    before: Array
+    after: Array
+
+
+def balance(
+    study: Study,
+    option: str,
+    figure: str = "foot_force_n",
+    speeds: Literal["worst", "all"] = "worst",
+    holes: Mapping[str, tuple[int, Sequence[float]]] | None = None,
+    radiation: Radiation = transfer_vectors,
+) -> Balanced:
+    """Find masses and angles of the counterweights of an option, the other values kept.
+
+    Forces and sound are linear in the complex moments of counterweights at given radii and heights.
+    Their influence is found with each of them turned by 180°.
+
+    Parameters
+    ----------
+    study : with the option, a counterweight or a combination that joins some
+    option : name of the option
+    figure : `force_n` or `moment_nm` of the moving parts, `foot_force_n` of all feet, or
+        `pressure_pa` at all microphones
+    speeds : `worst` makes the largest sum of squares of a speed least, `all` the sum over speeds
+    holes : number of evenly spaced bolt holes, the first at the angle as given, and the masses in
+        kg that fit there, by name of each counterweight; any mass and angle without it
+    radiation : gives the transfer vectors
+
+    Raises
+    ------
+    ParameterError
+        The option has no counterweight, or holes or figure are unknown.
+
+    Examples
+    --------
+    >>> weight = {"kind": "counterweight", "mass_g": 10.0, "radius_mm": 20.0, "angle_deg": 0.0}
+    >>> study = va.load_study("pipelines/copeland_thesis.toml").replace({
+    ...     "options.upper": {**weight, "height_mm": 60.0},
+    ...     "options.lower": {**weight, "height_mm": -60.0},
+    ...     "options.upper + lower": {},
+    ... })
+    >>> frequency = np.arange(25.0, 2501.0, 25.0)
+    >>> vectors = 1e-4j * frequency * np.ones((len(study.receivers), 6, 1))  # made up
+    >>> best = va.balance(study, "upper + lower", radiation=va.given_radiation(vectors, frequency))
+    >>> bool(np.all(best.after < best.before))
+    True
+    """
+    weights = _weights(study, option)
+    if figure not in BALANCED:
+        raise ParameterError(f"figure = {figure}: unknown; allowed {', '.join(BALANCED)}")
+    response, influence = _influence(study, option, weights, figure, Ways(radiation))
+    rows = response, influence
+    if speeds == "all":
+        rows = response.reshape(1, -1), influence.reshape(1, -1, len(weights))
+    if holes is None:
+        moment = (least_squares_moments if speeds == "all" else worst_speed_moments)(*rows)
+    else:
+        places = [_places(name, weight, holes) for name, weight in weights.items()]
+        numbers = chosen_moments(*rows, places)
+        moment = np.array([some[item] for some, item in zip(places, numbers, strict=True)])
+    before, after = (
+        np.sqrt(sums_of_squares(response, influence, item)) for item in (0.0 * moment, moment)
+    )
+    values: dict[str, float] = {}
+    for (name, weight), item in zip(weights.items(), moment.tolist(), strict=True):
+        values[f"options.{name}.mass_kg"] = max(abs(item) / weight.radius_m, _LIGHTEST_KG)
+        values[f"options.{name}.angle_deg"] = float(np.angle(item, deg=True))
+    return Balanced(moment, values, before, after)
+
+
+def _weights(study: Study, option: str) -> dict[str, Counterweight]:
+    """Counterweights of an option by name."""
+    if option not in study.options:
+        raise ParameterError(
+            f"option = {option}: there is no such option; allowed {', '.join(study.options)}"
+        )
+    option_as_written = study.options[option]
+    names = joined_names(option) if isinstance(option_as_written, Combination) else (option,)
+    each = zip(names, option_as_written.members, strict=True)
+    weights = {name: part for name, part in each if isinstance(part, Counterweight)}
+    if not weights:
+        raise ParameterError(f"options.{option}: has no counterweight; join some to it")
+    return weights
+
+
+def _places(
+    name: str, weight: Counterweight, holes: Mapping[str, tuple[int, Sequence[float]]]
+) -> ComplexArray:
+    """Moments of a counterweight in its bolt holes, shape (place,), kg m."""
+    count, masses_kg = holes.get(name, (0, ()))
+    if count < 1 or not masses_kg or min(masses_kg) <= 0.0:
+        raise ParameterError(f"holes.{name}: give at least one hole and masses above 0 kg")
+    angle = weight.angle_rad + 2.0 * pi * np.arange(count) / count
+    return np.asarray(
+        np.outer(masses_kg, weight.radius_m * np.exp(1j * angle)).ravel(), dtype=complex
+    )
+
+
+def _influence(
+    study: Study, option: str, weights: Mapping[str, Counterweight], figure: str, ways: Ways
+) -> tuple[ComplexArray, ComplexArray]:
+    """Response without the counterweights, and per moment of each; see `sums_of_squares`."""
+    as_given = _response(study, option, {}, figure, ways)
+    parts = []
+    for name, weight in weights.items():
+        turned = weight.model_copy(update={"angle_rad": weight.angle_rad + pi})
+        parts.append(0.5 * (as_given - _response(study, option, {name: turned}, figure, ways)))
+    moments = [w.mass_kg * w.radius_m * np.exp(1j * w.angle_rad) for w in weights.values()]
+    part = np.stack(parts, axis=-1)
+    return as_given - part.sum(axis=-1), np.asarray(part / np.array(moments))
+
+
+def _response(
+    study: Study, option: str, changed: Mapping[str, Option], figure: str, ways: Ways
+) -> ComplexArray:
+    """Response with some counterweights changed, shape (speed, row)."""
+    option_as_written = study.options[option]
+    other = changed.get(option, option_as_written)
+    if isinstance(option_as_written, Combination):
+        parts = zip(option_as_written.names, option_as_written.parts, strict=True)
+        other = option_as_written.model_copy(
+            update={"parts": tuple(changed.get(name, part) for name, part in parts)}
+        )
+    options = {REFERENCE_OPTION: study.options[REFERENCE_OPTION], option: other}
+    with_changed = study.model_copy(update={"options": options})
+    made, way = probe(with_changed, option, ways), ways(with_changed)
+    return _at_shaft_frequency(made, study.operation.speed_rpm, way, figure)
+
+
+def _at_shaft_frequency(
+    made: Probe, speeds_rpm: Sequence[float], way: SoundWay, figure: str
+) -> ComplexArray:
+    """Complex peaks of a figure at 1x, shape (speed, row)."""
+    body = {name: np.asarray(array)[None] for name, array in made.body.items()}
+    each = zip(speeds_rpm, made.frequency_hz, made.order, strict=True)
+    rows = []
+    for speed, part in zip(each, made.by_speed, strict=True):
+        arrays = {name: np.asarray(array)[None] for name, array in part.items()}
+        rows.append(_row(figure, lines_of_speed(*speed, way), arrays, body))
+    return np.array(rows)
+
+
+def _row(figure: str, lines: Lines, arrays: Arrays, body: Arrays) -> ComplexArray:
+    """Complex peaks of a figure at 1x of one speed, shape (row,)."""
+    line = lines.row(1)
+    if figure == "pressure_pa":
+        few = {name: arrays[name][:, line] for name in SOUND if name in arrays}
+        pressure = pressure_by_source(lines.at(line), few, body)[0].sum(axis=0).ravel()
+        return np.asarray(pressure / np.sqrt(2.0 * pressure.size))
+    wrench = arrays["wrench"][:, line[0]]
+    if figure == "foot_force_n":
+        added = {name: arrays[name] for name in ADDED if name in arrays}
+        return foot_forces(body, added, wrench, lines.frequency_hz, line).ravel()
+    on_mechanism: ComplexArray = wrench.reshape(-1, 6).sum(axis=0)
+    return on_mechanism[:3] if figure == "force_n" else on_mechanism[3:]

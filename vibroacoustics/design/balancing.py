@@ -1,0 +1,225 @@
+"""Balancing by influence coefficients: plain functions on arrays.
+
+A response b of each speed (rows: forces, moments or pressures at the shaft frequency) becomes
+b + A u by complex moments u (mass times radius, at an angle) of weights in planes.
+"""
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+from scipy.optimize import minimize, nnls
+
+from ..base.arrays import Array, ComplexArray, IndexArray
+from ..base.errors import SolverError
+
+GAP: Final = 1e-7
+"""Difference between the worst speed and its lower bound, of the worst speed, that is accepted."""
+_ACTIVE: Final = 1e-5
+"""Share of the worst speed's sum of squares within which a speed counts as the worst."""
+_STEPS: Final = 1000
+
+
+def sums_of_squares(response: ComplexArray, influence: ComplexArray, moment: ComplexArray) -> Array:
+    """Return the sum of squared responses at each speed, shape (speed,).
+
+    Parameters
+    ----------
+    response : without the weights, shape (speed, row), N, N m or Pa
+    influence : response to a unit moment of each weight, shape (speed, row, weight), per kg m
+    moment : complex moments of the weights, shape (weight,), kg m
+    """
+    return np.asarray(np.sum(np.abs(response + influence @ moment) ** 2, axis=1))
+
+
+def least_squares_moments(response: ComplexArray, influence: ComplexArray) -> ComplexArray:
+    """Return the moments with the least sum of squares over all speeds, shape (weight,), kg m.
+
+    Goodman, A least-squares method for computing balance corrections, J. Eng. Ind. 86 (1964) 273,
+    equation 6: u = -(AᴴA)⁻¹Aᴴb; the smallest moments where several have the least sum.
+
+    Parameters
+    ----------
+    response, influence : see `sums_of_squares`
+    """
+    rows = influence.reshape(-1, influence.shape[-1])
+    return np.asarray(np.linalg.lstsq(rows, -response.ravel(), rcond=None)[0], dtype=complex)
+
+
+def worst_speed_moments(response: ComplexArray, influence: ComplexArray) -> ComplexArray:
+    """Return the moments whose largest sum of squares of any speed is least, (weight,), kg m.
+
+    The problem is convex: least t with |b + A u|² ≤ t at every speed. The result is checked by its
+    dual: for weights λ of the speeds with sum one, min over u of Σ λ |b + A u|² is a lower bound
+    (Boyd and Vandenberghe, Convex Optimization, 2004, section 5.2).
+
+    Parameters
+    ----------
+    response, influence : see `sums_of_squares`
+
+    Raises
+    ------
+    SolverError
+        The lower bound differs from the result by more than 1e-7.
+    """
+    start = least_squares_moments(response, influence)
+    size = float(sums_of_squares(response, influence, 0.0 * start).max())
+    if len(response) == 1 or size == 0.0:
+        return start
+    rows = influence.reshape(-1, start.size)
+    _, spread, directions = np.linalg.svd(rows, full_matrices=False)
+    kept = spread > spread[0] * max(rows.shape) * np.finfo(float).eps
+    basis = (directions[kept].conj() / spread[kept, None]).T  # independent, of one size
+    scaled = _Scaled(response / np.sqrt(size), influence @ basis)
+    moment = basis @ scaled.least_worst(_parts(np.linalg.pinv(basis) @ start / np.sqrt(size)))
+    return np.asarray(moment * np.sqrt(size))
+
+
+class _Scaled(NamedTuple):
+    """Responses near one and influences of independent directions.
+
+    Attributes
+    ----------
+    response : shape (speed, row)
+    influence : shape (speed, row, direction)
+    """
+
+    response: ComplexArray
+    influence: ComplexArray
+
+    def least_worst(self, start: Array) -> ComplexArray:
+        """Solve the convex problem from real and imaginary parts to begin with."""
+        first = np.append(start, self._sums(start).max())
+        found = minimize(
+            lambda x: x[-1],
+            first,
+            jac=lambda x: np.eye(x.size)[-1],
+            constraints={
+                "type": "ineq",
+                "fun": lambda x: x[-1] - self._sums(x[:-1]),
+                "jac": lambda x: np.column_stack(
+                    [-self._slopes(x[:-1]), np.ones(len(self.response))]
+                ),
+            },
+            method="SLSQP",
+            options={"maxiter": _STEPS, "ftol": 1e-16},
+        )
+        parts = found.x[:-1]
+        worst = float(self._sums(parts).max())
+        gap = worst - self._bound(parts)
+        if gap > GAP * max(worst, np.finfo(float).eps / GAP):
+            raise SolverError(f"balancing: the worst speed is known to {gap / worst:.1g} only")
+        return _complex(parts)
+
+    def _sums(self, parts: Array) -> Array:
+        return sums_of_squares(self.response, self.influence, _complex(parts))
+
+    def _slopes(self, parts: Array) -> Array:
+        """Derivatives of the sums of squares, shape (speed, part)."""
+        residual = self.response + self.influence @ _complex(parts)
+        slope = 2.0 * np.einsum("sr,srw->sw", residual.conj(), self.influence)
+        return np.concatenate([slope.real, -slope.imag], axis=1)
+
+    def _bound(self, parts: Array) -> float:
+        """Lower bound of the worst speed, by the weights that balance the slopes best."""
+        sums = self._sums(parts)
+        active = np.flatnonzero(sums >= (1.0 - _ACTIVE) * sums.max())
+        rows = np.vstack([self._slopes(parts)[active].T, np.ones(active.size)])
+        weight, _ = nnls(rows, np.eye(len(rows))[-1])
+        root = np.sqrt(weight / weight.sum())[:, None]
+        response, influence = root * self.response[active], root[..., None] * self.influence[active]
+        best = least_squares_moments(response, influence)
+        return float(sums_of_squares(response, influence, best).sum())
+
+
+def _parts(moment: ComplexArray) -> Array:
+    return np.concatenate([moment.real, moment.imag])
+
+
+def _complex(parts: Array) -> ComplexArray:
+    real, imaginary = np.split(parts, 2)
+    return np.asarray(real + 1j * imaginary)
+
+
+def chosen_moments(
+    response: ComplexArray, influence: ComplexArray, places: Sequence[ComplexArray]
+) -> IndexArray:
+    """Return the place of each weight with the least worst speed, numbers of shape (weight,).
+
+    Branch and bound by a QR decomposition of each speed (sphere decoding: Agrell and others, IEEE
+    Trans. Inf. Theory 48 (2002) 2201): the sum of squares is a sum over rows of a triangular
+    matrix, each of which depends on the weights chosen so far. It finds what trying all finds.
+
+    Parameters
+    ----------
+    response, influence : see `sums_of_squares`
+    places : complex moments that each weight may have, such as those of its bolt holes, kg m
+    """
+    factors = [np.linalg.qr(item) for item in influence]
+    turned = [q.conj().T @ item for (q, _), item in zip(factors, response, strict=True)]
+    constant = np.sum(np.abs(response) ** 2, axis=1) - [
+        np.sum(np.abs(item) ** 2) for item in turned
+    ]
+    search = _Search(
+        np.array(turned), np.array([r for _, r in factors]), places, np.maximum(constant, 0.0)
+    )
+    return search.best()
+
+
+class _Node(NamedTuple):
+    """Some weights in their places, the last ones of all.
+
+    Attributes
+    ----------
+    bound : least worst speed with these places
+    numbers : of the places
+    response : turned, with these weights, shape (speed, row)
+    sums : sum of squares that no other weight changes, shape (speed,)
+    """
+
+    bound: float
+    numbers: tuple[int, ...]
+    response: ComplexArray
+    sums: Array
+
+
+class _Search(NamedTuple):
+    """Search for the places of weights, the last weight first.
+
+    Attributes
+    ----------
+    turned : response, shape (speed, row)
+    triangle : upper triangular influence, shape (speed, row, weight)
+    places : moments that each weight may have
+    constant : sum of squares that no weight changes, shape (speed,)
+    """
+
+    turned: ComplexArray
+    triangle: ComplexArray
+    places: Sequence[ComplexArray]
+    constant: Array
+
+    def best(self) -> IndexArray:
+        """Search depth first, the most promising places first."""
+        weights = self.triangle.shape[-1]
+        best, chosen = np.inf, tuple([0] * weights)
+        pending = [_Node(float(self.constant.max()), (), self.turned, self.constant)]
+        while pending:
+            bound, numbers, response, sums = pending.pop()
+            if bound >= best:
+                continue
+            if len(numbers) == weights:
+                best, chosen = bound, numbers
+                continue
+            number = weights - len(numbers) - 1
+            candidates = response + self.triangle[:, :, number] * self.places[number][:, None, None]
+            further = np.broadcast_to(sums, (len(candidates), len(sums)))
+            if number < self.triangle.shape[1]:
+                further = further + np.abs(candidates[:, :, number]) ** 2
+            bounds = further.max(axis=1)
+            pending += [
+                _Node(float(bounds[row]), (row, *numbers), candidates[row], further[row])
+                for row in np.argsort(-bounds, kind="stable").tolist()
+                if bounds[row] < best
+            ]
+        return np.array(chosen, dtype=np.intp)
