@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..results.estimates import Estimate
+from ..results.estimates import Estimate, is_sampled
 from ..results.number import Number, number
 from ..results.stored_study import parameters
 from .analysis import Analysis, origin
@@ -132,7 +132,8 @@ def _levels(results: xr.Dataset) -> Table:
                 for name in ("machines_level", "machines_highest_level"))  # fmt: skip
         rows.append((receiver, *alone, *total))
     head = ("Microphone", *names, "together", "beats at maximum")
-    return Table("A-weighted levels, dB re 20 µPa; 80 % interval in brackets", head, tuple(rows))
+    interval = "; 80 % interval in brackets" if is_sampled(results, "machines_level") else ""
+    return Table(f"A-weighted levels, dB re 20 µPa{interval}", head, tuple(rows))
 
 
 def _beats(results: xr.Dataset, receiver: str) -> Table:
