@@ -111,9 +111,9 @@ def balance(
     if holes is None:
         moment = (least_squares_moments if speeds == "all" else worst_speed_moments)(*rows)
     else:
-        places = [_places(name, weight, holes) for name, weight in weights.items()]
-        numbers = chosen_moments(*rows, places)
-        moment = np.array([some[item] for some, item in zip(places, numbers, strict=True)])
+        positions = [_positions(name, weight, holes) for name, weight in weights.items()]
+        numbers = chosen_moments(*rows, positions)
+        moment = np.array([some[item] for some, item in zip(positions, numbers, strict=True)])
     before, after = (
         np.sqrt(sums_of_squares(response, influence, item)) for item in (0.0 * moment, moment)
     )
@@ -139,10 +139,10 @@ def _weights(study: Study, option: str) -> dict[str, Counterweight]:
     return weights
 
 
-def _places(
+def _positions(
     name: str, weight: Counterweight, holes: Mapping[str, tuple[int, Sequence[float]]]
 ) -> ComplexArray:
-    """Moments of a counterweight in its bolt holes, shape (place,), kg m."""
+    """Moments of a counterweight in its bolt holes, shape (position,), kg m."""
     count, masses_kg = holes.get(name, (0, ()))
     if count < 1 or not masses_kg or min(masses_kg) <= 0.0:
         raise ParameterError(f"holes.{name}: give at least one hole and masses above 0 kg")

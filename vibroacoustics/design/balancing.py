@@ -142,9 +142,9 @@ def _complex(parts: Array) -> ComplexArray:
 
 
 def chosen_moments(
-    response: ComplexArray, influence: ComplexArray, places: Sequence[ComplexArray]
+    response: ComplexArray, influence: ComplexArray, positions: Sequence[ComplexArray]
 ) -> IndexArray:
-    """Return the place of each weight with the least worst speed, numbers of shape (weight,).
+    """Return the position of each weight with the least worst speed, numbers of shape (weight,).
 
     Branch and bound by a QR decomposition of each speed (sphere decoding: Agrell and others, IEEE
     Trans. Inf. Theory 48 (2002) 2201): the sum of squares is a sum over rows of a triangular
@@ -153,7 +153,7 @@ def chosen_moments(
     Parameters
     ----------
     response, influence : see `sums_of_squares`
-    places : complex moments that each weight may have, such as those of its bolt holes, kg m
+    positions : complex moments that each weight may have, such as those of its bolt holes, kg m
     """
     factors = [np.linalg.qr(item) for item in influence]
     turned = [q.conj().T @ item for (q, _), item in zip(factors, response, strict=True)]
@@ -161,18 +161,18 @@ def chosen_moments(
         np.sum(np.abs(item) ** 2) for item in turned
     ]
     search = _Search(
-        np.array(turned), np.array([r for _, r in factors]), places, np.maximum(constant, 0.0)
+        np.array(turned), np.array([r for _, r in factors]), positions, np.maximum(constant, 0.0)
     )
     return search.best()
 
 
 class _Node(NamedTuple):
-    """Some weights in their places, the last ones of all.
+    """Some weights in their positions, the last ones of all.
 
     Attributes
     ----------
-    bound : least worst speed with these places
-    numbers : of the places
+    bound : least worst speed with these positions
+    numbers : of the positions
     response : turned, with these weights, shape (speed, row)
     sums : sum of squares that no other weight changes, shape (speed,)
     """
@@ -184,23 +184,23 @@ class _Node(NamedTuple):
 
 
 class _Search(NamedTuple):
-    """Search for the places of weights, the last weight first.
+    """Search for the positions of weights, the last weight first.
 
     Attributes
     ----------
     turned : response, shape (speed, row)
     triangle : upper triangular influence, shape (speed, row, weight)
-    places : moments that each weight may have
+    positions : moments that each weight may have
     constant : sum of squares that no weight changes, shape (speed,)
     """
 
     turned: ComplexArray
     triangle: ComplexArray
-    places: Sequence[ComplexArray]
+    positions: Sequence[ComplexArray]
     constant: Array
 
     def best(self) -> IndexArray:
-        """Search depth first, the most promising places first."""
+        """Search depth first, the most promising positions first."""
         weights = self.triangle.shape[-1]
         best, chosen = np.inf, tuple([0] * weights)
         pending = [_Node(float(self.constant.max()), (), self.turned, self.constant)]
@@ -212,7 +212,9 @@ class _Search(NamedTuple):
                 best, chosen = bound, numbers
                 continue
             number = weights - len(numbers) - 1
-            candidates = response + self.triangle[:, :, number] * self.places[number][:, None, None]
+            candidates = (
+                response + self.triangle[:, :, number] * self.positions[number][:, None, None]
+            )
             further = np.broadcast_to(sums, (len(candidates), len(sums)))
             if number < self.triangle.shape[1]:
                 further = further + np.abs(candidates[:, :, number]) ** 2

@@ -65,11 +65,11 @@ def test_bolt_holes_are_those_of_trying_all(study):
     weights = _weights(study, BOTH)
     rows = _influence(study, BOTH, weights, "foot_force_n", Ways(made_up_radiation))
     first = 0.02 * np.exp(1j * np.deg2rad(25.0))  # radius at the angle as given
-    places = [
+    positions = [
         [first * mass_kg * np.exp(2j * np.pi * hole / count) for mass_kg in masses_kg for hole in
          range(count)] for count in (4, 3)
     ]  # fmt: skip
-    worst = [sums_of_squares(*rows, np.array(each)).max() for each in product(*places)]
+    worst = [sums_of_squares(*rows, np.array(each)).max() for each in product(*positions)]
     assert best.after.max() ** 2 == pytest.approx(min(worst), rel=1e-12)
     turned = (best.values["options.lower.angle_deg"] - 25.0) / 120.0
     assert turned == pytest.approx(round(turned), abs=1e-9)

@@ -92,11 +92,13 @@ def test_bolt_holes_are_those_of_trying_all(weights, rows, speeds):
     response, influence = case(weights, speeds, rows)
     least = np.abs(least_squares_moments(response, influence)).mean()
     hole = np.exp(2j * np.pi * np.arange(6) / 6)
-    places = [np.append(least * factor * hole, 0.0) for factor in (0.5, 1.0, 1.5, 0.8)[:weights]]
-    numbers = chosen_moments(response, influence, places)
-    every = [np.array(each) for each in product(*places)]
+    positions = [np.append(least * factor * hole, 0.0) for factor in (0.5, 1.0, 1.5, 0.8)[:weights]]
+    numbers = chosen_moments(response, influence, positions)
+    every = [np.array(each) for each in product(*positions)]
     sums = np.array([sums_of_squares(response, influence, one).max() for one in every])
-    chosen = np.array([place[number] for place, number in zip(places, numbers, strict=True)])
+    chosen = np.array(
+        [position[number] for position, number in zip(positions, numbers, strict=True)]
+    )
     found = sums_of_squares(response, influence, chosen).max()
     assert found == pytest.approx(sums.min(), rel=1e-12)
     if len(np.flatnonzero(sums <= sums.min() * (1.0 + 1e-9))) == 1:
