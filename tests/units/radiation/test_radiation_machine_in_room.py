@@ -166,7 +166,7 @@ def _off(one, other):
 
 def test_vectors_between_grids_are_those_of_every_line(vectors):
     interpolated = np.moveaxis(room_pressure_per_velocity(vectors)(TABLE), -1, 0)
-    assert _off(_joined(0.0, 3.5), interpolated) <= 1e-3  # interpolation errs by 2e-4
+    assert _off(_joined(0.0, None), interpolated) <= 1e-3  # interpolation errs by 2e-4
 
 
 def test_beside_the_foot_a_run_reads_what_a_source_there_sends(vectors):

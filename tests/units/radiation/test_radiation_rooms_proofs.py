@@ -343,22 +343,35 @@ def test_the_time_step_is_bounded_by_the_largest_eigenvalue():
         assert (np.abs(one.terms).max() > 1e6) == grows
 
 
-def _second_method_db(room, settings, frequency, points, source, spacing):
+def _local_thirds(room, settings, frequency, points, source, spacings):
+    """Third octaves of the local scheme, extrapolated from two spacings.
+
+    Around re-entrant edges both schemes err by the 4/3 power of the spacing, to the same side; ours
+    takes its part off, so the local one must not keep its own.
+    """
+    coarse, fine = (
+        _thirds(frequency, local_transfer(room, points, {"m": source}, frequency, h, settings)["m"])
+        for h in spacings
+    )
+    ratio = (spacings[0] / spacings[1]) ** (4.0 / 3.0)
+    return fine + (fine - coarse) / (ratio - 1.0)
+
+
+def _second_method_db(room, settings, frequency, points, source, spacings):
     lattice = [Lattice(*points)]
     run = room_transfer(room, lattice, {"m": source}, frequency, settings)["m"]
     all_points = np.stack(np.meshgrid(*points, indexing="ij"), axis=-1).reshape(-1, 3)
-    local = local_transfer(room, all_points, {"m": source}, frequency, spacing, settings)["m"]
-    series = run.values[0].reshape(frequency.size, -1)
-    difference = _thirds(frequency, series) - _thirds(frequency, local)
+    local = _local_thirds(room, settings, frequency, all_points, source, spacings)
+    difference = _thirds(frequency, run.values[0].reshape(frequency.size, -1)) - local
     return np.sqrt(np.mean(difference**2, axis=1))
 
 
 def test_the_local_scheme_agrees_in_a_furnished_room():
-    settings = RoomSettings(250.0, nodes_per_wave=10.0, longest_s=0.25)
+    settings = RoomSettings(250.0, nodes_per_wave=20.0, longest_s=0.25)
     points = [np.array([0.75, 1.05, 1.55]), np.array([0.75, 1.15, 1.45]), np.array([0.95, 1.05])]
     frequency = np.arange(80.0, 250.1, 2.0)
     source = np.array([0.25, 1.25, 0.35])
-    rms = _second_method_db(_furnished(), settings, frequency, points, source, 0.05)
+    rms = _second_method_db(_furnished(), settings, frequency, points, source, (0.05, 1.0 / 30.0))
     assert rms.max() <= 0.2
 
 
@@ -375,7 +388,7 @@ def test_the_local_scheme_agrees_for_a_source_in_a_niche():
     points = [np.array([0.75, 1.05, 1.55]), np.array([0.85, 1.15, 1.45]), np.array([0.95, 1.25])]
     frequency = np.arange(80.0, 450.0, 2.0)
     source = np.array([0.95, 0.35, 0.35])
-    rms = _second_method_db(room, settings, frequency, points, source, 0.05)
+    rms = _second_method_db(room, settings, frequency, points, source, (0.05, 0.025))
     assert rms.max() <= 0.2
 
 
@@ -397,12 +410,12 @@ def test_the_local_scheme_agrees_in_a_kitchen():
     ]
     frequency = np.arange(55.0, 450.1, 1.0)
     source = np.array([2.05, 1.45, 0.75])
-    rms = _second_method_db(room, settings, frequency, points, source, 1.0 / 30.0)
+    rms = _second_method_db(room, settings, frequency, points, source, (0.05, 1.0 / 30.0))
     assert _rms(rms) <= 0.2
 
 
 def test_halving_the_spacing_tells_the_error(small_room):
-    settings = RoomSettings(300.0, longest_s=0.5)
+    settings = RoomSettings(300.0, nodes_per_wave=3.5, longest_s=0.5)
     lattices = [Lattice.of_point(point) for point in small_room.points]
     chosen = small_room.frequency[::4]
     chosen = chosen[chosen <= 300.0]

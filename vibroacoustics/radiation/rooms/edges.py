@@ -49,7 +49,7 @@ def interface_air_m(
             turns = _turns(boxes, edge, (face.ends[0].axis, int(across[row])))
             beside = np.moveaxis(lengths, row, 0)[end]  # a view
             beside -= EDGE_RATIO * widths[row] * turns
-    return np.maximum(lengths, _LEAST_RATIO * air_m)
+    return np.asarray(np.maximum(lengths, _LEAST_RATIO * air_m))
 
 
 def _turns(boxes: Sequence[AirBox], edge: Array, axes: tuple[int, int]) -> Array:
