@@ -78,8 +78,8 @@ def balance(
     figure : `force_n` or `moment_nm` of the moving parts, `foot_force_n` of all feet, or
         `pressure_pa` at all microphones
     speeds : `worst` makes the largest sum of squares of a speed least, `all` the sum over speeds
-    holes : number of evenly spaced bolt holes, the first at the angle as given, and the masses in
-        kg that fit there, by name of each counterweight; any mass and angle without it
+    holes : number of evenly spaced bolt holes, the first at the angle of the option, and the
+        masses in kg that fit there, by name of each counterweight; any mass and angle without it
     radiation : gives the transfer vectors
 
     Raises

@@ -46,9 +46,9 @@ def _changes(problem: Problem, design: np.ndarray[Any, Any]) -> dict[str, Any]:
     """Tables of a study in which the option and the machine have a design's values."""
     tables: dict[str, Any] = {}
     for key, value in problem.space.written(design).items():
-        first, *rest = key.split(".")
+        first, *inner = key.split(".")
         if first == "machine":
-            _put(tables, [first, "override", *rest], {"value": value, "source": _SOURCE})
+            _put(tables, [first, "override", *inner], {"value": value, "source": _SOURCE})
     return {**tables, "options": _options(problem, design, "best")}
 
 
@@ -57,9 +57,9 @@ def _options(problem: Problem, design: np.ndarray[Any, Any], name: str) -> dict[
     option = problem.space.option_of(design)
     tables: dict[str, Any] = {}
     for key, value in problem.space.written(design).items():
-        first, *rest = key.split(".")
+        first, *inner = key.split(".")
         if first == "options":
-            _put(tables, rest, value)
+            _put(tables, inner, value)
     if not isinstance(problem.study.options[option], Combination):
         return {name: merge(_given(problem, option), tables.get(option, {}))}
     copies = {part: f"{name}-{part}" for part in joined_names(option)}

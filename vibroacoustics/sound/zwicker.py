@@ -111,7 +111,7 @@ class _Slope(NamedTuple):
         """Area below the slope to zero, sone: linear in the square of specific loudness."""
         return np.interp(loudness**2, self.loudness**2, self.area)
 
-    def at(self, distance: Array) -> Array:
+    def loudness_at(self, distance: Array) -> Array:
         """Specific loudness at a distance before zero, sone/Bark."""
         return np.interp(distance, self.distance, self.loudness)
 
@@ -184,7 +184,7 @@ def total_loudness(core: Array) -> Array:
         level = core[..., band] if band < core.shape[-1] else np.zeros(core.shape[:-1])
         start = np.maximum(before, level)
         begin = slope.distance_of(start)
-        end = np.maximum(slope.at(begin - width), level)
+        end = np.maximum(slope.loudness_at(begin - width), level)
         flat = width - (begin - slope.distance_of(end))
         total += slope.area_of(start) - slope.area_of(end) + level * flat
         before = end
@@ -206,9 +206,9 @@ def specific_loudness(core: Array, bark: Array) -> Array:
         level = core[..., band] if band < core.shape[-1] else np.zeros(core.shape[:-1])
         begin = slope.distance_of(np.maximum(before, level))
         inside = (bark > lower + _ROUNDING) & (bark <= upper + _ROUNDING)
-        falling = slope.at(begin[..., None] - (bark[inside] - lower))
+        falling = slope.loudness_at(begin[..., None] - (bark[inside] - lower))
         specific[..., inside] = np.maximum(falling, level[..., None])
-        before = np.maximum(slope.at(begin - (upper - lower)), level)
+        before = np.maximum(slope.loudness_at(begin - (upper - lower)), level)
         lower = upper
     return specific
 

@@ -277,15 +277,16 @@ class FixedMounts:
             for one, columns in zip(self.speeds, by_speed, strict=True)
         ]
         lines = [one.lines for one in self.speeds]
-        seen = seen_of(others, lines, arrays, self.body, len(values))
+        figures = seen_of(others, lines, arrays, self.body, len(values))
         sounds = [need for need in needs if need.what == "sound"]
-        seen |= {need: self._sound(need, by_speed) for need in sounds}
+        figures |= {need: self._sound(need, by_speed) for need in sounds}
         hearing = [need for need in needs if need in HEARING]
         each = [
             spectrum.hearing(hearing, columns)
             for spectrum, columns in zip(self.spectra, by_speed, strict=bool(hearing))
         ]
-        return seen | {need: np.stack([part[need] for part in each], axis=2) for need in hearing}
+        figures |= {need: np.stack([part[need] for part in each], axis=2) for need in hearing}
+        return figures
 
     def _columns(self, values: Array) -> list[Array]:
         """Products of the variables by speed, once where they are the same at all."""

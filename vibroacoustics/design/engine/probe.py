@@ -134,8 +134,8 @@ def _of_case(
     loss = study.options[option].insertion_loss() or NO_LOSS
     other, noise, thirds = way.besides_rigid(case.machine, lines, loads, loss, shared)
     figures = {**case.revolution.figures, **case.added.figures}
-    for one in loads.values():
-        figures |= one.figures
+    for load in loads.values():
+        figures |= load.figures
     on_body = [_loaded(body, load, lines.frequency_hz.size) for load in lines.loads.values()]
     orders = study.highest_order(case.speed_rpm) + 1
     return {
@@ -151,9 +151,9 @@ def _of_case(
 
 def _together(part: Parts) -> Parts:
     """All sources as one."""
-    one = {name: part[name].sum(axis=1, keepdims=True) for name in ("load", "other")}
-    one |= {name: part[name].sum(axis=0, keepdims=True) for name in ("noise", "thirds")}
-    return {**part, **one}
+    total = {name: part[name].sum(axis=1, keepdims=True) for name in ("load", "other")}
+    total |= {name: part[name].sum(axis=0, keepdims=True) for name in ("noise", "thirds")}
+    return {**part, **total}
 
 
 def _loaded(body: MachineOnMounts, loads: PortLoads, lines: int) -> ComplexArray:
