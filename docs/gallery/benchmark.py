@@ -47,7 +47,7 @@ for name in ("submission.csv", "wrong.json"):
 cases = sorted({row["case"] for row in answers})
 shares = []
 for case in cases:
-    table = Path(files["cases"]) / case / "expected.csv"
+    table = Path(files["scorer"]).parent / "cases" / case / "expected.csv"
     values = {row["key"]: float(row["value"]) for row in answers if row["case"] == case}
     with table.open(encoding="utf-8", newline="") as file:
         shares.append(

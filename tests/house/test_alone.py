@@ -28,7 +28,7 @@ PRIVATE = re.compile(
     re.IGNORECASE,
 )
 AUTHORITIES = {
-    "Dagilis", "Estupiñan", "Tsuji", "Zhao", "thesis",  # docs/sources.md
+    "Dagilis", "Estupiñan", "Okoma", "PDSim", "Tsuji", "Zhao", "thesis",  # docs/sources.md
     "Lanchester", "as", "assumed", "classical", "derived", "usual",
 }  # fmt: skip
 
@@ -97,5 +97,5 @@ def test_every_source_says_who():
 
 def test_page_of_sources_has_every_document():
     page = (ROOT / "docs" / "sources.md").read_text(encoding="utf-8")
-    for cited in ("thesis", "Zhao", "Estupiñan", "Tsuji", "Dagilis"):
+    for cited in ("thesis", "Zhao", "Estupiñan", "Tsuji", "Dagilis", "PDSim"):
         assert f"| {cited} |" in page

@@ -14,7 +14,7 @@ FILES = sorted(
     for room in ("pipeline", "stages")
     for file in (ROOT / "vibroacoustics" / room).glob("*.py")
 )
-MOST_LINES = 2200
+MOST_LINES = 2250
 MOST_LINES_OF_FUNCTION = 40
 ARITHMETIC = (ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow, ast.MatMult)
 

@@ -218,6 +218,7 @@ def rows() -> list[dict[str, str]]:
     return commented_rows(FILE)
 
 
+@pytest.mark.filterwarnings("ignore:.*contradict themselves")
 @pytest.mark.parametrize(
     "name",
     [

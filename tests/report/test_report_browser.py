@@ -20,6 +20,7 @@ HEADINGS = (
     "Mounts",
     "Radiation and levels",
     "Scores",
+    "Checks of the software",
     "Assumptions",
     "Provenance",
 )

@@ -62,6 +62,7 @@ BUILT_IN = [
     "live",
     "sources",
     "measured-spectrum",
+    "alternatives",
     "paths",
     "structure-borne",
     "in-room",
@@ -85,6 +86,7 @@ BUILT_IN = [
 ]
 NOT_HERE = {
     "rating",
+    "alternatives",
     "example",
     "measured-spectrum",
     "run-up",

@@ -23,8 +23,8 @@ from vibroacoustics.base.plugin_file import load_plugin
 from vibroacoustics.machine.source import SOURCES
 from vibroacoustics.recordings.child import answer
 from vibroacoustics.recordings.recorded import Request
+from vibroacoustics.results import criterion_values
 from vibroacoustics.results.storage import open_results
-from vibroacoustics.scoring import values
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.uncertainty.every_sample import in_every_sample
 
@@ -330,8 +330,8 @@ def test_option_that_fails_when_the_study_is_read_is_left_out(forgotten, tmp_pat
 def test_criterion_must_be_a_number_in_every_sample():
     sampled = xr.DataArray([[1.0, 2.0], [np.nan, 3.0]], dims=("sample", "option"))
     with pytest.raises(ParameterError, match="odd_n: by sample has values that are not finite"):
-        values._of_samples("odd_n", sampled)
-    assert values._of_samples("odd_n", sampled.fillna(0.0)).shape == (2, 2)
+        criterion_values._of_samples("odd_n", sampled)
+    assert criterion_values._of_samples("odd_n", sampled.fillna(0.0)).shape == (2, 2)
 
 
 def test_run_goes_on_without_a_source(tmp_path, monkeypatch):

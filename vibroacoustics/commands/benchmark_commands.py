@@ -28,5 +28,5 @@ def benchmark_command(
     folder = shipped_folder() / "data" / "benchmark"
     write_together(out.parent, {out.name: submission(folder / "cases", progress)})
     lines, failed = scored(folder, out)
-    files = {"submission": out, "cases": folder / "cases", "scorer": folder / "score.py"}
+    files = {"submission": out, "scorer": folder / "score.py"}
     return Outcome("\n".join(lines), files, broken=[f"case {name}" for name in failed])

@@ -90,7 +90,7 @@ class _Scaled(NamedTuple):
     def least_worst(self, start: Array) -> ComplexArray:
         """Solve the convex problem from real and imaginary parts to begin with."""
         first = np.append(start, self._sums(start).max())
-        found = minimize(
+        solution = minimize(
             lambda x: x[-1],
             first,
             jac=lambda x: np.eye(x.size)[-1],
@@ -104,7 +104,7 @@ class _Scaled(NamedTuple):
             method="SLSQP",
             options={"maxiter": _STEPS, "ftol": 1e-16},
         )
-        parts = found.x[:-1]
+        parts = solution.x[:-1]
         worst = float(self._sums(parts).max())
         gap = worst - self._bound(parts)
         if gap > GAP * max(worst, np.finfo(float).eps / GAP):

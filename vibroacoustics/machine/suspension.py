@@ -1,8 +1,8 @@
 """The springs inside the shell that carry the block with mechanism and motor."""
 
-from typing import Final
+from typing import Annotated, Final
 
-from pydantic import Field
+from pydantic import Field, WithJsonSchema
 
 from ..base.parameters import Contradictions, Parameters
 from ..mechanics.ports import BodyPort
@@ -13,6 +13,12 @@ BLOCK: Final = BodyPort("block")
 """The block on springs with the mechanism; the shell around it is the port `HOUSING`."""
 
 
+_FARTHEST_M: Final = 10.0
+# Limits for the schema of files; `DischargeTube` refuses them in words of its own.
+_SHOWN = WithJsonSchema({"type": "number", "minimum": -_FARTHEST_M, "maximum": _FARTHEST_M})
+_Position = Annotated[float, _SHOWN]
+
+
 class DischargeTube(Parameters):
     """A bent tube from the block to the shell, without mass.
 
@@ -21,9 +27,9 @@ class DischargeTube(Parameters):
 
     outer_diameter_m: float = Field(gt=0.0, le=0.1)
     inner_diameter_m: float = Field(ge=0.0, le=0.1)
-    x_m: tuple[float, ...] = Field(min_length=2, max_length=1000)
-    y_m: tuple[float, ...]
-    z_m: tuple[float, ...]
+    x_m: tuple[_Position, ...] = Field(min_length=2, max_length=1000)
+    y_m: tuple[_Position, ...]
+    z_m: tuple[_Position, ...]
     youngs_modulus_pa: float = Field(ge=1e6, le=1e12)
     poisson_ratio: float = Field(gt=-1.0, le=0.5)
     loss_factor_ratio: float = Field(ge=0.0, le=1.0)
@@ -31,6 +37,12 @@ class DischargeTube(Parameters):
     def contradictions(self) -> Contradictions:
         if not len(self.x_m) == len(self.y_m) == len(self.z_m):
             yield "x_mm, y_mm, z_mm: must be as long as each other"
+        farthest_m = max(map(abs, (*self.x_m, *self.y_m, *self.z_m)))
+        if farthest_m > _FARTHEST_M:
+            yield (
+                f"x_mm, y_mm, z_mm: farthest is {1e3 * farthest_m:.4g} mm; "
+                f"must be within {1e3 * _FARTHEST_M:g} mm"
+            )
         if self.inner_diameter_m >= self.outer_diameter_m:
             yield (
                 f"inner_diameter_mm = {1e3 * self.inner_diameter_m:g} mm: must be below "

@@ -205,9 +205,9 @@ def specific_loudness(core: Array, bark: Array) -> Array:
     for band, (slope, upper) in enumerate(zip(_SLOPES, UPPER_EDGE_BARK.tolist(), strict=True)):
         level = core[..., band] if band < core.shape[-1] else np.zeros(core.shape[:-1])
         begin = slope.distance_of(np.maximum(before, level))
-        inside = (bark > lower + _ROUNDING) & (bark <= upper + _ROUNDING)
-        falling = slope.loudness_at(begin[..., None] - (bark[inside] - lower))
-        specific[..., inside] = np.maximum(falling, level[..., None])
+        in_band = (bark > lower + _ROUNDING) & (bark <= upper + _ROUNDING)
+        falling = slope.loudness_at(begin[..., None] - (bark[in_band] - lower))
+        specific[..., in_band] = np.maximum(falling, level[..., None])
         before = np.maximum(slope.loudness_at(begin - (upper - lower)), level)
         lower = upper
     return specific

@@ -54,7 +54,7 @@ def _values(chain: Chain, ensemble: Bank, number: int, count: int) -> SampleValu
     forces = force_variables(changed, chain.results)
     receiver = list(axes.receivers).index(study.catalogue_receiver)
     mutual = axes.gathered(sound, "mutual")[:, :, :, :, receiver]
-    return SampleValues.of(levels, forces, count * pairs.weight, mutual)
+    return SampleValues.of(levels, forces, pairs.repeated(count), mutual)
 
 
 def deviating(chain: Chain, ensemble: Bank, number: int) -> tuple[Deviating, Pairs, Cases, Sound]:

@@ -8,8 +8,7 @@ from ..base.units import si_key, split_key
 _BY_QUANTITY: Final = {
     "floor_clearance_m": "mm",
     "clearance_m": "um",
-    "tip_gap_m": "um",
-    "flank_gap_m": "um",
+    "_gap_m": "um",
     "oil_layer_m": "um",
     "crown_radius_m": "m",
     "error_m": "um",

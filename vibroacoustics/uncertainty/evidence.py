@@ -43,6 +43,10 @@ class Pairs(NamedTuple):
     unmodelled_db: Array
     weight: Array
 
+    def repeated(self, count: int) -> Array:
+        """Return the weights of a sample that was chosen several times, shape (prior, pair)."""
+        return count * self.weight
+
 
 @dataclass(frozen=True)
 class Evidence:

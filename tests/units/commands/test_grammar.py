@@ -63,6 +63,7 @@ CASES = {
     ),
     "predict": ("bench.toml",),
     "blocked-forces": ("in_situ/in_situ.toml",),
+    "benchmark": (),
     "cache": (),
     "doctor": (),
     "schema": (),
@@ -132,7 +133,7 @@ def quick(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 def words_of(name: str, inputs: Path, out: Path) -> list[object]:
     """Words of a command, its files within the inputs and its results in `out`."""
     words = [inputs / word if (inputs / str(word)).is_file() else word for word in CASES[name]]
-    target = out / "copy.csv" if name == "export" else out
+    target = out / "copy.csv" if name in {"benchmark", "export"} else out
     return [name, *words, *(() if name in PRINTS_ONLY else ("--out", target))]
 
 
@@ -203,7 +204,9 @@ def check_numbers(numbers: list[dict[str, Any]], file: Path) -> None:
             assert shown == pytest.approx(value, rel=1e-12, nan_ok=True), number
 
 
-@pytest.mark.parametrize("name", sorted(set(COMMANDS) - {"new", "cache", "doctor", "schema"}))
+@pytest.mark.parametrize(
+    "name", sorted(set(COMMANDS) - {"benchmark", "new", "cache", "doctor", "schema"})
+)
 def test_errors_are_one_line_also_with_json(name: str, inputs: Path, tmp_path: Path) -> None:
     words = words_of(name, inputs, tmp_path / "out")
     outcome = command_here(name, tmp_path / "missing.toml", *words[2:], "--json")

@@ -266,7 +266,7 @@ LINE = "3000,1,crank" + ",1,0" * 6 + "\n"
          "all forces and moments are constant"),
         (ORDERS + LINE + LINE, "line 3: order = 1: is given twice"),
         (ORDERS + LINE.replace("0,1,", "0,1.5,", 1), "order = 1.5: must be a whole number from 0"),
-        (ORDERS.replace(",mz_phase_deg", "") + LINE[:-3] + "\n", "angle_rad or mz_p"),
+        (ORDERS.replace(",mz_phase_deg", "") + LINE[:-3] + "\n", "crank_angle_rad or "),
     ],
 )  # fmt: skip
 def test_bad_tables_are_refused_in_a_line(tmp_path, text, words):

@@ -17,6 +17,8 @@ STUDIES = ROOT / "tests" / "studies"
 OF_SOURCES = {
     "projection_error",
     "supply_frequency",
+    "decisive_audibility_by_sample",
+    "rating_level_by_sample",
     "source_level_by_sample",
     "level_modelled_by_sample",
     "level_total_by_sample",
@@ -104,9 +106,10 @@ OF_OTHER_JOBS = (
     "predicted_", "blocked_", "validation_", "inversion_", "shell_", "best_design",
     "structure_borne_", "level_both_ways", "gas_frequency", "room_", "hemisphere_",
     "measured_", "background_", "mean_position_", "environment_", "slider_", "polar_",
-    "spectrum_", "run_speed",
+    "spectrum_", "run_speed", "machines_", "machine_", "beat_", "base_", "alternative_",
 )  # fmt: skip
-"""Of measurements, a test of the shell, a search of designs, a plate, gas, a room, sliders."""
+"""Of measurements, a test of the shell, a search of designs, a plate, gas, a room, sliders, several
+machines, changed inputs."""
 
 
 @pytest.fixture(scope="module")

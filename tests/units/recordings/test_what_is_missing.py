@@ -36,7 +36,7 @@ def test_rate_and_units_in_one_message(tmp_path, read):
 
 def test_unit_and_calibration_in_one_message(tmp_path):
     wavfile.write(tmp_path / "a.wav", 1000, np.zeros((100, 2), dtype=np.int16))
-    with pytest.raises(ParameterError, match=r"calibration.*; the file states no unit for"):
+    with pytest.raises(ParameterError, match=r"calibration.* the file states no unit for"):
         read_recording(tmp_path / "a.wav")
 
 
