@@ -24,6 +24,7 @@ def rated(changes: dict[str, Any]) -> xr.Dataset:
     return va.run(STUDY.replace(COARSE | changes)).sel(at)
 
 
+@pytest.mark.long
 def test_a_barrier_lowers_the_rating_level_behind_it() -> None:
     """By what Kurze and Anderson's formula gives between 100 Hz and 10 kHz, ground apart."""
     without, behind = rated({}), rated({KEY: BARRIER})

@@ -74,6 +74,7 @@ def test_rooms_with_corners_have_their_frequencies_to_1_khz(shape):
     assert worst_error(shape, 1000.0) <= 1e-3
 
 
+@pytest.mark.long
 def test_without_lighter_air_at_edges_they_are_too_low(monkeypatch):
     monkeypatch.setattr(edges_module, "EDGE_RATIO", 0.0)
     assert worst_error("U", 355.0) > 1.5e-3

@@ -375,6 +375,7 @@ def test_the_local_scheme_agrees_in_a_furnished_room():
     assert rms.max() <= 0.2
 
 
+@pytest.mark.long
 def test_the_local_scheme_agrees_for_a_source_in_a_niche():
     wall = _uniform(0.1)
     blocks = (
