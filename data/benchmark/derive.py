@@ -3,8 +3,8 @@
     python derive.py
 
 Needs Python 3.11 or later and nothing else: a reader can follow every expected value. Each function
-in `derivations` takes the folder of a case and gives its rows. `changed_mounts` and `exact_room`
-have their inputs.csv written, too.
+in `derivations` takes the folder of a case and gives its rows. `changed_mounts`
+has its inputs.csv written, too.
 """
 
 import csv

@@ -200,8 +200,9 @@ def read_submission(path: Path) -> list[dict[str, Any]]:
     if not isinstance(rows, list) or not rows:
         raise RefusedError(f"{path}: must have at least one row")
     for place, row in enumerate(rows, 1):
-        lacking = [name for name in FIELDS if not isinstance(row, dict) or row.get(name) is None]
-        if [name for name in lacking if name != "value"]:
+        held = row if isinstance(row, dict) else {}
+        lacking = [n for n in FIELDS if n not in held or (held[n] is None and n != "value")]
+        if lacking:
             raise RefusedError(f"{path}: row {place}: {lacking[0]} = missing: must be given")
     return rows
 

@@ -41,7 +41,8 @@ axes.legend()
 # %%
 # Over time
 # ---------
-# Order 2 of both from its lines: once a beat, every 3.75 s, its envelope reaches |p1| + |p2|.
+# Order 2 of both from its lines: once a beat, every 3.75 s, its envelope is
+# the sum of both.
 time = np.arange(0.0, 8.0, 1e-3)
 lines = [f"{name}: order 2" for name in ("west", "east")]
 two = front.sel(machine_line=lines)

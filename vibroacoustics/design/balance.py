@@ -11,7 +11,7 @@ from ..balancers.counterweight import Counterweight
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
-from ..machine.combination import Combination, joined_names
+from ..machine.combination import Combination, members_by_name
 from ..machine.option import Option
 from ..radiation.given import Radiation
 from ..stages.radiation import transfer_vectors
@@ -130,10 +130,8 @@ def _weights(study: Study, option: str) -> dict[str, Counterweight]:
         raise ParameterError(
             f"option = {option}: there is no such option; allowed {', '.join(study.options)}"
         )
-    option_as_written = study.options[option]
-    names = joined_names(option) if isinstance(option_as_written, Combination) else (option,)
-    each = zip(names, option_as_written.members, strict=True)
-    weights = {name: part for name, part in each if isinstance(part, Counterweight)}
+    members = members_by_name(option, study.options[option])
+    weights = {name: part for name, part in members.items() if isinstance(part, Counterweight)}
     if not weights:
         raise ParameterError(f"options.{option}: has no counterweight; join some to it")
     return weights
@@ -170,13 +168,10 @@ def _response(
     study: Study, option: str, changed: Mapping[str, Option], figure: str, ways: Ways
 ) -> ComplexArray:
     """Response with some counterweights changed, shape (speed, row)."""
-    option_as_written = study.options[option]
-    other = changed.get(option, option_as_written)
-    if isinstance(option_as_written, Combination):
-        parts = zip(option_as_written.names, option_as_written.parts, strict=True)
-        other = option_as_written.model_copy(
-            update={"parts": tuple(changed.get(name, part) for name, part in parts)}
-        )
+    joined = study.options[option]
+    other = changed.get(option, joined)
+    if isinstance(joined, Combination):
+        other = joined.rejoined(members_by_name(option, joined) | dict(changed))
     options = {REFERENCE_OPTION: study.options[REFERENCE_OPTION], option: other}
     with_changed = study.model_copy(update={"options": options})
     made, way = probe(with_changed, option, ways), ways(with_changed)

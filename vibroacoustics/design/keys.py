@@ -11,7 +11,7 @@ from ..study.study import Study
 
 def acts_on(key: str, option: str) -> bool:
     """Whether a key is a value of an option, of one that it joins, or of the machine."""
-    prefixes = tuple(f"options.{name}." for name in joined_names(option))
+    prefixes = tuple(f"options.{name}." for name in {option, *joined_names(option)})
     return not key.startswith("options.") or key.startswith(prefixes)
 
 
@@ -20,7 +20,7 @@ def check_key(key: str, options: Sequence[str], where: str) -> None:
     first, _, rest = key.partition(".")
     if first == "machine" and rest:
         return
-    names = dict.fromkeys(name for option in options for name in joined_names(option))
+    names = dict.fromkeys(name for option in options for name in (option, *joined_names(option)))
     if first == "options" and any(key.startswith(f"options.{name}.") for name in names):
         return
     allowed = ", ".join(["machine.…", *(f"options.{name}.…" for name in names)])

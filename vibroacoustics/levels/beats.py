@@ -7,7 +7,6 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
-from ..base.decibel import sound_pressure_level
 
 LARGEST_BEAT_HZ: Final = 5.0
 """Lines no further apart than this beat (assumed, range 4 to 20 Hz: faster than some 20 Hz it is
@@ -104,14 +103,3 @@ def envelope_minimum(pressure_pa: ComplexArray, axis: int = 0) -> Array:
     """
     size = np.abs(pressure_pa)
     return np.asarray(np.maximum(2.0 * size.max(axis=axis) - size.sum(axis=axis), 0.0))
-
-
-def energy_level(pressure_pa: ComplexArray, axis: int = 0) -> Array:
-    """Return the level of the mean square of lines over many beats, dB.
-
-    Parameters
-    ----------
-    pressure_pa : complex peaks, lines along the axis
-    axis : of the lines
-    """
-    return sound_pressure_level(np.sqrt((np.abs(pressure_pa) ** 2).sum(axis=axis)))

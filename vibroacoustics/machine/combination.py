@@ -177,3 +177,15 @@ def _sum_on_ring(first: RingForce | None, other: RingForce | None) -> RingForce 
     if first is None or other is None:
         return first or other
     return replace(first, force_n=np.asarray(first.force_n + other.force_n))
+
+
+def members_by_name(name: str, option: Option) -> dict[str, Option]:
+    """Return the options that an option joins by their names, or the option itself.
+
+    Parameters
+    ----------
+    name : of the option in its study
+    option : of this name
+    """
+    names = option.names if isinstance(option, Combination) else (name,)
+    return dict(zip(names, option.members, strict=True))

@@ -146,10 +146,10 @@ class _Peaks:
         return self._envelope / self._largest if self._largest else 0.0
 
     def reason(self) -> str:
-        """What is left where the pressure was largest: a mode changes its sign, a rest does not."""
+        """Say whether what is left changes its sign, in the cell that was largest midway."""
         if abs(self._sum) > _STEADY_RATIO * self._size:
-            return "a steady pressure that does not decay is left"
-        return "a mode of the air between walls rings on"
+            return "what is left keeps its sign, as a rest does"
+        return "what is left changes its sign, as a mode of the air between walls does"
 
     def expected(self, passages: int) -> float:
         """The share after so many more passages; to be asked once a passage."""

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..base.vocabulary import HIGH, LOW, SUFFIXES
 from ..results.estimates import Estimate, is_sampled
 from ..results.number import Number, number
 from ..results.stored_study import parameters
@@ -154,7 +155,9 @@ def _frame(results: xr.Dataset) -> tuple[Block, ...]:
     hertz = results["base_natural_frequency"].values
     words = ", ".join(rounding.three_digits(value) for value in hertz)
     force = _size(results["base_floor_force"]).max("axis")
-    firsts = [name for name in map(str, results["machine_line"].values) if name[-9:] == ": order 1"]
+    firsts = [
+        name for name in map(str, results["machine_line"].values) if name.endswith(": order 1")
+    ]
     rows = [
         (str(foot), *(rounding.three_digits(force.sel(base_foot=foot, machine_line=line).item())
                       for line in firsts))
@@ -165,7 +168,6 @@ def _frame(results: xr.Dataset) -> tuple[Block, ...]:
 
 
 def _level_data(results: xr.Dataset) -> DataTable:
-    suffixes = {"": "", "_10_percent": "_10_percent", "_90_percent": "_90_percent"}
     columns = {
         "microphone": results["common_receiver"], "machine": results["machine"],
         "speed_rpm": results["machine_speed"],
@@ -175,9 +177,9 @@ def _level_data(results: xr.Dataset) -> DataTable:
         ("machines_level", "level_together"),
         ("machines_highest_level", "level_highest"),
     ):
-        for suffix, word in suffixes.items():
+        for suffix in ("", SUFFIXES[LOW], SUFFIXES[HIGH]):
             if f"{variable}{suffix}" in results:
-                columns[f"{head}{word}_dba"] = results[f"{variable}{suffix}"]
+                columns[f"{head}{suffix}_dba"] = results[f"{variable}{suffix}"]
     return data_table(("common_receiver", "machine"), columns)
 
 

@@ -17,7 +17,6 @@ from ..levels.beats import (
     Beat,
     MachineLine,
     beats,
-    energy_level,
     envelope_maximum,
     envelope_minimum,
     groups,
@@ -201,9 +200,10 @@ def _beats(sounds: _Sounds, lines: Mapping[str, MachineLine]) -> xr.Dataset:
         return xr.Dataset()
     pressure = np.array([_pressure(together(parts), names) for parts in sounds.values()])
     of_pairs = np.stack([pressure[:, [pair.first, pair.second]] for pair in pairs], axis=1)
+    square = 0.5 * (np.abs(of_pairs) ** 2).sum(axis=-1)
     values = {
         "beat_line_level": sound_pressure_level(of_pairs),
-        "beat_energy_level": energy_level(of_pairs, axis=-1),
+        "beat_energy_level": mean_square_level(square, REFERENCE_PRESSURE_PA),
         "beat_highest_level": sound_pressure_level(envelope_maximum(of_pairs, axis=-1)),
         "beat_lowest_level": sound_pressure_level(envelope_minimum(of_pairs, axis=-1)),
     }

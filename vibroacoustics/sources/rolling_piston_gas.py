@@ -78,7 +78,10 @@ class VaneImpacts(Source):
     drives_shell: ClassVar[bool] = True
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
-        """The impulses as lines of the shaft orders, at the height of the vanes."""
+        """Return lines of the impulses at the mean height of the vanes.
+
+        The couple of the two vanes of a twin is neglected.
+        """
         piston, highest = case.machine.require(RollingPiston), case.maximum_order
         courses = courses_of(case)
         force = spectrum(courses, courses.landing_n, highest)

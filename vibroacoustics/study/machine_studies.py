@@ -140,7 +140,7 @@ def _overlaps(machines: Mapping[str, StudyMachine], studies: Mapping[str, Study]
     for first, second in combinations(machines, 2):
         (x, y), (other_x, other_y) = machines[first].position_m, machines[second].position_m
         away_m = hypot(x - other_x, y - other_y)
-        least_m = sum(radius_m(studies[name]) for name in (first, second))
+        least_m = sum(_radius_m(studies[name]) for name in (first, second))
         if away_m < least_m:
             yield (
                 f"machines.{second}.position_mm: is {1e3 * away_m:.0f} mm from machines.{first}, "
@@ -148,7 +148,7 @@ def _overlaps(machines: Mapping[str, StudyMachine], studies: Mapping[str, Study]
             )
 
 
-def radius_m(study: Study) -> float:
+def _radius_m(study: Study) -> float:
     """Return the largest radius of the shell of a study's machine, m."""
     return float(study.machine.shell.profile.radius_m)
 

@@ -214,6 +214,7 @@ def test_a_copied_folder_scores_csv_and_json(tmp_path):
         ("gone.csv", None, "gone.csv: cannot be read"),
         ("empty.csv", "", "empty.csv: must have at least one row"),
         ("short.csv", "case,key,value\na,b,1\n", "short.csv: row 1: unit = missing"),
+        ("valueless.csv", "case,key,unit\na,b,N\n", "valueless.csv: row 1: value = missing"),
         ("broken.json", "[", "broken.json: cannot be read"),
         ("number.json", "[3]", "number.json: row 1: case = missing"),
         ("object.json", "{}", "object.json: must have at least one row"),

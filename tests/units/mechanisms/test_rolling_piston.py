@@ -31,7 +31,11 @@ from vibroacoustics.mechanisms.rolling_piston.roller import (
     journal_drag_n_m_s,
     roller_inertia_kg_m2,
 )
-from vibroacoustics.mechanisms.rolling_piston.vane import pressing_force_n, vane_flight
+from vibroacoustics.mechanisms.rolling_piston.vane import (
+    jump_speed_rad_per_s,
+    pressing_force_n,
+    vane_flight,
+)
 from vibroacoustics.sources.cases import added_by
 from vibroacoustics.transfer.machine import on_mounts
 
@@ -292,6 +296,7 @@ def test_vane_leaves_above_its_jump_speed_and_not_below() -> None:
     bound = np.min(spring[follows] / (machine.vane.mass_kg * extension[2, follows]))
     assert bound <= at_start
     jump = float(np.sqrt(bound))
+    assert jump_speed_rad_per_s(machine, spring, extension[2]) == pytest.approx(jump)
     below, landings = vane_flight(machine, spring, extension, 0.99 * jump)
     assert np.all(np.isnan(below))
     assert landings.impulse_n_s.size == 0

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.units import si_key
-from ...machine.combination import Combination
+from ...machine.combination import members_by_name
 from ...machine.machine import Machine
 from ...machine.option import Option
 from ...study.study import Study
@@ -138,9 +138,8 @@ def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:
     """Closed forms of an option, or of those that it joins, of variables that are its values."""
     joined = space.study.options[option]
     machine = joined.applied_to(space.study.machine)
-    names = joined.names if isinstance(joined, Combination) else (option,)
-    each = zip(names, joined.members, strict=True)
-    return tuple(form for member in each for form in _closed_form(space, *member, machine))
+    members = members_by_name(option, joined).items()
+    return tuple(form for member in members for form in _closed_form(space, *member, machine))
 
 
 def _closed_form(space: Space, option: str, given: Option, machine: Machine) -> tuple[Basis, ...]:

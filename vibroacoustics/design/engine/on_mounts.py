@@ -10,8 +10,8 @@ from ...base.errors import ParameterError
 from ...levels.by_source import gain_band_number
 from .deviating import Gains, WeightedLines
 from .hearing import HEARING, hearing_of
-from .response import a_weight, displacement, foot_force, natural_modes, pressure, size_of_vector
-from .seen import PAIRED, Need
+from .response import a_weight, displacement, foot_forces, natural_modes, pressure, size_of_vector
+from .seen import Need
 from .sound_way import SoundWay
 
 Arrays = Mapping[str, ComplexArray]
@@ -102,7 +102,7 @@ def seen_of(
         if need in HEARING:
             continue
         parts = [_at_speed(need, *speed, body) for speed in zip(lines, by_speed, strict=True)]
-        axis = 2 if need.what in PAIRED else 1
+        axis = 2 if need.what == "sound" else 1
         every = [np.broadcast_to(part, (n, *part.shape[1:])) for part in parts]
         seen[need] = np.stack(every, axis=axis)
     hearing = [need for need in needs if need in HEARING]
@@ -169,7 +169,7 @@ def _at_speed(need: Need, lines: Lines, arrays: Arrays, body: Arrays) -> Array:
     wrench = arrays["wrench"][:, row[0]]
     if need.what == "foot":
         added = {name: arrays[name] for name in ADDED if name in arrays}
-        return foot_force(body, added, wrench, lines.frequency_hz, row)
+        return size_of_vector(foot_forces(body, added, wrench, lines.frequency_hz, row))
     on_mechanism = wrench.reshape(len(wrench), -1, 6).sum(axis=1)  # no other body is loaded
     return size_of_vector(on_mechanism[:, :3] if need.what == "force" else on_mechanism[:, 3:])
 

@@ -94,22 +94,6 @@ def size_of_vector(vector: ComplexArray) -> Array:
     return semi_major_axis(vector, axis=-1)
 
 
-def foot_force(
-    body: Mapping[str, ComplexArray],
-    added: Mapping[str, ComplexArray],
-    wrench: ComplexArray,
-    frequency_hz: Array,
-    line: IndexArray,
-) -> Array:
-    """Force of the moving parts into each foot at one line, shape (design, foot), N peak.
-
-    Parameters
-    ----------
-    body, added, wrench, frequency_hz, line : see `foot_forces`
-    """
-    return size_of_vector(foot_forces(body, added, wrench, frequency_hz, line))
-
-
 def foot_forces(
     body: Mapping[str, ComplexArray],
     added: Mapping[str, ComplexArray],

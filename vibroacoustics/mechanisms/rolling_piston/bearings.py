@@ -4,6 +4,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...mechanics.moving_parts import MovingPart, circling, wrenches_of_parts
+from ..oldham_scroll.revolution import counterweight
 from .cycle import RollingPistonCycle, counterweight_moments
 from .parameters import RollingPistonTables
 
@@ -26,8 +27,7 @@ def turning_parts(machine: RollingPistonTables, crank_angle: Array) -> list[Movi
     ends = {"upper_counterweight": planes.upper_height_m,
             "lower_counterweight": planes.lower_height_m}  # fmt: skip
     for (name, height), moment in zip(ends.items(), counterweight_moments(machine), strict=True):
-        mass, side = abs(moment) / planes.radius_m, np.copysign(planes.radius_m, moment)
-        parts.append(circling(name, mass, float(side), height, crank_angle))
+        parts.append(counterweight(name, moment, planes.radius_m, height, crank_angle))
     return parts
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.arrays import Array
+from ...mechanics.crankshaft import acceleration_of
 from ...mechanics.rotation import Rotation, uniform_crank_angle
 from .gas import GasTurn
 from .geometry import gas_force, vane_extension
@@ -115,9 +116,9 @@ def contact_turn(
         No periodic spin is reached.
     """
     cylinder, vane = machine.cylinder, machine.vane
-    angle, (x, slope, bend) = rotation.crank_angle, before.extension
+    angle, (x, slope, _) = rotation.crank_angle, before.extension
     speed = rotation.speed_rad_per_s
-    kinematic = bend * speed**2 + slope * rotation.acceleration_rad_per_s2
+    kinematic = acceleration_of(before.extension, rotation)
     acceleration = np.where(np.isnan(before.flight), kinematic, before.flight)
     axial = pressing_force_n(machine, gas.compression_pa, x) - vane.mass_kg * acceleration
     axial = axial - before.slot_friction_n

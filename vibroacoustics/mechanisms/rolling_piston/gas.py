@@ -30,7 +30,8 @@ class GasTurn(NamedTuple):
     flow_kg_per_s : through the discharge valve, shape (samples,)
     lift_m : of the reed, shape (samples,)
     mass_kg : in the compression chamber with its clearance, shape (samples,)
-    delivered_kg : through the valve in a turn, less what flows back
+    delivered_kg : through the valve from the closing of the suction port to the end of the turn,
+        less what flows back
     leaked_kg : to the suction chamber in a turn
     """
 

@@ -22,7 +22,7 @@ FRICTION = Field(ge=0.0, le=0.5)
 PRESSURE = Field(gt=0.0, le=1e8)
 ANGLE = Field(ge=0.0, le=pi)
 LARGEST_ECCENTRICITY: Final = 0.45
-"""Eccentricity over the bore's radius, above which the roller would not reach the vane."""
+"""Largest eccentricity over the bore's radius; at 0.5 the vane's line would miss the roller."""
 
 
 class Cylinder(Parameters):

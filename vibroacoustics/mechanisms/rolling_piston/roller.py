@@ -148,6 +148,8 @@ def _turn(
             guess = new
             if small:
                 break
+        else:
+            return spin, torque, np.nan
         w = guess
         now = _torque(w, speed[j], axial[j], sine[j], cosine[j], slide[j], constants)
     return spin, torque, w

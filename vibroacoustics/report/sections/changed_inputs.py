@@ -17,7 +17,7 @@ from ...results.alternatives import (
     headline_variables,
     with_alternative,
 )
-from ...results.bands import FINEST_DB, INTERVAL, written
+from ...results.bands import FINEST_DB, INTERVAL, Band, written
 from ...results.estimates import Estimate, effective_samples, estimate, sample_numbers
 from ...results.sample_words import prior_words
 from ...results.stored_study import (
@@ -38,6 +38,9 @@ SOURCE: Final = "dominant source"
 LEVEL: Final = "level"
 OPTIONS: Final = "options"
 VIBRATION: Final = "vibration"
+_NONE: Final = "none"
+_EMPTY: Final = {_NONE, rounding.NOTHING}
+"""Cells of columns that are not shown where all are such."""
 _TERMS: Final = {
     LEVEL: "Level", SOURCE: "Dominant source", OPTIONS: "Options and level",
     VIBRATION: "Options and vibration",
@@ -132,7 +135,16 @@ def _level_claim(reported: Row, row: Row) -> str:
     if row.level is None or reported.level is None:
         return ""
     low, _, high = reported.level
-    return "" if low <= row.level.value <= high else f"{rounding.level(row.level.value)} dB(A)"
+    return (
+        ""
+        if low <= row.level.value <= high
+        else (f"{_written_level(row.level, row).middle_text(rounding.level)} dB(A)")
+    )
+
+
+def _written_level(level: Estimate, row: Row) -> Band:
+    """Return a level with the digits that the samples of its row support."""
+    return written(level, row.sizes[0], FINEST_DB)
 
 
 def flips(reported: Row, row: Row) -> list[str]:
@@ -161,14 +173,14 @@ def flip_list(results: xr.Dataset, rows: Sequence[Row]) -> Definitions:
     for name, term in _TERMS.items():
         if name not in reported.claims:
             continue
-        changed = [
-            f"{alternative_words(results, row.name)}: {row.claims[name]}"
-            for row in others
-            if name in flips(reported, row)
-        ]
-        here = reported.claims[name] and f"Here: {reported.claims[name]}. "
-        words = f"With {'; with '.join(changed)}." if changed else "No input or law below flips it."
-        entries.append(Definition(term, "flips" if changed else "holds", f"{here}{words}"))
+        changed: dict[str, list[str]] = {}
+        for row in others:
+            if name in flips(reported, row):
+                inputs = changed.setdefault(row.claims[name], [])
+                inputs.append(alternative_words(results, row.name))
+        said = [f"{' or '.join(inputs)}: {claim}" for claim, inputs in changed.items()]
+        words = f"With {'; with '.join(said)}." if said else "No input or law below flips it."
+        entries.append(Definition(term, "flips" if said else "holds", words))
     return Definitions(tuple(entries))
 
 
@@ -176,30 +188,40 @@ def headline_table(results: xr.Dataset, rows: Sequence[Row]) -> Table:
     """Return level, dominant source and extreme changes with each input or law."""
     head = (
         "Input or law", "Level, dB(A)", "Dominant source, share of the energy",
-        "Smallest change by an option, dB", "Largest change by an option, dB", "Flips",
+        "Largest decrease by an option, dB", "Largest increase by an option, dB", "Flips",
     )  # fmt: skip
     caption = (
-        f"Headlines with one input or law changed; {catalogue_receiver(results)}, level and share "
-        f"at {nearest_speed(results):g} rpm; {INTERVAL} in brackets"
+        f"One input or law changed; {catalogue_receiver(results)}, level and share at "
+        f"{nearest_speed(results):g} rpm; {INTERVAL} in brackets"
     )
-    cells = tuple(_cells(results, rows[0], row) for row in rows)
-    return Table(caption, head, cells, frozenset({0, 2, 3, 4, 5}))
+    cells = [_cells(results, rows[0], row) for row in rows]
+    kept = [n for n in range(len(head)) if any(row[n] not in _EMPTY for row in cells)]
+    shown = tuple(tuple(row[n] for n in kept) for row in cells)
+    words = frozenset(range(len(kept))) - {1}
+    return Table(caption, tuple(head[n] for n in kept), shown, words)
 
 
 def _cells(results: xr.Dataset, reported: Row, row: Row) -> tuple[str, ...]:
     of_level, of_changes = row.sizes
     level = source = rounding.NOTHING
     if row.level is not None and row.share is not None:
-        level = written(row.level, of_level, FINEST_DB).middle_and_ends(rounding.level)
+        level = _written_level(row.level, row).middle_and_ends(rounding.level)
         share = written(row.share, of_level).in_percent()
         source = f"{source_name(results, row.source)} {share}"
     changes = [
-        f"{option} {written(change, of_changes, FINEST_DB).middle_and_ends(rounding.signed)}"
-        for option, change in row.changes
+        _change_words(option, change, of_changes, sign)
+        for (option, change), sign in zip(row.changes, (-1.0, 1.0), strict=False)
     ] or [rounding.NOTHING] * 2
     if row is reported:
         return (AS_REPORTED, level, source, *changes, rounding.NOTHING)
     return (alternative_words(results, row.name), level, source, *changes, _verdict(reported, row))
+
+
+def _change_words(option: str, change: Estimate, samples: float, sign: float) -> str:
+    """Return an option with its change in dB; none where the change has the other sign."""
+    if sign * change.value < 0.5 * FINEST_DB:
+        return _NONE
+    return f"{option} {written(change, samples, FINEST_DB).middle_and_ends(rounding.signed)}"
 
 
 def _verdict(reported: Row, row: Row) -> str:
@@ -208,8 +230,8 @@ def _verdict(reported: Row, row: Row) -> str:
     few = [size for size in row.sizes if size < LEAST_EFFECTIVE]
     if not few:
         return flipped or "no"
-    what = "" if len(few) == len(row.sizes) else f"{flipped or 'no'}; changes "
-    return f"{what}cannot be computed from these samples (effective size {few[-1]:.0f})"
+    what = "" if len(few) == len(row.sizes) else f"{flipped or 'no'}; changes: "
+    return f"{what}too few samples ({few[-1]:.0f} effective)"
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
@@ -218,10 +240,9 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         flip_list(results, rows),
         headline_table(results, rows),
         Text(
-            "Each row reweights the samples of this run by prior and likelihood with one input or "
-            "law changed. The level flips where its median leaves the interval of the report. "
-            f"An effective sample size below {LEAST_EFFECTIVE:g} is too small; sizes are in "
-            "alternatives.csv.",
+            "Each row reweights the samples of this run, at least "
+            f"{LEAST_EFFECTIVE:g} effective. The level flips where its median leaves the "
+            "interval of the report.",
             "note",
         ),
     ]

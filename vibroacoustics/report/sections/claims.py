@@ -1,6 +1,5 @@
 """Claims of the software that a study leans on: computed values beside references."""
 
-from collections import Counter
 from typing import Final
 
 import xarray as xr
@@ -13,7 +12,7 @@ from ..blocks import Block, Text
 from ..tables import DataTable, Table, columns_of
 from . import Section
 
-SHOWN: Final = 10
+SHOWN: Final = 4
 _COLUMNS: Final = (
     "what", "document", "passage", "reference", "computed", "unit", "tolerance", "share", "kind",
     "verdict", "reason", "test",
@@ -26,28 +25,25 @@ def _rows(results: xr.Dataset) -> tuple[Claim, ...]:
 
 def _blocks(results: xr.Dataset) -> list[Block]:
     rows = _rows(results)
-    kinds = Counter(row.kind for row in rows)
-    counts = ", ".join(f"{number} {kind}" for kind, number in kinds.most_common())
     missed = sum(row.verdict == MISSED for row in rows)
     cells = tuple(
         (
             row.what,
             f"{row.document}, {row.passage}",
-            rounding.significant(row.reference, 4),
-            rounding.significant(row.computed, 4),
+            rounding.significant(row.reference, 5),
+            rounding.significant(row.computed, 5),
             row.unit,
             rounding.fixed(row.share),
         )
         for row in closest(rows, SHOWN)
     )
-    head = ("Claim", "Reference from", "Reference", "Computed", "Unit", "Share")
+    head = ("Claim", "Reference from", "Reference", "Computed", "Unit", "Share of tolerance")
     return [
         Text(
-            f"This study depends on {len(rows)} of {len(claims())} claims of the software that its "
-            f"tests check ({counts}); {missed} are known misses."
+            f"{len(rows)} of {len(claims())} tested claims of the software apply to this study. "
+            f"{missed} printed values are missed, with the reason in claims.csv."
         ),
         Table(f"The {SHOWN} closest to their tolerance", head, cells, frozenset({0, 1, 4})),
-        Text("Share: distance in tolerances. All are in claims.csv, with their tests.", "note"),
     ]
 
 
