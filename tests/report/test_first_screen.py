@@ -349,6 +349,22 @@ def test_the_word_on_a_change_follows_interval_and_probabilities(
     assert first_screen.largest(one) == 1
 
 
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (changed(1.3, 0.6, 2.0, 0.9, 0.0), "twin raises it: +1.3 dB (+0.6 to +2.0)."),
+        (changed(1.0, 0.0, 2.0, 0.6, 0.0), "twin may raise it: +1.0 dB (0.0 to +2.0)."),
+        (changed(-2.0, -9.0, 9.0, 0.6, 0.6), "twin may raise or lower it: −2.0 dB (−9.0 to +9.0)."),
+    ],
+)
+def test_a_claim_says_which_way_an_option_may_change_the_level(
+    results: xr.Dataset, change: Shift, words: str
+) -> None:
+    speeds = results.isel(speed=[0]).reindex(speed=[1.0, results.speed.item(0)])
+    claim = first_screen._claim(speeds, {"twin": change}, ["twin"], "raise")
+    assert claim.replace("\N{NO-BREAK SPACE}", " ") == words
+
+
 def test_parts_of_the_level_are_those_of_the_results(sampled: xr.Dataset) -> None:
     chart = first_screen.contributions(sampled)
     rows = {row.name: row for row in chart.rows}

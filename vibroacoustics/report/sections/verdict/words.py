@@ -221,7 +221,10 @@ def _claim(
     if not names:
         return ""
     first, *others = names
-    does = f"may {verb}" if word(shifts[first]) == "uncertain" else f"{verb}s"
+    if shifts[first].improves and shifts[first].worsens:  # at different speeds
+        does = "may raise or lower"
+    else:
+        does = f"may {verb}" if word(shifts[first]) == "uncertain" else f"{verb}s"
     too = f"{len(others)} others" if len(others) > 1 else "".join(others)
     too = f", {too} too" if too else ""
     return f"{first} {does} it: {_largest_change(results, shifts[first], 'dB')}{too}."
