@@ -63,10 +63,11 @@ class OneWaySprings(Option):
         oscillator, samples = self.oscillator(revolution.speed_rpm), rotation.crank_angle.size
         wide, rates = stretch(oscillator, 2 * samples)
         along = ring.stroke_m * (np.cos(np.pi * np.arange(2 * samples) / samples) + wide)
-        right, left = along[::2], -np.roll(along, -samples)[::2]
+        right, returning = along[::2], -np.roll(along, -samples)[::2]
         height = ring.height_m - self.height_below_ring_m
         parts = tuple(
-            MovingPart("balancer", 0.5 * self.mass_kg, path(x, 0.0, height)) for x in (right, left)
+            MovingPart("balancer", 0.5 * self.mass_kg, path(x, 0.0, height))
+            for x in (right, returning)
         )
         angular = 2.0 * np.pi * shaft_frequency_hz(revolution.speed_rpm)
         slip = ring.stroke_m * angular * rates

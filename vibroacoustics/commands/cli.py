@@ -41,8 +41,8 @@ for _name, _command in COMMANDS.items():
     app.command(_name, cls=HelpedCommand)(_command.typed())
 
 
-def _print_version(asked: bool) -> None:
-    if asked:
+def _print_version(requested: bool) -> None:
+    if requested:
         from importlib.metadata import version
 
         typer.echo(f"vibroacoustics {version('vibroacoustics')}")

@@ -135,8 +135,8 @@ def export_forces(results: xr.Dataset, path: str | Path, option: str = REFERENCE
     if Path(path).suffix.lower() != ".csv":
         raise ParameterError(f"{path}: must end in .csv")
     if option not in results["option"].values:
-        known = ", ".join(map(str, results["option"].values))
-        raise ParameterError(f"option = {option}: unknown; the results have {known}")
+        listed = ", ".join(map(str, results["option"].values))
+        raise ParameterError(f"option = {option}: unknown; the results have {listed}")
     return _written(Path(path), forces_csv(results, option))
 
 

@@ -35,14 +35,14 @@ def read_files(
     ]
 
 
-def _of_file(given: list[str] | None, stem: str, stems: Sequence[str]) -> list[str] | None:
+def _of_file(texts: list[str] | None, stem: str, stems: Sequence[str]) -> list[str] | None:
     chosen = []
-    for text in given or ():
-        file, colon, rest = text.partition(":")
+    for text in texts or ():
+        file, colon, receiver = text.partition(":")
         if not (colon and file in stems):
             chosen.append(text)
         elif file == stem:
-            chosen.append(rest)
+            chosen.append(receiver)
     return chosen or None
 
 

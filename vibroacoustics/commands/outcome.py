@@ -134,9 +134,9 @@ def _with_further(files: Mapping[str, Path]) -> dict[str, Path]:
     for label, path in files.items():
         prefix = label.rpartition("/")[0]
         for name in manifest.together(path.parent, path.name) | {path.name}:
-            known = path.parent / name
-            if known not in files.values() or name.endswith(".csv"):
-                further[f"{prefix}/{name}".lstrip("/")] = known
+            written = path.parent / name
+            if written not in files.values() or name.endswith(".csv"):
+                further[f"{prefix}/{name}".lstrip("/")] = written
     return {**files, **dict(sorted(further.items()))}
 
 

@@ -236,10 +236,10 @@ def write_report_again(
 
 def older_files(folder: Path) -> list[str]:
     """Files of a report that are of another run or of nobody knows which, a line each."""
-    mixed, known = manifest.mixed(folder), manifest.listed(folder)
+    mixed, listed = manifest.mixed(folder), manifest.listed(folder)
     present = {p.relative_to(folder).as_posix() for name in REPORT_FILES for p in folder.glob(name)}
     named = {line.partition(": ")[0] for line in mixed}
-    strange = [path for name in sorted(present - known) if str(path := folder / name) not in named]
+    strange = [path for name in sorted(present - listed) if str(path := folder / name) not in named]
     return [*mixed, *(f"{path}: is not of these results" for path in strange)]
 
 

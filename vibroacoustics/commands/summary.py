@@ -74,8 +74,8 @@ def cost_lines(cost: RunCost) -> Iterator[str]:
         if cost.was_cached
         else f"radiation: is computed, {cost.radiation_bytes / 1e6:.0f} MB of memory"
     )
-    for one in cost.costs:
-        yield f"  {span(one.low_s, one.high_s):>14}  {one.name}: {one.how}"
+    for part in cost.costs:
+        yield f"  {span(part.low_s, part.high_s):>14}  {part.name}: {part.how}"
     cores = processors()
     yield (
         f"time: {span(cost.low_s, cost.high_s)} of processor time; "

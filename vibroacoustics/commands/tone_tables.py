@@ -142,8 +142,8 @@ def _audibility(tones: xr.Dataset, name: str) -> str:
 def _tone(tone: Tone, channel: str) -> tuple[Cell, ...]:
     """Row of a tone."""
     name, hertz, level, *ratios = tone_row(tone)
-    at = {"channel": channel, "frequency_hz": tone.frequency_hz}
-    number = Number(tone.level_db, "dB", "recorded_tone_level", at, text=level)
+    coordinates = {"channel": channel, "frequency_hz": tone.frequency_hz}
+    number = Number(tone.level_db, "dB", "recorded_tone_level", coordinates, text=level)
     times = f"{100.0 * tone.share:.0f}", rounding.fixed(tone.swing_db)
     return (name, hertz, number, *ratios, *times, _which(tone))
 

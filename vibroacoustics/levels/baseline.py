@@ -78,15 +78,17 @@ def with_baseline(
     sound : of every case
     remaining : unmodelled noise in `REMAINDER_BANDS`, shape (speed, option, receiver, band), Pa²
     """
-    left: Array = remaining.sum(axis=3)
+    unmodelled: Array = remaining.sum(axis=3)
     for (receiver, speed), point in points.items():
-        at = axes.speeds.index(speed), slice(None), axes.receivers.index(receiver)
+        row = axes.speeds.index(speed), slice(None), axes.receivers.index(receiver)
         changed = _changed(study, axes, (receiver, speed), point, sound)
         elsewhere = ~np.isin(_UNMODELLED_COLUMNS, point.band)
-        left[at] = remaining[at] @ elsewhere + changed.rest @ _a_weight(MIDDLE_HZ[point.band])
+        unmodelled[row] = remaining[row] @ elsewhere + changed.rest @ _a_weight(
+            MIDDLE_HZ[point.band]
+        )
         weight = _a_weight(point.frequency_hz)
-        left[at] += (changed.order - changed.modelled_order) @ weight
-    return left
+        unmodelled[row] += (changed.order - changed.modelled_order) @ weight
+    return unmodelled
 
 
 def over_baseline(
@@ -184,12 +186,12 @@ def _changed(
     order = np.array([case.order_total[column, chosen] for case in cases])
     losses = [study.options[name].insertion_loss() for name in axes.options]
     middle_hz, hertz = MIDDLE_HZ[point.band], point.frequency_hz
-    by_band = [1.0 if one is None else one.power_factor(middle_hz) for one in losses]
-    by_order = [1.0 if one is None else one.amplitude_factor(hertz) for one in losses]
-    rest = left_of_squares(point.rest, none.beside_total[column, point.band])
-    factor = np.array([one * np.ones(hertz.size) for one in by_order])
+    by_band = [1.0 if loss is None else loss.power_factor(middle_hz) for loss in losses]
+    by_order = [1.0 if loss is None else loss.amplitude_factor(hertz) for loss in losses]
+    unmodelled = left_of_squares(point.rest, none.beside_total[column, point.band])
+    factor = np.array([gain * np.ones(hertz.size) for gain in by_order])
     return Changed(
-        np.array([rest * one for one in by_band]),
+        np.array([unmodelled * gain for gain in by_band]),
         beside,
         changed_orders(
             point.peak, none.order_total[column, chosen], order, factor, point.has_phase

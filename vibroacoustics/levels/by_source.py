@@ -197,7 +197,9 @@ def source_sound(
         part[:, random.source] += loud
         in_band = a_weight_by_band(random.frequency_hz)
         mutual[random.source, random.source] += random.power @ in_band
-    return SourceSound(band, weighted, part, mutual, np.array([one.middle_hz for one in bands]))
+    return SourceSound(
+        band, weighted, part, mutual, np.array([third_octave.middle_hz for third_octave in bands])
+    )
 
 
 def a_weight_by_band(frequency_hz: Array) -> Array:

@@ -31,17 +31,17 @@ def noise_levels(
         band), Pa²
     """
     noise = np.array([[_noise(received[s, o], axes) for o in axes.options] for s in axes.speeds])
-    rest = unmodelled_in_bands(remaining)
+    unmodelled = unmodelled_in_bands(remaining)
     bands = {"noise_band": [band.nominal_hz for band in BASELINE_BANDS]}
     lines = [[_lines(received[s, o]) for o in axes.options] for s in axes.speeds]
     sources = np.array(lines) + noise
     values = {
         "noise_band_level": level(noise),
         "sources_band_level": level(sources),
-        "unmodelled_band_level": level(rest),
+        "unmodelled_band_level": level(unmodelled),
     }
     if not axes.measured_orders:
-        values["total_band_level"] = level(sources + rest)
+        values["total_band_level"] = level(sources + unmodelled)
     return stamped(values, axes.by_receiver | bands)
 
 
@@ -52,9 +52,9 @@ def unmodelled_in_bands(remaining: Array) -> Array:
     ----------
     remaining : A-weighted, in `REMAINDER_BANDS`, shape (..., band), Pa²
     """
-    rest = np.zeros((*remaining.shape[:-1], len(BASELINE_BANDS)))
-    rest[..., _OF_REMAINDER] = remaining / weighting_power("A", MIDDLE_HZ[_OF_REMAINDER])
-    return rest
+    unmodelled = np.zeros((*remaining.shape[:-1], len(BASELINE_BANDS)))
+    unmodelled[..., _OF_REMAINDER] = remaining / weighting_power("A", MIDDLE_HZ[_OF_REMAINDER])
+    return unmodelled
 
 
 def _lines(sound: ReceivedSound) -> Array:

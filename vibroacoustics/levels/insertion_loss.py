@@ -43,5 +43,5 @@ def remaining_factor(options: Mapping[str, Option], frequency_hz: Array) -> Arra
     frequency_hz : middle of the bands, shape (band,)
     """
     losses = [option.insertion_loss() for option in options.values()]
-    left = [1.0 if loss is None else loss.power_factor(frequency_hz) for loss in losses]
-    return np.array([np.ones(len(frequency_hz)) * factor for factor in left])
+    factors = [1.0 if loss is None else loss.power_factor(frequency_hz) for loss in losses]
+    return np.array([np.ones(len(frequency_hz)) * factor for factor in factors])

@@ -127,11 +127,11 @@ def with_measured(levels: Array, measured: Array, orders: Sequence[float]) -> Ar
     measured : of some orders, shape (..., measured order), dB; not a number where not measured
     orders : that were measured
     """
-    known = [n for n, one in enumerate(orders) if one in range(levels.shape[-1])]
-    columns = [int(orders[n]) for n in known]
+    numbers = [n for n, order in enumerate(orders) if order in range(levels.shape[-1])]
+    columns = [int(orders[n]) for n in numbers]
     together = levels.copy()
-    there = np.isfinite(measured[..., known])
-    together[..., columns] = np.where(there, measured[..., known], levels[..., columns])
+    is_measured = np.isfinite(measured[..., numbers])
+    together[..., columns] = np.where(is_measured, measured[..., numbers], levels[..., columns])
     return np.asarray(together)
 
 

@@ -23,8 +23,8 @@ def order_columns(received: ReceivedSound, orders: int) -> tuple[IndexArray, Ind
         for column, name in enumerate(received.lines.names)
         if name.startswith(_ORDER)
     }
-    order = np.array([one for one in columns if one < orders], dtype=np.intp)
-    return order, np.array([columns[one] for one in order.tolist()], dtype=np.intp)
+    order = np.array([column for column in columns if column < orders], dtype=np.intp)
+    return order, np.array([columns[number] for number in order.tolist()], dtype=np.intp)
 
 
 def with_order_levels(lines: xr.Dataset, order_level: xr.DataArray) -> xr.Dataset:

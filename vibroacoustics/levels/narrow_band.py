@@ -56,9 +56,9 @@ def taken_apart(
     bands : of the result
     """
     step = float(frequency_hz[1] - frequency_hz[0])
-    rest = np.array(mean_square, dtype=float)
+    noise = np.array(mean_square, dtype=float)
     half = [_half_width(tone, tone_hz, lobe_lines, step) for tone in tone_hz.tolist()]
-    tonal = np.zeros(rest.size, dtype=bool)
+    tonal = np.zeros(noise.size, dtype=bool)
     for tone, width in zip(tone_hz.tolist(), half, strict=True):
         tonal |= np.abs(frequency_hz - tone) <= width * step
     power = np.full(tone_hz.size, np.nan)
@@ -68,10 +68,10 @@ def taken_apart(
         if width == 0.0 or floor is None:
             continue
         power[number] = max(float(np.sum(mean_square[lines] - floor)), 0.0)
-        rest[lines] = floor
+        noise[lines] = floor
     share = _shares(frequency_hz, step, bands)
     return TakenApart(
-        power / noise_bandwidth_lines, np.asarray(share @ rest) / noise_bandwidth_lines
+        power / noise_bandwidth_lines, np.asarray(share @ noise) / noise_bandwidth_lines
     )
 
 

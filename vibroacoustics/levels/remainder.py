@@ -46,14 +46,14 @@ def remainder(
         return 0.0
     receiver = list(axes.receivers).index(study.catalogue_receiver)
     alone = sound[study.catalogue_case].total[0, receiver]
-    rest = REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba) - alone
-    if rest <= 0.0 and not may_be_none:
+    unmodelled = REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba) - alone
+    if unmodelled <= 0.0 and not may_be_none:
         level = mean_square_level(alone, REFERENCE_PRESSURE_PA)
         raise ParameterError(
             f"machine: overall_noise.level_dba = {published.level_dba:g} dB(A): the model alone "
             f"gives {level:.1f} dB(A) at {study.catalogue_receiver}"
         )
-    return float(max(rest, 0.0))
+    return float(max(unmodelled, 0.0))
 
 
 def remaining(study: Study, axes: LevelAxes, machine: Machine, noise: Array) -> Array:

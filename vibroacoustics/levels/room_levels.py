@@ -64,8 +64,8 @@ class AirInRoom:
         gains : mean square per power, shape (listener, band), Pa²/W
         """
         study, axes, receiver = nominal.study, nominal.axes, nominal.study.catalogue_receiver
-        rest = rest_in_bands(results, receiver)
-        rest_power = power_of_hemisphere(rest, study.receivers[receiver].distance_m)
+        unmodelled = rest_in_bands(results, receiver)
+        rest_power = power_of_hemisphere(unmodelled, study.receivers[receiver].distance_m)
         rest_band = rest_power[:, :, None, :] * gains
         coords = {
             "speed": list(axes.speeds),
@@ -121,7 +121,9 @@ def air_variables(air: AirInRoom) -> xr.Dataset:
         "room_noise_band_level": level(air.noise_band),
         "room_sound_power_level": power_level(air.power_band),
     }
-    return stamped(values, {**air.coords, "noise_band": [one.nominal_hz for one in BASELINE_BANDS]})
+    return stamped(
+        values, {**air.coords, "noise_band": [band.nominal_hz for band in BASELINE_BANDS]}
+    )
 
 
 def line_variables(sound: Mapping[CaseKey, RoomSound], results: xr.Dataset) -> xr.Dataset:
@@ -131,8 +133,8 @@ def line_variables(sound: Mapping[CaseKey, RoomSound], results: xr.Dataset) -> x
     pressure = np.zeros(tuple(map(len, coords.values())), dtype=complex)
     for s, speed in enumerate(coords["speed"]):
         for o, option in enumerate(coords["option"]):
-            one = sound[float(speed), str(option)]
-            pressure[s, o][:, [column[name] for name in one.line]] = one.pressure
+            of_case = sound[float(speed), str(option)]
+            pressure[s, o][:, [column[name] for name in of_case.line]] = of_case.pressure
     return stamped({"room_pressure_line": pressure}, coords)
 
 
@@ -163,8 +165,8 @@ def plate_variables(results: xr.Dataset, plate_per_power: Callable[[Array], Arra
     values = {"room_plate_level": by_plate, "room_plate_line_level": level(of_lines)}
     for end in ("low", "high"):
         of_end = results[f"structure_borne_level_{end}"].isel(receiver=0) - span
-        over = of_end.transpose("speed", "option").values[..., None]
-        values[f"room_plate_level_{end}"] = by_plate + over
+        difference = of_end.transpose("speed", "option").values[..., None]
+        values[f"room_plate_level_{end}"] = by_plate + difference
     by_air = results["room_level"]
     values["room_level_both_ways"] = energy_sum(np.stack([by_air.values, by_plate]), axis=0)
     return stamped(values, {**_coordinates(by_air), "line": results["line"].values})

@@ -25,16 +25,16 @@ def rest_in_bands(results: xr.Dataset, receiver: str) -> Array:
     receiver : at which the machine's noise is published
     """
     unmodelled = results["unmodelled_band_level"].sel(receiver=receiver)
-    rest = _square(unmodelled.transpose("speed", "option", "noise_band"))
+    unmodelled_pa2 = _square(unmodelled.transpose("speed", "option", "noise_band"))
     if "baseline_band_level" in results:
-        there = results["baseline_band_level"].sel(receiver=receiver)
-        measured = _square(there.transpose("speed", "option", "baseline_band"))
-        over = np.maximum(measured - _modelled(results, receiver), 0.0)
-        rest = np.where(np.isfinite(measured), over, rest)
+        levels = results["baseline_band_level"].sel(receiver=receiver)
+        measured = _square(levels.transpose("speed", "option", "baseline_band"))
+        excess = np.maximum(measured - _modelled(results, receiver), 0.0)
+        unmodelled_pa2 = np.where(np.isfinite(measured), excess, unmodelled_pa2)
     wanted = beside_model(results, receiver)
-    loud = rest @ _A
+    loud = unmodelled_pa2 @ _A
     factor = np.where(loud > 0.0, wanted / np.where(loud > 0.0, loud, 1.0), 0.0)
-    return np.asarray(rest * factor[..., None])
+    return np.asarray(unmodelled_pa2 * factor[..., None])
 
 
 def beside_model(results: xr.Dataset, receiver: str) -> Array:
@@ -52,8 +52,8 @@ def _modelled(results: xr.Dataset, receiver: str) -> Array:
     pressure = results["pressure_line"].sel(receiver=receiver).sum("sound_source")
     square = 0.5 * np.abs(pressure.transpose("speed", "option", "line").values) ** 2
     frequency = results["tone_frequency"].transpose("speed", "line").values
-    there = results["noise_band_level"].sel(receiver=receiver)
-    bands = _square(there.transpose("speed", "option", "noise_band"))
+    levels = results["noise_band_level"].sel(receiver=receiver)
+    bands = _square(levels.transpose("speed", "option", "noise_band"))
     for number, row in enumerate(np.nan_to_num(frequency)):
         bands[number] += square[number] @ membership(row, BASELINE_BANDS)
     return bands

@@ -100,7 +100,7 @@ def line_difference(pressure: xr.DataArray, closed_form: xr.DataArray) -> xr.Dat
     """
     dims = VARIABLES["line_difference"].dims
     computed, exact = (
-        sound_pressure_level(one.transpose(*dims).values) for one in (pressure, closed_form)
+        sound_pressure_level(field.transpose(*dims).values) for field in (pressure, closed_form)
     )
     coords = {name: pressure[name].values for name in dims}
     return stamped({"line_difference": computed - exact}, coords)

@@ -118,8 +118,8 @@ def level_range(variance: Array, deviation_db: float) -> tuple[Array, Array]:
 
 def weight_of(weighting: str, frequency_hz: Array) -> Array:
     """Factor of a weighting on mean squares; none where there is no line."""
-    there = np.nan_to_num(frequency_hz) > 0.0
-    return weighting_power(weighting, np.where(there, frequency_hz, 1.0)) * there
+    is_line = np.nan_to_num(frequency_hz) > 0.0
+    return weighting_power(weighting, np.where(is_line, frequency_hz, 1.0)) * is_line
 
 
 def _level(mean_square: Array) -> Array:

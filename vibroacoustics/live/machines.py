@@ -47,14 +47,17 @@ class Machines:
 
 def machines_of(results: xr.Dataset) -> Machines | None:
     """From the parameters that a run kept; none of another version or a stranger's."""
-    strangers = json.loads(results.attrs.get("plugins", "{}"))
-    if any(name.startswith("kind of ") for name in strangers):
+    third_party = json.loads(results.attrs.get("plugins", "{}"))
+    if any(name.startswith("kind of ") for name in third_party):
         return None  # the report is the same with and without the files of a plug-in
     kept = parameters(results)
     try:
         machine = _read(AnyMachine, kept["machine"])
-        known = {name: _read(AnyOption, kept["options"][name]) for name in options(results)}
-        return Machines(known, {name: one.built_into(machine) for name, one in known.items()})
+        kept_options = {name: _read(AnyOption, kept["options"][name]) for name in options(results)}
+        return Machines(
+            kept_options,
+            {name: option.built_into(machine) for name, option in kept_options.items()},
+        )
     except (ValidationError, ParameterError, KeyError):
         return None
 

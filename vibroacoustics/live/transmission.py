@@ -40,8 +40,8 @@ class Transmission:
         """Whether the machines, as they are read, move under these loads as they did in the run."""
         for number, name in enumerate(machines.machine):
             stand = machines.different[machines.number(name)]
-            moved = velocity_per_load(stand, self.frequency_hz)
-            again = np.einsum("sdln,sln->sdn", moved, self.load[:, number])
+            velocity = velocity_per_load(stand, self.frequency_hz)
+            again = np.einsum("sdln,sln->sdn", velocity, self.load[:, number])
             if not _same(again, self.velocity[:, number]):
                 return False
         return True
@@ -113,6 +113,6 @@ def _taken(load: ComplexArray) -> Array:
     return np.maximum.accumulate(loaded[:, ::-1], axis=1)[:, ::-1].astype(float)
 
 
-def _same(one: ComplexArray, other: ComplexArray) -> bool:
+def _same(first: ComplexArray, other: ComplexArray) -> bool:
     size = np.max(np.abs(other), initial=0.0)
-    return bool(np.max(np.abs(one - other), initial=0.0) <= SAME * size)
+    return bool(np.max(np.abs(first - other), initial=0.0) <= SAME * size)

@@ -114,9 +114,11 @@ class FloorMobility(FileTable):
         frequency_hz : at least zero, shape (...)
         """
         rows = [row for row, name in enumerate(self.foot) if name in ("", foot)]
-        known = np.array(self.frequency_hz)[rows]
+        frequencies = np.array(self.frequency_hz)[rows]
         lateral, vertical = (
-            _over_frequency(frequency_hz, known, np.array(amplitude)[rows], np.array(phase)[rows])
+            _over_frequency(
+                frequency_hz, frequencies, np.array(amplitude)[rows], np.array(phase)[rows]
+            )
             for amplitude, phase in (
                 (self.lateral_m_per_ns, self.lateral_phase_rad),
                 (self.vertical_m_per_ns, self.vertical_phase_rad),
@@ -134,11 +136,13 @@ def _mobility(numbers: dict[str, Array], axis: str, omega: Array) -> tuple[Array
     return numbers.get(f"{axis}_mobility_m_per_ns", nothing), phase
 
 
-def _over_frequency(at: Array, known: Array, amplitude: Array, phase: Array) -> ComplexArray:
+def _over_frequency(
+    frequency_hz: Array, rows_hz: Array, amplitude: Array, phase: Array
+) -> ComplexArray:
     """Receptance of a mobility that is linear from zero at 0 Hz; its real part at 0 Hz."""
     mobility = np.concatenate([[0.0], amplitude * np.exp(1j * phase)])
-    frequency = np.asarray(at, dtype=float)
-    static = mobility[1] / (2j * np.pi * known[0])  # below the first row the floor is a spring
+    frequency = np.asarray(frequency_hz, dtype=float)
+    static = mobility[1] / (2j * np.pi * rows_hz[0])  # below the first row the floor is a spring
     moving = np.where(frequency > 0.0, frequency, 1.0)
-    values = np.interp(moving, np.concatenate([[0.0], known]), mobility) / (2j * np.pi * moving)
+    values = np.interp(moving, np.concatenate([[0.0], rows_hz]), mobility) / (2j * np.pi * moving)
     return np.where(frequency > 0.0, values, max(static.real, 0.0))

@@ -66,10 +66,10 @@ class MountStiffness(FileTable):
             _linear(frequency, self.frequency_hz, np.array(stiffness) * (1.0 + loss))
             for stiffness in (self.lateral_n_per_m, self.vertical_n_per_m)
         )
-        both = np.stack([lateral, lateral, vertical], axis=-1)
-        return np.asarray(np.where(frequency[..., None] > 0.0, both, both.real))
+        stiffness = np.stack([lateral, lateral, vertical], axis=-1)
+        return np.asarray(np.where(frequency[..., None] > 0.0, stiffness, stiffness.real))
 
 
-def _linear(at: Array, known: tuple[float, ...], values: ComplexArray) -> ComplexArray:
+def _linear(frequency_hz: Array, rows_hz: tuple[float, ...], values: ComplexArray) -> ComplexArray:
     """Linear between known points, held beyond the ends."""
-    return np.asarray(np.interp(at, known, values))
+    return np.asarray(np.interp(frequency_hz, rows_hz, values))

@@ -52,8 +52,10 @@ def assemble(settings: Measured, names: Sequence[str], folder: Path) -> Bench:
     points = [node_of(settings.points[name]) for name in names]
     nodes = [unsigned(point) for point in points]
     microphones = [node_of(microphone) for microphone in settings.microphones.values()]
-    compliance = [[library.response(one, other, "m") for other in nodes] for one in nodes]
-    transfer = [[library.response(one, other, "Pa") for other in nodes] for one in microphones]
+    compliance = [[library.response(node, other, "m") for other in nodes] for node in nodes]
+    transfer = [
+        [library.response(microphone, other, "Pa") for other in nodes] for microphone in microphones
+    ]
     response = [library.operating(node, "m") for node in nodes]
     pressure = [library.operating(node, "Pa") for node in microphones]
     values, errors = library.estimates

@@ -17,7 +17,7 @@ _GOOD_ENOUGH: Final = 1.01
 """The least truncation is taken whose error is within this factor of the least error."""
 
 
-def amplitude_band(estimate: ComplexArray, drawn: ComplexArray) -> tuple[Array, Array]:
+def amplitude_band(estimate: ComplexArray, sampled: ComplexArray) -> tuple[Array, Array]:
     """Amplitudes whose noise gives the estimate or less, and or more, with 5 % each.
 
     The error of a response is, to first order in errors of measured complex values, complex
@@ -30,28 +30,28 @@ def amplitude_band(estimate: ComplexArray, drawn: ComplexArray) -> tuple[Array, 
     Parameters
     ----------
     estimate : complex, any shape
-    drawn : estimates of measurements drawn again, shape (draw, ...)
+    sampled : estimates of measurements drawn again, shape (draw, ...)
 
     Returns
     -------
     lower and upper limits, the shape of the estimate
     """
-    variance = np.median(np.abs(drawn - estimate) ** 2, axis=0) / np.log(2.0)
+    variance = np.median(np.abs(sampled - estimate) ** 2, axis=0) / np.log(2.0)
     half = np.maximum(variance, np.finfo(float).tiny) / 2.0
     size = np.abs(estimate) ** 2 / half
     # far above the noise the normal distribution is the limit, and χ² loses its digits
     far = size > 1e6
-    at = np.where(far, 1.0, size)
+    bounded = np.where(far, 1.0, size)
     limits = []
     for probability, normal in ((0.5 + SHARE / 2.0, -1.0), (0.5 - SHARE / 2.0, 1.0)):
-        inner = chndtr(at, 2.0, 0.0) < probability
-        power = np.where(inner, 0.0, chndtrinc(np.where(inner, 9.0, at), 2.0, probability))
+        inner = chndtr(bounded, 2.0, 0.0) < probability
+        power = np.where(inner, 0.0, chndtrinc(np.where(inner, 9.0, bounded), 2.0, probability))
         near = np.sqrt(power * half)
         limits.append(np.where(far, np.abs(estimate) + normal * 1.645 * np.sqrt(half), near))
     return np.minimum(limits[0], np.abs(estimate)), np.maximum(limits[1], np.abs(estimate))
 
 
-def power_band(estimate: Array, drawn: Array) -> tuple[Array, Array]:
+def power_band(estimate: Array, sampled: Array) -> tuple[Array, Array]:
     """Band of a sum of powers, or of a ratio of such sums, not below zero.
 
     Quantiles of the draws, reflected at the estimate: draws lie above the estimate by the power of
@@ -61,14 +61,14 @@ def power_band(estimate: Array, drawn: Array) -> tuple[Array, Array]:
     Parameters
     ----------
     estimate : any shape
-    drawn : shape (draw, ...)
+    sampled : shape (draw, ...)
     """
-    low, high = np.quantile(drawn, [0.5 - SHARE / 2.0, 0.5 + SHARE / 2.0], axis=0)
+    low, high = np.quantile(sampled, [0.5 - SHARE / 2.0, 0.5 + SHARE / 2.0], axis=0)
     return np.maximum(2.0 * estimate - high, 0.0), np.maximum(2.0 * estimate - low, 0.0)
 
 
 def truncation_errors(
-    of_measured: ComplexArray, of_draws: Sequence[Callable[[float], ComplexArray]]
+    of_measured: ComplexArray, of_samples: Sequence[Callable[[float], ComplexArray]]
 ) -> Array:
     """Mean error of a line's level for each of `TRIED`, dB, shape (truncation,).
 
@@ -77,12 +77,17 @@ def truncation_errors(
     Parameters
     ----------
     of_measured : predicted without truncation, shape (...)
-    of_draws : each predicts from measurements drawn again, with a truncation
+    of_samples : each predicts from measurements drawn again, with a truncation
     """
     level = sound_pressure_level(of_measured)
     return np.array(
         [
-            np.mean([np.abs(sound_pressure_level(one(share)) - level).mean() for one in of_draws])
+            np.mean(
+                [
+                    np.abs(sound_pressure_level(of_sample(share)) - level).mean()
+                    for of_sample in of_samples
+                ]
+            )
             for share in TRIED
         ]
     )

@@ -56,20 +56,20 @@ class BlockedForces(Parameters):
     def _problems(self) -> Iterator[str]:
         """What names something that is not there or does not fit, or nothing."""
         interface, measured = self.blocked_forces, self.measured
-        both = set(measured.points) & set(measured.microphones)
-        if both:
-            yield f"measured.microphones.{min(both)}: is the name of a point too"
-        for field, known in {
+        in_both_tables = set(measured.points) & set(measured.microphones)
+        if in_both_tables:
+            yield f"measured.microphones.{min(in_both_tables)}: is the name of a point too"
+        for field, names_of_kind in {
             "points": [*measured.points],
             "responses": [*measured.points],
             "validation": [*measured.points, *measured.microphones],
         }.items():
             names: tuple[str, ...] = getattr(interface, field)
             for name in names:
-                if name not in known:
+                if name not in names_of_kind:
                     yield (
                         f"blocked_forces.{field} = {name}: no such point; known are "
-                        f"{', '.join(known)}"
+                        f"{', '.join(names_of_kind)}"
                     )
             if len(set(names)) < len(names):
                 yield f"blocked_forces.{field}: names a point twice"
@@ -90,8 +90,8 @@ class BlockedForces(Parameters):
     def needs_positions(self) -> bool:
         """Whether positions of the points are given or asked for."""
         interface = self.blocked_forces
-        asked = interface.rigid_source or interface.speed_rpm is not None
-        return asked or bool(interface.positions)
+        is_mount_model = interface.rigid_source or interface.speed_rpm is not None
+        return is_mount_model or bool(interface.positions)
 
 
 def load_blocked_forces(path: Path) -> BlockedForces:

@@ -65,10 +65,10 @@ def _solve(matrix: ComplexArray, right: ComplexArray, truncation: float) -> Comp
             return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
         except np.linalg.LinAlgError:
             raise SolverError("the changed structure resonates without damping") from None
-    left, sizes, rows = np.linalg.svd(matrix)
+    left_vectors, sizes, rows = np.linalg.svd(matrix)
     kept = sizes > truncation * sizes[..., :1]
     inverse = np.where(kept, 1.0 / np.where(kept, sizes, 1.0), 0.0)
-    parts = inverse * (left.conj().swapaxes(-1, -2) @ right[..., None])[..., 0]
+    parts = inverse * (left_vectors.conj().swapaxes(-1, -2) @ right[..., None])[..., 0]
     return np.asarray((rows.conj().swapaxes(-1, -2) @ parts[..., None])[..., 0])
 
 

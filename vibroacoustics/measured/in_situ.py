@@ -83,9 +83,9 @@ def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
     """
     interface, measured = settings.blocked_forces, settings.measured
     library = Library(measured, folder)
-    known = measured.points | measured.microphones
+    nodes = measured.points | measured.microphones
     forces, responses, validations = (
-        [node_of(known[name]) for name in names]
+        [node_of(nodes[name]) for name in names]
         for names in (interface.points, interface.responses, interface.validation)
     )
     units = [unit_of(settings, name) for name in interface.validation]
@@ -133,4 +133,7 @@ def wrench_per_force(settings: BlockedForces) -> Array:
         [(-1.0 if along[0] == "-" else 1.0) * float(along[-1] == each) for each in "xyz"]
         for along in directions
     ]
-    return rigid_wrench(np.array([(at.x_m, at.y_m, at.z_m) for at in positions]), np.array(vectors))
+    return rigid_wrench(
+        np.array([(position.x_m, position.y_m, position.z_m) for position in positions]),
+        np.array(vectors),
+    )

@@ -130,16 +130,16 @@ class Prediction(Parameters):
                 yield f"changes.{name}: changes nothing: needs mounts, masses or absorbers"
             for mount in change.mounts:
                 if mount not in self.mounts:
-                    known = ", ".join(self.mounts) or "none"
-                    yield f"changes.{name}.mounts.{mount}: no such mount; known are {known}"
-            added = [(f"masses.{one}", mass.points) for one, mass in change.masses.items()]
-            added += [(f"absorbers.{one}", each.points) for one, each in change.absorbers.items()]
+                    listed = ", ".join(self.mounts) or "none"
+                    yield f"changes.{name}.mounts.{mount}: no such mount; known are {listed}"
+            added = [(f"masses.{key}", mass.points) for key, mass in change.masses.items()]
+            added += [(f"absorbers.{key}", each.points) for key, each in change.absorbers.items()]
             named += [(f"changes.{name}.{part}.points", used) for part, used in added]
         for where, used in named:
             for point in used:
                 if point not in points:
-                    known = ", ".join(points)
-                    yield f"{where} = {point}: no such point; measured.points has {known}"
+                    listed = ", ".join(points)
+                    yield f"{where} = {point}: no such point; measured.points has {listed}"
             if len(set(used)) < len(used):
                 yield f"{where}: names a point twice"
 

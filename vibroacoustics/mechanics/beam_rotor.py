@@ -181,10 +181,10 @@ def with_disc(
 ) -> RotorMatrices:
     """The rotor with a rigid disc at a node (Nelson & McVaugh 1976, eq. 10)."""
     mass, gyroscopic = rotor.mass.copy(), rotor.gyroscopic.copy()
-    at = NODE_FREEDOMS * node + np.arange(NODE_FREEDOMS)
-    mass[at, at] += [mass_kg, mass_kg, transverse_kg_m2, transverse_kg_m2]
-    gyroscopic[at[2], at[3]] += axial_kg_m2
-    gyroscopic[at[3], at[2]] -= axial_kg_m2
+    dofs = NODE_FREEDOMS * node + np.arange(NODE_FREEDOMS)
+    mass[dofs, dofs] += [mass_kg, mass_kg, transverse_kg_m2, transverse_kg_m2]
+    gyroscopic[dofs[2], dofs[3]] += axial_kg_m2
+    gyroscopic[dofs[3], dofs[2]] -= axial_kg_m2
     return RotorMatrices(mass, gyroscopic, rotor.stiffness)
 
 

@@ -84,8 +84,8 @@ class Bilinear:
         """A step that changes sides: state after it and derivative by the state before."""
 
         def at(time: float) -> Array:
-            moved = expm(self._system(stiff) * time) @ apart
-            return np.asarray(moved + self._particular(stiff, angle + time))
+            homogeneous = expm(self._system(stiff) * time) @ apart
+            return np.asarray(homogeneous + self._particular(stiff, angle + time))
 
         begun = 1e-9 * length
         crossing = 0.0  # of a step that starts at zero
@@ -129,8 +129,8 @@ def settled_start(oscillator: Bilinear) -> tuple[float, float]:
 def _after(oscillator: Bilinear, start: Array, revolutions: int) -> tuple[Array, Array]:
     """State after some revolutions, and its derivative by the state before."""
     state, tangent = start, np.eye(2)
-    for moved, flow in oscillator.steps(start, STEPS, revolutions * STEPS):
-        state, tangent = moved, flow @ tangent
+    for following, flow in oscillator.steps(start, STEPS, revolutions * STEPS):
+        state, tangent = following, flow @ tangent
     return state, tangent
 
 

@@ -66,10 +66,10 @@ class Contributions:
         """What an insertion loss leaves of it."""
         if loss is None:
             return self
-        factors = [loss.power_factor(one.frequency_hz) for one in self.noise]
+        factors = [loss.power_factor(noise.frequency_hz) for noise in self.noise]
         noise = [
-            replace(one, alone=factor * one.alone, part=factor * one.part)
-            for one, factor in zip(self.noise, factors, strict=True)
+            replace(noise, alone=factor * noise.alone, part=factor * noise.part)
+            for noise, factor in zip(self.noise, factors, strict=True)
         ]
         factor = loss.amplitude_factor(self.frequency_hz)
         pressure, by_motion = factor * self.pressure, factor * self.by_motion

@@ -152,14 +152,14 @@ def _energy(surplus: Array, before: Array, restoring: float) -> Array:
 
 def _speed(inertia: Array, energy: Array, mean_speed: float) -> Array:
     """Speed with the given mean over time of a kinetic energy known up to a constant, rad/s."""
-    rest = -float(np.min(energy))
+    deficit = -float(np.min(energy))
     reference = 0.5 * float(np.max(inertia)) * mean_speed**2
 
     def excess(constant: float) -> float:
         speed = np.sqrt(2.0 * (energy + constant) / inertia)
         return float(1.0 / np.mean(1.0 / speed) - mean_speed)
 
-    lowest, highest = rest + 1e-6 * reference, rest + float(np.ptp(energy)) + 2.0 * reference
+    lowest, highest = deficit + 1e-6 * reference, deficit + float(np.ptp(energy)) + 2.0 * reference
     if excess(lowest) > 0.0:
         raise ParameterError(
             f"speed_rpm = {mean_speed * 30.0 / np.pi:.4g} rpm: the moving parts' inertia does not "

@@ -32,8 +32,8 @@ def on_bearings(rotor: RotorMatrices, nodes: Array, stiffness_n_per_m: float) ->
     """The rotor with springs in x and y at nodes."""
     stiffness = rotor.stiffness.copy()
     for node in nodes:
-        at = NODE_FREEDOMS * int(node)
-        stiffness[[at, at + 1], [at, at + 1]] += stiffness_n_per_m
+        dof = NODE_FREEDOMS * int(node)
+        stiffness[[dof, dof + 1], [dof, dof + 1]] += stiffness_n_per_m
     return replace(rotor, stiffness=stiffness)
 
 

@@ -61,8 +61,8 @@ class IdealValveCycle(NamedTuple):
         """
         charge = (1.0 + self.clearance_ratio) / np.maximum(fill, self.fill_at_discharge)
         # Without clearance nothing expands; the smallest number keeps 0/0 out at top dead centre.
-        left = self.fill_at_suction / np.maximum(fill, np.finfo(float).tiny)
-        volume_ratio = np.where(expanding, np.maximum(left, 1.0), charge)
+        expanded = self.fill_at_suction / np.maximum(fill, np.finfo(float).tiny)
+        volume_ratio = np.where(expanding, np.maximum(expanded, 1.0), charge)
         return np.asarray(self.suction_pressure_pa * volume_ratio**self.exponent)
 
 

@@ -61,8 +61,8 @@ def check_finite(signal: Array) -> None:
 
 def check_whole(samples: int, revolutions: int) -> int:
     """Samples of each revolution; refused where they are no whole number."""
-    each, rest = divmod(samples, revolutions)
-    if rest:
+    each, incomplete = divmod(samples, revolutions)
+    if incomplete:
         raise ParameterError(
             f"signal: {samples} samples are not a whole number for each of "
             f"{revolutions} revolutions"

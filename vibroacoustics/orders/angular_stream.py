@@ -142,8 +142,8 @@ class AngularStream:
             )
             sums = np.zeros((rows.shape[0], stop - start + 4 * half))
             block = np.ascontiguousarray(rows[:, near], dtype=float)
-            at = position[near] - (start - half)
-            add_samples(block, at, self._width[near], self._table, sums)
+            offset = position[near] - (start - half)
+            add_samples(block, offset, self._width[near], self._table, sums)
             wanted = 2 * half - 1  # sums begin at grid index start - half + 1 - half
             values[:, start - first : stop - first] = sums[:, wanted : wanted + stop - start]
 

@@ -95,15 +95,15 @@ def clear_lines(signal: Array, sample_rate: float, length: int, floor_width: flo
     level = np.log1p(power / floor).mean(axis=0)
     threshold = _NOISE_LEVEL + _CLEAR / np.sqrt(max(1.0, 0.7 * starts.size))
     top = maximum_filter1d(level, 2 * (_MAIN_LOBE * _PADDING // 2) + 1)
-    at = np.flatnonzero((level >= top) & (level > threshold))
-    at = at[(at > _MAIN_LOBE * _PADDING) & (at < level.size - 1)]
-    left, mid, right = (level[at + offset] for offset in (-1, 0, 1))
-    shift = 0.5 * (left - right) / np.minimum(left - 2.0 * mid + right, -1e-9)
+    peaks = np.flatnonzero((level >= top) & (level > threshold))
+    peaks = peaks[(peaks > _MAIN_LOBE * _PADDING) & (peaks < level.size - 1)]
+    below, mid, right = (level[peaks + offset] for offset in (-1, 0, 1))
+    shift = 0.5 * (below - right) / np.minimum(below - 2.0 * mid + right, -1e-9)
     ratio = np.expm1(level)
-    width = scipy.signal.peak_widths(ratio, at, 0.5)[0] / _PADDING if at.size else np.empty(0)
+    width = scipy.signal.peak_widths(ratio, peaks, 0.5)[0] / _PADDING if peaks.size else np.empty(0)
     return Lines(
-        frequency=(at + shift) * step,
-        level=ratio[at],
+        frequency=(peaks + shift) * step,
+        level=ratio[peaks],
         width=width,
         resolution=sample_rate / length,
         highest=0.5 * sample_rate,
@@ -166,16 +166,18 @@ def nearest_line(lines: Lines, frequency: Array) -> tuple[Array, Array]:
     right = np.clip(np.searchsorted(lines.frequency, frequency), 1, lines.frequency.size - 1)
     if lines.frequency.size == 1:
         right = np.zeros(frequency.shape, dtype=int)
-    left = np.maximum(right - 1, 0)
-    is_left = np.abs(lines.frequency[left] - frequency) < np.abs(lines.frequency[right] - frequency)
-    nearest = np.where(is_left, left, right)
+    below = np.maximum(right - 1, 0)
+    is_left = np.abs(lines.frequency[below] - frequency) < np.abs(
+        lines.frequency[right] - frequency
+    )
+    nearest = np.where(is_left, below, right)
     return nearest, lines.frequency[nearest] - frequency
 
 
 def _tooth_evidence(lines: Lines, orders: Array, speeds: Array) -> Array:
-    at = speeds[:, None] * orders
-    allowed = tolerance(lines, at)
-    nearest, distance = nearest_line(lines, at)
+    line_hz = speeds[:, None] * orders
+    allowed = tolerance(lines, line_hz)
+    nearest, distance = nearest_line(lines, line_hz)
     chance = 1.0 - np.exp(-2.0 * allowed * lines.density()[nearest])
     likely = np.maximum(_LIKELY - _LESS_LIKELY * np.arange(orders.size), 0.5)
     chance = np.clip(chance, _LEAST_CHANCE, 0.9 * likely)
@@ -183,7 +185,7 @@ def _tooth_evidence(lines: Lines, orders: Array, speeds: Array) -> Array:
     hit = np.log(likely / chance) - 0.5 * off**2
     any_line = np.clip(2.0 * allowed * np.sum(lines.frequency > 0) / lines.highest, 0.0, 0.7)
     miss = np.log((1.0 - likely) / (1.0 - any_line))
-    covered = at < lines.highest
+    covered = line_hz < lines.highest
     return np.where(covered, np.where(off <= 1.5, np.maximum(hit, miss), miss), 0.0)
 
 
@@ -217,9 +219,9 @@ def best_speeds(
 
 def _fitted(lines: Lines, orders: Array, speeds: Array) -> Array:
     """Speeds that fit the lines near their teeth best (least squares)."""
-    at = speeds[:, None] * orders
-    distance = nearest_line(lines, at)[1]
-    allowed = tolerance(lines, at)
+    line_hz = speeds[:, None] * orders
+    distance = nearest_line(lines, line_hz)[1]
+    allowed = tolerance(lines, line_hz)
     weight = np.where(np.abs(distance) <= 1.5 * allowed, 1.0 / allowed**2, 0.0)
     change = np.sum(weight * orders * distance, axis=1) / np.sum(weight * orders**2, axis=1)
     return np.asarray(speeds + np.nan_to_num(change))

@@ -71,9 +71,9 @@ def mains_frequency_hz(signal: Array, sample_rate_hz: float, nominal_hz: float) 
     level = np.log(np.abs(fft.rfft(window * signal)) + 1e-300)
     trials = nominal_hz * np.linspace(1.0 - _DEVIATION, 1.0 + _DEVIATION, _TRIALS)
     multiple = np.arange(1, max(int(0.5 * sample_rate_hz / trials[-1]), 1) + 1)
-    at = np.outer(trials, multiple) * signal.size / sample_rate_hz
-    covered = at < level.size - 1
-    values = np.where(covered, np.interp(at, np.arange(level.size), level), 0.0)
+    bins = np.outer(trials, multiple) * signal.size / sample_rate_hz
+    covered = bins < level.size - 1
+    values = np.where(covered, np.interp(bins, np.arange(level.size), level), 0.0)
     # The clearest few: most multiples hold nothing.
     clearest = np.sort(values - np.median(values, axis=0), axis=1)[:, -6:]
     return float(trials[np.argmax(clearest.sum(axis=1))])

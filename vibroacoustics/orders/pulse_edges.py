@@ -212,16 +212,16 @@ def _crossings(
         after = sign * signal[k]
         middle, half = (middles[0], halves[0]) if is_one else (middles[k], halves[k])
         highest, lowest = max(highest, after), min(lowest, after)
-        over = after - middle
-        if armed and before < 0.0 <= over:
-            crossing = first + k - 1 - before / (over - before)
-        if armed and over >= half:
+        current = after - middle
+        if armed and before < 0.0 <= current:
+            crossing = first + k - 1 - before / (current - before)
+        if armed and current >= half:
             crossings[count], swings[count] = crossing, highest - lowest
             lengths[count] = first + k - below
             count += 1
             armed, highest, lowest = False, after, after
-        elif over <= -half:
+        elif current <= -half:
             armed, below = True, float(first + k)
-        before = over
+        before = current
     state[:] = (before, 1.0 if armed else 0.0, crossing, highest, lowest, below)
     return crossings[:count].copy(), swings[:count].copy(), lengths[:count].copy()

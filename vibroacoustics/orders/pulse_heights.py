@@ -74,7 +74,7 @@ def heights_of(pulses: Array, swings: Array) -> Heights | None:
     return Heights(pulses, height / height.max())
 
 
-def continued(known: Array, pulses: Array, swings: Array, has_lobes: bool) -> tuple[Array, Array]:
+def continued(numbers: Array, pulses: Array, swings: Array, has_lobes: bool) -> tuple[Array, Array]:
     """Pulses between the known ones, and those beyond that go on as evenly, with their swings.
 
     A pulse goes on while swings and interval are near those of the pulses before it: noise at
@@ -82,12 +82,12 @@ def continued(known: Array, pulses: Array, swings: Array, has_lobes: bool) -> tu
 
     Parameters
     ----------
-    known : pulses of the round before, in samples
+    numbers : pulses of the round before, in samples
     pulses, swings : of this round, as in `heights_of`
     has_lobes : whether the pulses go to both sides of a rest
     """
     behind = _LEAST_SWING * (_SECOND_LOBE if has_lobes else 1.0)
-    inner = np.flatnonzero((pulses >= known[0] - 0.5) & (pulses <= known[-1] + 0.5))
+    inner = np.flatnonzero((pulses >= numbers[0] - 0.5) & (pulses <= numbers[-1] + 0.5))
     if inner.size < _NEIGHBOURS:
         return pulses[inner], np.append(swings[inner], 0.0)
     interval = np.diff(pulses)
@@ -127,8 +127,8 @@ def silent_parts(time: Array, start: float, end: float) -> list[tuple[float, flo
     time : of the pulses, rising, two at least
     start, end : of the recording, in the unit of the pulses' time
     """
-    at = np.concatenate([[start], time, [end]])
-    interval = np.diff(at)
+    borders = np.concatenate([[start], time, [end]])
+    interval = np.diff(borders)
     inner = interval[1:-1]
     parts = []
     for number in np.flatnonzero(interval > _SILENT * np.median(inner)):
@@ -137,7 +137,7 @@ def silent_parts(time: Array, start: float, end: float) -> list[tuple[float, flo
             [inner[low : max(number - 1, 0)], inner[number : number + _LONGEST_OF]]
         )
         if beside.size == 0 or interval[number] > _SILENT * beside.max():
-            parts.append((float(at[number]), float(at[number + 1])))
+            parts.append((float(borders[number]), float(borders[number + 1])))
     return parts
 
 

@@ -99,25 +99,37 @@ def checked_course(search: Search, courses: list[Course]) -> tuple[Course, Speed
     mean_hz = float(np.mean(first.curve(first.time_s)))
     even = PPoly(np.array([[mean_hz]]), first.time_s[[0, -1]])
     courses = [*courses, replace(first, curve=even)]
-    hypotheses = [one for course in courses for one in _hypotheses(Unrolled(search, course))]
+    hypotheses = [
+        hypothesis for course in courses for hypothesis in _hypotheses(Unrolled(search, course))
+    ]
     if not hypotheses:
         return first, SpeedCheck(0.0, None, 0, search.orders.size, np.nan, 0.0)
-    if max(one.evidence for one in hypotheses) < _CHANCE:  # too little to overrule short spectra
+    if (
+        max(hypothesis.evidence for hypothesis in hypotheses) < _CHANCE
+    ):  # too little to overrule short spectra
         hypotheses = [_Hypothesis(first, 1.0, 0.0)]
     hypotheses = [
-        replace(one, evidence=one.evidence + _SHORT_SPECTRA)
-        if one.course is first and abs(np.log(one.scale)) < _APART
-        else one
-        for one in hypotheses
+        replace(hypothesis, evidence=hypothesis.evidence + _SHORT_SPECTRA)
+        if hypothesis.course is first and abs(np.log(hypothesis.scale)) < _APART
+        else hypothesis
+        for hypothesis in hypotheses
     ]
     best = _refined(search, hypotheses)
     at_scales = _hypotheses(best)
-    nearest = [one for one in at_scales if abs(np.log(one.scale)) < _APART]
+    nearest = [hypothesis for hypothesis in at_scales if abs(np.log(hypothesis.scale)) < _APART]
     if nearest:
         best = Unrolled(search, nearest[0].scaled())
-    rest = best.without_orders()
-    others = [one for course in courses for one in _hypotheses(Unrolled(rest, course))]
-    rivals = [one for one in [*at_scales, *others] if _apart(one.scaled(), best.course) > _APART]
+    without_best = best.without_orders()
+    others = [
+        hypothesis
+        for course in courses
+        for hypothesis in _hypotheses(Unrolled(without_best, course))
+    ]
+    rivals = [
+        hypothesis
+        for hypothesis in [*at_scales, *others]
+        if _apart(hypothesis.scaled(), best.course) > _APART
+    ]
     near = [course for course in courses[:-1] if _apart(course, best.course) < _NEAR]
     surest = max(near or [best.course], key=lambda course: float(np.mean(course.confidence)))
     course = replace(best.course, confidence=surest.confidence)
@@ -126,8 +138,8 @@ def checked_course(search: Search, courses: list[Course]) -> tuple[Course, Speed
 
 def _refined(search: Search, hypotheses: list[_Hypothesis]) -> Unrolled:
     """The course of the most evidence, the sharpest one of it, of others near it, and refined."""
-    best = max(hypotheses, key=lambda one: one.evidence).scaled()
-    near = [one.scaled() for one in hypotheses if one.evidence > 0.0]
+    best = max(hypotheses, key=lambda hypothesis: hypothesis.evidence).scaled()
+    near = [hypothesis.scaled() for hypothesis in hypotheses if hypothesis.evidence > 0.0]
     near = [course for course in near if 0.0 < _apart(course, best) < _APART]
     trials = [Unrolled(search, best)]
     for revolutions in _FRAMES:
@@ -154,7 +166,7 @@ def _hypotheses(unrolled: Unrolled) -> list[_Hypothesis]:
         # A course that leaps from one multiple of the speed to another has its lines for a time.
         present = _share(unrolled.low_lines(scale)) if evidence > 0.0 else 1.0
         listed.append(_Hypothesis(course, float(scale), float(present * evidence + lost)))
-    return sorted(listed, key=lambda one: -one.evidence)
+    return sorted(listed, key=lambda hypothesis: -hypothesis.evidence)
 
 
 def _share(stands_out: NDArray[np.bool_]) -> float:
@@ -176,21 +188,23 @@ def _apart(course: Course, other: Course) -> float:
 
 def _check(best: Unrolled, worth: float, rivals: list[_Hypothesis]) -> SpeedCheck:
     distinct: list[_Hypothesis] = []
-    for one in sorted(rivals, key=lambda one: -one.evidence):
-        if all(_apart(one.scaled(), other.scaled()) > _APART for other in distinct):
-            distinct.append(one)
-    against = np.array([_CHANCE, *(one.evidence for one in distinct)])
+    for rival in sorted(rivals, key=lambda rival: -rival.evidence):
+        if all(_apart(rival.scaled(), other.scaled()) > _APART for other in distinct):
+            distinct.append(rival)
+    against = np.array([_CHANCE, *(rival.evidence for rival in distinct)])
     odds = np.exp(np.clip((against - worth) / _CAUTION, -50.0, 50.0))
     in_place, orders, width = lines_in_place(best.lines, best.search.orders)
     followed = best.followed()
-    known = min(1.0, followed / MOSTLY) * min(1.0, in_place / (_LEAST_IN_PLACE * max(orders, 1)))
-    known *= min(1.0, _SHARP_LINE / width) ** 4 if in_place else 0.0
-    known *= _UNSURE if _longest_loss(best.low_lines()) > _LONGEST_LOSS else 1.0
+    certainty = min(1.0, followed / MOSTLY) * min(
+        1.0, in_place / (_LEAST_IN_PLACE * max(orders, 1))
+    )
+    certainty *= min(1.0, _SHARP_LINE / width) ** 4 if in_place else 0.0
+    certainty *= _UNSURE if _longest_loss(best.low_lines()) > _LONGEST_LOSS else 1.0
     time_s = best.course.time_s
     mains_hz = mains_of(best.course.curve(time_s))
-    known *= 1.0 if mains_hz is None else _UNSURE
+    certainty *= 1.0 if mains_hz is None else _UNSURE
     return SpeedCheck(
-        confidence=float(known / (1.0 + odds.sum())),
+        confidence=float(certainty / (1.0 + odds.sum())),
         rival_hz=float(np.mean(distinct[0].scaled().curve(time_s))) if distinct else None,
         in_place=in_place,
         orders=orders,

@@ -117,9 +117,11 @@ class Unrolled:
         """
         levels, _, bins = self._frames
         order = scale * self.search.orders
-        at = np.rint(bins * order[are_in_place(self.lines, order)][:_LOW_ORDERS]).astype(int)
-        at = at[at < levels.shape[1] - 1]
-        level = np.maximum.reduce([levels[:, at + step] for step in (-1, 0, 1)])
+        bins_of_orders = np.rint(
+            bins * order[are_in_place(self.lines, order)][:_LOW_ORDERS]
+        ).astype(int)
+        bins_of_orders = bins_of_orders[bins_of_orders < levels.shape[1] - 1]
+        level = np.maximum.reduce([levels[:, bins_of_orders + step] for step in (-1, 0, 1)])
         stands_out = np.asarray(level.T > _CLEAR_LEVEL)
         return stands_out[np.argsort(-stands_out.mean(axis=1))[:_BEST_ORDERS]]
 
@@ -146,8 +148,8 @@ class Unrolled:
         for number in self.search.orders[self.search.orders < self.lines.highest]:
             reach = _SKIRT * number + _SKIRT_LINES * self.lines.resolution
             spectrum[np.abs(order - number) <= reach] = 0.0
-        left = fft.irfft(spectrum, self._signal.size)
-        grid = np.arange(left.size) / self._per_revolution
+        without_orders = fft.irfft(spectrum, self._signal.size)
+        grid = np.arange(without_orders.size) / self._per_revolution
         samples = self.search.samples.copy()
-        samples[self._at] = np.interp(self._turned, grid, left)
+        samples[self._at] = np.interp(self._turned, grid, without_orders)
         return replace(self.search, samples=samples)

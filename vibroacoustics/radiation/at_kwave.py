@@ -26,9 +26,9 @@ def solver(task: Task) -> str:
 
 def closed_greens(box: Box, task: Task) -> Iterator[BoxField]:
     """Green's functions in closed form to the microphones that k-Wave computes."""
-    asked = task.kwave_microphones
-    for point in asked.points:
-        yield box_green(box, point, task.frequency_hz[asked.frequencies], task.scene.walls)
+    microphones = task.kwave_microphones
+    for point in microphones.points:
+        yield box_green(box, point, task.frequency_hz[microphones.frequencies], task.scene.walls)
 
 
 def with_kwave(

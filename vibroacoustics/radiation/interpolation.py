@@ -87,7 +87,7 @@ def _values(
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _evaluate(
-    breaks: Array, coefficients: ComplexArray, at: Array, result: ComplexArray
+    breaks: Array, coefficients: ComplexArray, points: Array, result: ComplexArray
 ) -> None:  # pragma: no cover
     """Values of many splines with the same pieces, (place, spline), into the result.
 
@@ -97,11 +97,11 @@ def _evaluate(
     ----------
     breaks : between the pieces, rising, shape (break,)
     coefficients : of the powers from the third down, shape (4, piece, spline)
-    at : places, shape (place,)
+    points : places, shape (place,)
     """
-    for row in range(at.size):
-        piece = min(max(np.searchsorted(breaks, at[row], side="right") - 1, 0), breaks.size - 2)
-        along, parts = at[row] - breaks[piece], coefficients[:, piece]
+    for row in range(points.size):
+        piece = min(max(np.searchsorted(breaks, points[row], side="right") - 1, 0), breaks.size - 2)
+        along, parts = points[row] - breaks[piece], coefficients[:, piece]
         for n in range(result.shape[1]):
             value = (parts[0, n] * along + parts[1, n]) * along + parts[2, n]
             result[row, n] = value * along + parts[3, n]

@@ -48,7 +48,7 @@ def room_spacing_m(box: Box, task: Task) -> float:
     resolving_m = task.resolving_spacing_m
     if task.settings.room_spacing_m is not None:
         return resolving_m
-    clear_m = min(float(clearance_m(box, at).max()) for at in _positions(task).values())
+    clear_m = min(float(clearance_m(box, position).max()) for position in _positions(task).values())
     return min(resolving_m, max(clear_m / (CLEAR_NODES + 1), _SMALLEST_SPACING_M))
 
 

@@ -97,11 +97,11 @@ def next_fast_length(length: int) -> int:
     """Smallest 2^a 3^b 5^c that is not below a length."""
     candidate = length
     while True:
-        rest = candidate
+        quotient = candidate
         for prime in (2, 3, 5):
-            while rest % prime == 0:
-                rest //= prime
-        if rest == 1:
+            while quotient % prime == 0:
+                quotient //= prime
+        if quotient == 1:
             return candidate
         candidate += 1
 

@@ -88,10 +88,10 @@ class Scene:
     def moving(self, pattern: Pattern) -> Pattern:
         """The pattern on the machine's faces, and rest on the others."""
 
-        def velocity(at: SurfacePoints) -> Array:
-            on_machine = at.face < self.machine.faces.shape[0]
-            result = np.zeros(at.position.shape)
-            result[on_machine] = pattern.velocity(at.where([on_machine]))
+        def velocity(points: SurfacePoints) -> Array:
+            on_machine = points.face < self.machine.faces.shape[0]
+            result = np.zeros(points.position.shape)
+            result[on_machine] = pattern.velocity(points.where([on_machine]))
             return result
 
         return Pattern(pattern.name, velocity)

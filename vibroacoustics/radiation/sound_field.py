@@ -42,8 +42,8 @@ class SoundField:
     @classmethod
     def of_study(cls, study: Study) -> "SoundField":
         """What a study asks for; map and directivity at the first order of its speeds."""
-        drawn = study.map is not None or study.directivity is not None
-        lines = tuple(map(shaft_frequency_hz, study.operation.speed_rpm)) if drawn else ()
+        has_map = study.map is not None or study.directivity is not None
+        lines = tuple(map(shaft_frequency_hz, study.operation.speed_rpm)) if has_map else ()
         return cls(study.sound_power, study.map, study.directivity, lines)
 
     def key_material(self) -> dict[str, Any]:
@@ -120,7 +120,7 @@ def field_parts(
         A position of the measurement surface lies in the machine, too close to it or behind a wall.
     """
     floor = _floor_m(surroundings)
-    asked: list[tuple[str, Array, dict[str, Any], str]] = []
+    fields: list[tuple[str, Array, dict[str, Any], str]] = []
     if sound_field.sound_power is not None:
         points = sound_power_points(sound_field.sound_power, surroundings.machine, floor)
         _check_surface(points, surroundings, clear)
@@ -128,15 +128,15 @@ def field_parts(
             "position": np.arange(1, points.shape[0] + 1),
             "position_distance": ("position", np.linalg.norm(points, axis=1)),
         }
-        asked.append(("surface_transfer_vector", points, coordinates, "frequency"))
+        fields.append(("surface_transfer_vector", points, coordinates, "frequency"))
     if sound_field.map is not None:
         points = map_points(sound_field.map, floor_level_m)
-        asked.append(("map_transfer_vector", points, _map_places(points), "line_frequency"))
+        fields.append(("map_transfer_vector", points, _map_places(points), "line_frequency"))
     if sound_field.directivity is not None:
         points = directivity_points(sound_field.directivity, floor)
         angles = directivity_angles(sound_field.directivity, floor is not None)
         directions = dict(zip(("polar_angle", "azimuth"), angles, strict=True))
-        asked.append(("directivity_transfer_vector", points, directions, "line_frequency"))
+        fields.append(("directivity_transfer_vector", points, directions, "line_frequency"))
     chosen = {"frequency": slice(0, tabulated), "line_frequency": slice(tabulated, None)}
     return [
         FieldPart(
@@ -147,7 +147,7 @@ def field_parts(
             chosen[dimension],
             np.flatnonzero(clear(points.reshape(-1, 3))),
         )
-        for name, points, coordinates, dimension in asked
+        for name, points, coordinates, dimension in fields
     ]
 
 

@@ -175,12 +175,12 @@ def cache_key_material(
 
 
 def kwave_names(
-    receivers: Collection[str], settings: RadiationSettings, asked: Collection[str] | None
+    receivers: Collection[str], settings: RadiationSettings, chosen: Collection[str] | None
 ) -> tuple[str, ...]:
     """Microphones at which k-Wave computes the room."""
     if settings.room_solver == "closed-form":
         return ()
-    return tuple(name for name in receivers if asked is None or name in asked)
+    return tuple(name for name in receivers if chosen is None or name in chosen)
 
 
 def _hashes_of_files(settings: RadiationSettings) -> dict[str, str]:

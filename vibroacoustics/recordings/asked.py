@@ -105,14 +105,14 @@ class Asked:
     def chosen_calibration(self, header: Mapping[str, Any]) -> dict[str, float]:
         """Factor by channel, from the user or else from the file, in the file's unit."""
         units = _of_channels("units", self.units, header["names"])
-        given = _of_channels("calibration", self.calibration, header["names"])
+        calibration = _of_channels("calibration", self.calibration, header["names"])
         stated = zip(header["names"], header["units"], header["calibration"], strict=True)
         of_file = {
             name: factor
             for name, unit, factor in stated
             if factor is not None and units.get(name, unit) == unit
         }
-        return of_file | given
+        return of_file | calibration
 
 
 @contextmanager
@@ -156,7 +156,9 @@ def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) 
         )
 
 
-def _of_channels(option: str, given: Mapping[str, Given], names: Sequence[str]) -> dict[str, Given]:
+def _of_channels(
+    option: str, stated: Mapping[str, Given], names: Sequence[str]
+) -> dict[str, Given]:
     """What is given by channel, that for all of them spread out.
 
     Raises
@@ -164,11 +166,11 @@ def _of_channels(option: str, given: Mapping[str, Given], names: Sequence[str]) 
     ParameterError
         A channel is not among the names.
     """
-    named = {name: value for name, value in given.items() if name != ALL_CHANNELS}
+    named = {name: value for name, value in stated.items() if name != ALL_CHANNELS}
     for name in named:
         if name not in names:
             raise ParameterError(f"{option}: no channel {name!r} among {listed(names)}")
-    of_all = dict.fromkeys(names, given[ALL_CHANNELS]) if ALL_CHANNELS in given else {}
+    of_all = dict.fromkeys(names, stated[ALL_CHANNELS]) if ALL_CHANNELS in stated else {}
     return of_all | named
 
 

@@ -89,12 +89,12 @@ class FileBlocks:
             The file is damaged, or the block larger than the cap.
         """
         _check_block(self, channels, first, last)
-        at = self.first_sample
+        start = self.first_sample
         rows = [self.channels.index(name) for name in channels]
         if self.stored is not None:
             return _in_si(self.stored[:, first:last], rows, self.calibration_factors)
         stored = [self.header["names"][row] for row in rows]
-        part = {"samples": [at + first, at + last], "channels": stored, "hashed": False}
+        part = {"samples": [start + first, start + last], "channels": stored, "hashed": False}
         with naming_file(self.asked.path):
             header, samples = read_in_child(self.asked.request() | part)
             units = [self.channel_units[row] for row in rows]
@@ -199,20 +199,22 @@ def open_recording(
     >>> blocks.samples, blocks.read(["front"], 2, 4)
     (8, array([[2., 3.]]))
     """
-    asked = Asked(Path(path), units or {}, calibration or {}, channels, sample_rate_hz, names or {})
-    with naming_file(asked.path):
+    file_request = Asked(
+        Path(path), units or {}, calibration or {}, channels, sample_rate_hz, names or {}
+    )
+    with naming_file(file_request.path):
         check_part(from_s, to_s)
-        asked.check(may_be_large=True)
-        header, _ = asked.read({"samples": [0, 0], "hashed": False})
-        new_names, rate_hz = asked.new_names(header), float(header["sample_rate_hz"])
+        file_request.check(may_be_large=True)
+        header, _ = file_request.read({"samples": [0, 0], "hashed": False})
+        new_names, rate_hz = file_request.new_names(header), float(header["sample_rate_hz"])
         si_units, factors = si_scale(
-            new_names, asked.chosen_units(header), asked.new_calibration(header)
+            new_names, file_request.chosen_units(header), file_request.new_calibration(header)
         )
-        request = Request(asked.path, from_s=from_s, to_s=to_s)
+        request = Request(file_request.path, from_s=from_s, to_s=to_s)
         first, last = request.part(header["total_samples"], rate_hz)
-    remark(asked.path, header["remarks"])
+    remark(file_request.path, header["remarks"])
     remarks = {line: line for line in header["remarks"]}
-    return FileBlocks(asked, header, first, last - first, si_units, factors, remarks)
+    return FileBlocks(file_request, header, first, last - first, si_units, factors, remarks)
 
 
 def recording_blocks(path: str | Path, **reading: Any) -> FileBlocks:

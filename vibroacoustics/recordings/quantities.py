@@ -50,7 +50,7 @@ QUANTITIES: Final[dict[str, Quantity]] = {
 TIME_UNITS: Final = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "us": 1e-6}
 """Units of a time axis and their factors to s."""
 
-_BY_SPELLING: Final = {plain_unit(unit): known for unit, known in QUANTITIES.items()}
+_BY_SPELLING: Final = {plain_unit(unit): measured for unit, measured in QUANTITIES.items()}
 
 
 def quantity(unit: str) -> Quantity:
@@ -65,10 +65,10 @@ def quantity(unit: str) -> Quantity:
     ParameterError
         The unit is not in the list.
     """
-    known = find_quantity(unit)
-    if known is None:
+    measured = find_quantity(unit)
+    if measured is None:
         raise ParameterError(f"unit {unit!r} is unknown; known are {', '.join(QUANTITIES)}")
-    return known
+    return measured
 
 
 def find_quantity(unit: str) -> Quantity | None:

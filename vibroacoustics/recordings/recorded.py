@@ -105,8 +105,8 @@ class Request:
             return list(range(len(names)))
         for name in self.channels:
             if names.count(name) != 1:
-                there = "not in the file" if name not in names else "more than once in the file"
-                raise ParameterError(f"channel {name!r}: {there}, which holds {listed(names)}")
+                how_often = "not in the file" if name not in names else "more than once in the file"
+                raise ParameterError(f"channel {name!r}: {how_often}, which holds {listed(names)}")
         return [names.index(name) for name in self.channels]
 
 

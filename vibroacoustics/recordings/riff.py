@@ -142,10 +142,10 @@ def _comment_behind(file: BinaryIO, order: str) -> str:
 
 def _comment(content: bytes, order: str) -> str:
     """Text of ICMT in a list of kind INFO."""
-    at = 4
-    while content[:4] == b"INFO" and at + 8 <= len(content):
-        name, size = struct.unpack(f"{order}4sI", content[at : at + 8])
+    position = 4
+    while content[:4] == b"INFO" and position + 8 <= len(content):
+        name, size = struct.unpack(f"{order}4sI", content[position : position + 8])
         if name == b"ICMT":
-            return content[at + 8 : at + 8 + size].rstrip(b"\0 ").decode("latin-1")
-        at += 8 + size + size % 2
+            return content[position + 8 : position + 8 + size].rstrip(b"\0 ").decode("latin-1")
+        position += 8 + size + size % 2
     return ""

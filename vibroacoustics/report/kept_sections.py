@@ -21,10 +21,10 @@ def sections_of(results: xr.Dataset) -> list[Section]:
 
     One that fails, or is missing, says so in one line.
     """
-    strangers = SECTIONS.origins()
-    built_in = [section for section in SECTIONS.values() if section.name not in strangers]
+    third_party = SECTIONS.origins()
+    built_in = [section for section in SECTIONS.values() if section.name not in third_party]
     sections = [section for section in built_in if section.applies(results)]
-    for name in strangers:
+    for name in third_party:
         sections += _guarded(SECTIONS[name], results)
     sections += [section for section in kept(results) if section.name not in SECTIONS]
     for name, line in left_out.missing(results, "section", ATTRIBUTE).items():

@@ -37,8 +37,8 @@ def kwave_sentence(results: xr.Dataset) -> str:
     largest = float(np.abs(differences).max())
     words += f", the pressure per velocity by at most {rounding.fixed(largest, 3)} dB"
     if frequency[-1] < results["frequency"].values[-1]:
-        seam = float(np.abs(differences[:, :, -1]).max())
-        words += f", {rounding.fixed(seam, 3)} dB at the seam of {frequency[-1]:g} Hz"
+        crossover_db = float(np.abs(differences[:, :, -1]).max())
+        words += f", {rounding.fixed(crossover_db, 3)} dB at the seam of {frequency[-1]:g} Hz"
     return f"{words}."
 
 

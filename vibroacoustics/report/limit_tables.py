@@ -208,18 +208,18 @@ def _speed(row: CheckedFigure) -> str:
 
 
 def _broken(row: CheckedFigure) -> str:
-    at = "" if np.isnan(row.speed_rpm) else f" at {row.speed_rpm:.0f} rpm"
+    at_speed = "" if np.isnan(row.speed_rpm) else f" at {row.speed_rpm:.0f} rpm"
     beyond = "above" if row.side == "highest" else "below"
     value, limit = _numbers(row)
     return (
-        f"{row.figure}{at} in {row.result}: {value} {row.unit} is {beyond} {limit} {row.unit} "
-        f"({row.origin})"
+        f"{row.figure}{at_speed} in {row.result}: {value} {row.unit} is {beyond} "
+        f"{limit} {row.unit} ({row.origin})"
     )
 
 
 def _numbers(row: CheckedFigure) -> tuple[str, str]:
     """Value and limit: levels to 0.1 dB, to more digits where they would read the same."""
-    level, limit = (rounding.fixed(one) for one in (row.value, row.limit))
+    level, limit = (rounding.fixed(figure) for figure in (row.value, row.limit))
     if _is_level(row) and level != limit:
         return level, limit
     return rounding.significant(row.value, 4), rounding.significant(row.limit, 4)

@@ -64,7 +64,7 @@ def _block(block: Block, folder: str) -> str:
         case Beside():
             text = f"{_block(block.narrow, folder)}\n\n{_block(block.wide, folder)}"
         case Details():
-            blocks = (_block(one, folder) for one in block.blocks)
+            blocks = (_block(inner, folder) for inner in block.blocks)
             text = "\n\n".join([f"### {escape_markdown(block.summary)}", *blocks])
         case _:
             raise TypeError(f"{block!r}: is no block")

@@ -94,11 +94,11 @@ def _table(measured: xr.Dataset) -> Table:
 def _remarks(measured: xr.Dataset) -> list[str]:
     attrs, count = measured.attrs, measured.sizes["channel"]
     wanted = [int(number) for number in np.atleast_1d(attrs["positions_of_the_standard"])]
-    asked = " or ".join(map(str, wanted))
+    required = " or ".join(map(str, wanted))
     spread = rounding.fixed(float(attrs["spread_dba"]))
     remarks = [
         f"{count} microphones on a {attrs['surface']}, {attrs['surface_m2']:.3g} m²"
-        + ("." if count in wanted else f"; ISO 3744 asks for {asked}."),
+        + ("." if count in wanted else f"; ISO 3744 asks for {required}."),
         f"A-weighted levels of the positions span {spread} dB"
         + (f", more than their number, {count}: use more." if attrs["spread_dba"] > count else "."),
         _background(measured),

@@ -29,13 +29,13 @@ def analysis_of_blocked_forces(
     """
     tables = (_validation(blocked), _bands(blocked), _truncation(blocked))
     notes = Bullets(tuple(_notes(blocked)))
-    drawn = Pictures(tuple(blocked_charts(blocked)))
+    charts = Pictures(tuple(blocked_charts(blocked)))
     return Analysis(
         "blocked_forces",
         **origin(blocked, "Measurement"),
         about="Blocked forces (ISO 20270).",
         parts=(
-            Part("validation", "On-board validation", (*tables[:2], drawn)),
+            Part("validation", "On-board validation", (*tables[:2], charts)),
             Part("method", "Truncation and precision", (tables[2], notes)),
         ),
         shown=(*tables, notes),
@@ -77,13 +77,16 @@ def _validation(blocked: xr.Dataset) -> Table:
     bands = blocked["validation_band_difference"]
     rows = []
     for name in map(str, blocked["validation_point"].values):
-        at, of_bands = blocked.sel(validation_point=name), bands.sel(validation_point=name)
-        lines, known = np.abs(at["validation_difference"].values), of_bands.dropna("band")
-        worst = known[int(np.argmax(np.abs(known.values)))]
-        sizes = (np.median(lines), np.quantile(lines, 0.9), np.abs(known).mean())
+        at_point, of_bands = blocked.sel(validation_point=name), bands.sel(validation_point=name)
+        lines, differences = (
+            np.abs(at_point["validation_difference"].values),
+            of_bands.dropna("band"),
+        )
+        worst = differences[int(np.argmax(np.abs(differences.values)))]
+        sizes = (np.median(lines), np.quantile(lines, 0.9), np.abs(differences).mean())
         cells = (rounding.fixed(float(size), 2) for size in sizes)
         largest = f"{rounding.signed(worst.item(), 2)} at {worst['band'].item():g} Hz"
-        rows.append((name, str(at["validation_quantity"].item()), *cells, largest))
+        rows.append((name, str(at_point["validation_quantity"].item()), *cells, largest))
     head = ("Validation", "", "lines: median", "90 % of lines", "third octaves: mean", "largest")
     caption = "Predicted against measured where no force is inverted from, dB"
     return Table(caption, head, tuple(rows), frozenset({0, 1}))
@@ -178,10 +181,12 @@ def _totals(predicted: xr.Dataset) -> Table:
     for option in _changes(predicted):
         for receiver in map(str, predicted["receiver"].values):
             for weighting, unit in (("Z", "dB"), ("A", "dB(A)")):
-                at = {"receiver": receiver, "weighting": weighting}
-                before, _ = cells("predicted_total_level", unit, option=REFERENCE_OPTION, **at)
-                after = cells("predicted_total_level", unit, option=option, **at)
-                change = cells("predicted_total_change", "dB", option=option, **at)
+                coordinates = {"receiver": receiver, "weighting": weighting}
+                before, _ = cells(
+                    "predicted_total_level", unit, option=REFERENCE_OPTION, **coordinates
+                )
+                after = cells("predicted_total_level", unit, option=option, **coordinates)
+                change = cells("predicted_total_change", "dB", option=option, **coordinates)
                 rows.append((option, receiver, unit, before, *after, *change))
     head = ("Change", "Microphone", "", "measured", "predicted", "90 % band", "change", "90 % band")
     caption = "All lines together: level as measured and as predicted"

@@ -71,9 +71,13 @@ def _reason(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift], judgement: 
         least = shifts[0].least
         return f"levels < {least.level_db:g} dB, forces < {100.0 * least.force_ratio:g} %"
     louder = {} if shifts[-1].worsens else elsewhere
-    worse = [one.short() for one in shifts if one.worsens]
-    worse += [f"{one.short()} at {at}" for at, one in louder.items() if one.worsens]
-    better = [one.short() for one in shifts if one.improves]
+    worse = [shift.short() for shift in shifts if shift.worsens]
+    worse += [
+        f"{shift.short()} at {speed_words}"
+        for speed_words, shift in louder.items()
+        if shift.worsens
+    ]
+    better = [shift.short() for shift in shifts if shift.improves]
     parts = {BETTER: better, WORSE: worse}
     if judgement != MIXED:
         return ", ".join(parts[judgement])

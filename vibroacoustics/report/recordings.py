@@ -170,7 +170,7 @@ def _avoid(mapped: xr.Dataset) -> list[Block]:
     blocks: list[Block] = []
     is_pressure = mapped["channel_unit"].values == "Pa"
     for channel in map(str, mapped["channel"].values[is_pressure]):
-        weighted = {one.label: one for one in recorded_curves(mapped, channel)}["A-weighted"]
+        weighted = {curve.label: curve for curve in recorded_curves(mapped, channel)}["A-weighted"]
         if not np.all(np.isfinite(weighted.level_db)):
             continue
         ranges = recorded_speeds_to_avoid(weighted.speed_rpm, weighted.level_db)
@@ -256,8 +256,8 @@ def _orders(results: xr.Dataset) -> dict[str, xr.DataArray]:
 def _orders_table(results: xr.Dataset) -> Table:
     shown = shown_speeds(results)
     columns = _orders(results)
-    known = columns["phase_deg"].where(columns["coherence"] >= _LEAST_COHERENCE)
-    every = records(data_table(_DIMENSIONS, {**columns, "known_phase_deg": known}))
+    coherent_phase = columns["phase_deg"].where(columns["coherence"] >= _LEAST_COHERENCE)
+    every = records(data_table(_DIMENSIONS, {**columns, "known_phase_deg": coherent_phase}))
     caption = (
         "Orders: peak and phase of the coherent mean over the blocks at a speed; RMS in a band of "
         f"{results.attrs['band_order']:.3g} orders"
@@ -284,8 +284,10 @@ def _level_rows(results: xr.Dataset) -> Iterator[tuple[str, str]]:
 def _levels_table(results: xr.Dataset) -> Table:
     rows: list[tuple[Cell, ...]] = []
     for channel, weighting in _level_rows(results):
-        at = {"channel": channel, "weighting": weighting}
-        rows.append((channel, weighting, *(number(results, each, fixed, **at) for each in _LEVELS)))
+        coordinates = {"channel": channel, "weighting": weighting}
+        rows.append(
+            (channel, weighting, *(number(results, each, fixed, **coordinates) for each in _LEVELS))
+        )
     head = ("Channel", "weighting", "Leq, dB", "LFmax, dB", "LSmax, dB")
     method = "IEC 61260-1 filters" if results.attrs.get("band_method") == "filters" else "band sums"
     caption = (
@@ -309,8 +311,8 @@ _TRACKED_COLUMNS: Final[Columns] = (
 def tracked_table(tracked: xr.Dataset) -> Table:
     """Where each order of a channel is largest."""
     size = abs(tracked["tracked_order"])
-    at = size.isel(track_time=size.argmax("track_time"))
-    rows = records(data_table(("channel", "order"), _tracked(tracked, at)))
+    loudest = size.isel(track_time=size.argmax("track_time"))
+    rows = records(data_table(("channel", "order"), _tracked(tracked, loudest)))
     caption = "Tracked orders: where each is largest"
     return table_of(caption, rows, _TRACKED_COLUMNS, frozenset({0, 1}))
 

@@ -31,8 +31,8 @@ def measured_rpm(results: xr.Dataset) -> float | None:
     """
     if "baseline_band_level" not in results:
         return None
-    there = results["baseline_band_level"].sel(at_catalogue(results))
-    measured = results["speed"].values[there.notnull().any("baseline_band").values]
+    measured_level = results["baseline_band_level"].sel(at_catalogue(results))
+    measured = results["speed"].values[measured_level.notnull().any("baseline_band").values]
     return float(measured[0]) if measured.size else None
 
 

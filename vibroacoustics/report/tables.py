@@ -92,8 +92,8 @@ def long_table(results: xr.Dataset, names: Iterable[str], **labels: Any) -> Data
     rows: list[list[str | float]] = []
     for array in arrays:
         unit = str(array.attrs.get("units", ""))
-        for at in np.argwhere(np.isfinite(array.values)):
-            point = array[tuple(at)]
+        for index in np.argwhere(np.isfinite(array.values)):
+            point = array[tuple(index)]
             cells = [point[dim].item() if dim in array.dims else "" for dim in dims]
             rows.append([str(array.name), unit, *cells, point.item()])
     return columns_of(("quantity", "unit", *dims, "value"), rows)

@@ -94,8 +94,8 @@ def replacing(path: Path, dataset: str, dataset_sha256: str = "") -> Iterator[St
 
 def _older(before: Entry | None, made: Container[str]) -> dict[str, str]:
     """Files that are no longer made, those too that a run that was killed did not remove."""
-    known = {**before.older, **before.files} if before else {}
-    return {name: digest for name, digest in known.items() if name not in made}
+    digests = {**before.older, **before.files} if before else {}
+    return {name: digest for name, digest in digests.items() if name not in made}
 
 
 def _remove(folder: Folder, name: str) -> None:

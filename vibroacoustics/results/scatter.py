@@ -84,7 +84,7 @@ def by_specimen(level_db: Array, specimens: Sequence[str]) -> tuple[Array, Array
 def _groups(level_db: Array, specimens: Sequence[str]) -> list[Array]:
     """Levels (run, ...) of each specimen."""
     names = dict.fromkeys(specimens)
-    return [level_db[[one == name for one in specimens]] for name in names]
+    return [level_db[[specimen == name for specimen in specimens]] for name in names]
 
 
 def _of_mean(deviation: Array, count: int) -> tuple[Array, Array]:

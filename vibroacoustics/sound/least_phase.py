@@ -34,11 +34,11 @@ def least_phase(size: Array, length: int) -> ComplexArray:
     return np.asarray(size * np.exp(1j * phase))
 
 
-def between(at: Array, known_at: Array, values: Numbers) -> Numbers:
+def between(wanted: Array, known_at: Array, values: Numbers) -> Numbers:
     """Values (..., known) at further points, smooth: level at those that are known."""
-    number = np.clip(np.searchsorted(known_at, at) - 1, 0, known_at.size - 2)
+    number = np.clip(np.searchsorted(known_at, wanted) - 1, 0, known_at.size - 2)
     step = known_at[number + 1] - known_at[number]
-    part = np.clip((at - known_at[number]) / step, 0.0, 1.0)
+    part = np.clip((wanted - known_at[number]) / step, 0.0, 1.0)
     part = part**2 * (3.0 - 2.0 * part)
     result: Numbers = (1.0 - part) * values[..., number] + part * values[..., number + 1]
     return result

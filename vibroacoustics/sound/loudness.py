@@ -15,7 +15,7 @@ from .ingredients import HALF_BAND, Ingredients
 from .recorded import NarrowBands
 from .zwicker import SoundField, core_loudness, specific_loudness, total_loudness
 
-CENTRES_HZ: Final[Array] = np.array([one.middle_hz for one in bands_between(3, 25.0, 12500.0)])
+CENTRES_HZ: Final[Array] = np.array([band.middle_hz for band in bands_between(3, 25.0, 12500.0)])
 """Exact midband frequencies of the third octaves from 25 Hz to 12.5 kHz."""
 _ACROSS: Final = 20
 _SILENT_DB: Final = -60.0
@@ -80,8 +80,8 @@ def recorded_loudness(bands: NarrowBands) -> Loudness:
     """
     audible = bands.frequency_hz > 0.0
     square = bands.even_mean_square[audible] @ filter_gain(bands.frequency_hz[audible])
-    (one,) = loudness_of_thirds(square[None])
-    return one
+    (loudness,) = loudness_of_thirds(square[None])
+    return loudness
 
 
 def loudness_of_thirds(mean_square: Array, field: SoundField = "free") -> list[Loudness]:

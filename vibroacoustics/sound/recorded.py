@@ -148,9 +148,9 @@ def recorded_spectrum(bands: NarrowBands) -> TonalSpectrum:
 
 def _loudest_near(hertz: Array, square: Array) -> Array:
     """Mean square of the loudest tone in the critical band of each, shape (tone,)."""
-    bands = [critical_band(float(one)) for one in hertz]
+    bands = [critical_band(float(frequency)) for frequency in hertz]
     near = [square[(hertz >= band.lower) & (hertz <= band.upper)] for band in bands]
-    return np.array([np.max(one) for one in near])
+    return np.array([np.max(levels) for levels in near])
 
 
 def _course(bands: NarrowBands, peak: int, first: int, last: int) -> tuple[float, float, float]:

@@ -150,12 +150,12 @@ def _received(room: WaysOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
 
 
 def _of_block(room: WaysOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
-    ways, at = room.ways, np.minimum(hertz, room.highest_hz)
-    per_acceleration = room.pressure(at) / (2j * np.pi * at)
+    ways, bounded_hz = room.ways, np.minimum(hertz, room.highest_hz)
+    per_acceleration = room.pressure(bounded_hz) / (2j * np.pi * bounded_hz)
     waves, positions = np.split(per_acceleration, [ways.listeners])
     by_motion = np.moveaxis(np.abs(per_acceleration) ** 2, 1, 0)
-    square = np.moveaxis(ways.at_listeners(by_motion, at), 1, 0)
-    turned = positions * np.exp(2j * np.pi * at * room.nearest_m / SPEED_OF_SOUND_M_PER_S)
+    square = np.moveaxis(ways.at_listeners(by_motion, bounded_hz), 1, 0)
+    turned = positions * np.exp(2j * np.pi * bounded_hz * room.nearest_m / SPEED_OF_SOUND_M_PER_S)
     return _Received(waves, np.einsum("pmf,lpf->lmf", turned, noise), ways.power(by_motion), square)
 
 
@@ -166,10 +166,10 @@ def _weighed(
 
     They fade out below 20 Hz and above the highest frequency of the radiation.
     """
-    ways, at = room.ways, np.minimum(hertz, room.highest_hz)
+    ways, bounded_hz = room.ways, np.minimum(hertz, room.highest_hz)
     fade = _faded(hertz, room.highest_hz)
-    share, direct = ways.wave_share(at), room.direct_per_power(at)
-    reflected = np.maximum(ways.per_power(at) - direct, 0.0)
+    share, direct = ways.wave_share(bounded_hz), room.direct_per_power(bounded_hz)
+    reflected = np.maximum(ways.per_power(bounded_hz) - direct, 0.0)
     per_position = hemisphere_area_m2(ways.radius_m) / AIR_IMPEDANCE_PA_S_PER_M / _positions(room)
     travel_s = room.distance_m[:, None, None] / SPEED_OF_SOUND_M_PER_S
     above = (1.0 - share) * fade**2

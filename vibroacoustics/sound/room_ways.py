@@ -52,18 +52,18 @@ def ways_of(
     shell : of the machine
     vectors, pressure : of `vectors_of` and `pressure_at_places`
     """
-    highest_hz, at = settings.maximum_frequency_hz, rooms.machine_middle_m(settings, shell)
+    highest_hz, middle_m = settings.maximum_frequency_hz, rooms.machine_middle_m(settings, shell)
     share, radius_m = rooms.wave_share(highest_hz), float(vectors.attrs["hemisphere_radius_m"])
     count = len(settings.listeners)
-    free = RoomWays(count, radius_m, share, rooms.diffuse_per_power(settings, at))
+    free = RoomWays(count, radius_m, share, rooms.diffuse_per_power(settings, middle_m))
     waves = wave_gains(pressure, free, highest_hz)
     shown = shown_bands(rooms.seam_bands_hz(highest_hz))
-    both = (waves[:, shown], blended_gains(waves, free)[1][:, shown])
-    gains_db = rooms.place_gains_db(*both)
+    transfers = (waves[:, shown], blended_gains(waves, free)[1][:, shown])
+    gains_db = rooms.place_gains_db(*transfers)
     gain = rooms.gain_over_frequency(gains_db, MIDDLE_HZ[shown])
-    per_power = rooms.diffuse_per_power(settings, at, gain)
+    per_power = rooms.diffuse_per_power(settings, middle_m, gain)
     return BothMethods(
-        RoomWays(count, radius_m, share, per_power), gain, waves, shown, both, gains_db
+        RoomWays(count, radius_m, share, per_power), gain, waves, shown, transfers, gains_db
     )
 
 
@@ -77,24 +77,24 @@ def response_ways(settings: StudyRoom, shell: Shell, vectors: xr.Dataset) -> Way
     vectors : pressure per velocity at the listeners and on the hemisphere
     """
     pressure = rooms.pressure_at_places(vectors)
-    both = ways_of(settings, shell, vectors, pressure)
+    of_study = ways_of(settings, shell, vectors, pressure)
     first = arrivals(settings, rooms.machine_middle_m(settings, shell))
     diffuse = DiffuseRoom.of(rooms.room_of(settings))
     profile = shell.profile
     reach_m = float(np.hypot(profile.radius_m, profile.top_z_m - shell.floor_z_m))
 
     def direct_per_power(frequency_hz: Array) -> Array:
-        return np.asarray(both.gain(frequency_hz) * first.per_power[:, None])
+        return np.asarray(of_study.gain(frequency_hz) * first.per_power[:, None])
 
     def decay_s(frequency_hz: Array) -> Array:
         return np.asarray(diffuse.reverberation_time_s(frequency_hz), dtype=np.float64)
 
     return WaysOfRoom(
         pressure=rooms.of_rigid(pressure),
-        ways=both.ways,
+        ways=of_study.ways,
         direct_per_power=direct_per_power,
         distance_m=np.asarray(first.distance_m, dtype=np.float64),
-        nearest_m=both.ways.radius_m - reach_m,
+        nearest_m=of_study.ways.radius_m - reach_m,
         decay_s=decay_s,
         record_s=float(vectors.attrs["room_record_s"]),
         highest_hz=float(vectors["frequency"].values[-1]),

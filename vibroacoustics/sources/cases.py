@@ -178,7 +178,7 @@ def wrench_lines(
     speed, port = case.revolution.rotation.speed_rad_per_s, case.machine.mechanism_port
 
     def spectrum(wrenches: Collection[Wrench]) -> ComplexArray:
-        each = [order_spectra(np.concatenate(one), speed, highest_order) for one in wrenches]
+        each = [order_spectra(np.concatenate(wrench), speed, highest_order) for wrench in wrenches]
         return np.asarray(np.sum(each, axis=0))
 
     return {

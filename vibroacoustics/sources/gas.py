@@ -211,8 +211,8 @@ def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> dict[Port,
     """
     cycle = gas_cycle(machine, Shared(), speed_rpm)
     samples = cycle.crank_angle.size
-    at, part = np.divmod(np.mod(angle, 2.0 * np.pi) * samples / (2.0 * np.pi), 1.0)
-    before = at.astype(int) % samples
+    sample, part = np.divmod(np.mod(angle, 2.0 * np.pi) * samples / (2.0 * np.pi), 1.0)
+    before = sample.astype(int) % samples
     after = (before + 1) % samples
     return {
         port: (1.0 - part) * load[:, before] + part * load[:, after]

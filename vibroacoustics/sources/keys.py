@@ -106,9 +106,9 @@ class OldhamKeyForces(Source):
             lost = contact_loss_speed_rpm(keys, carried, ring.stroke_m, moment)
             figures["key_contact_lost_above_rpm"] = lost
         for further in case.added.rings:
-            twin, seen = self._further(case, further)
+            twin, further_figures = self._further(case, further)
             spectra.append(twin)
-            figures |= seen
+            figures |= further_figures
         of_rings, torques, noise = zip(*spectra, strict=True)
         return Loads(
             lines=summed(of_rings),
@@ -119,8 +119,8 @@ class OldhamKeyForces(Source):
 
     def curves(self, case: Case) -> Iterable[Curve]:
         """Forces on the keys of the machine's ring; see `oldham_key_curves`."""
-        one = self.model_copy(update={"revolutions": 1})
-        return oldham_key_curves(one._forces(case, _turning(case)))
+        short = self.model_copy(update={"revolutions": 1})
+        return oldham_key_curves(short._forces(case, _turning(case)))
 
     def _further(self, case: Case, ring: FurtherRing) -> tuple[_Spectra, dict[str, float]]:
         """Spectra and figures of the keys of a second ring, which no gas presses."""
@@ -203,13 +203,15 @@ def _spectra(
     """
     highest = case.maximum_order
     resultants = key_resultants(forces, ring.keys.radius_m, ring.stroke_m)
-    mean, rest = split_periodic(resultants, forces.revolutions)
+    mean, fluctuation = split_periodic(resultants, forces.revolutions)
     torque_n_m = key_torque_n_m(forces, ring.stroke_m)
     torque = order_spectrum(split_periodic(torque_n_m, forces.revolutions)[0], highest)
     torque[0] = 0.0  # all friction is left out of the mean
     block = 2 * mean.shape[-1] if forces.revolutions > 1 else mean.shape[-1]
     highest_hz = case.maximum_frequency_hz
-    noise = Noise(on_parts, *spectral_density(rest, forces.sample_rate_hz, block, highest_hz))
+    noise = Noise(
+        on_parts, *spectral_density(fluctuation, forces.sample_rate_hz, block, highest_hz)
+    )
     orders = order_spectrum(mean, highest)
     if ring.force.from_housing and ring.force.force_n.size > 1:
         orders[0] -= resolved_orders(ring.force.force_n, highest)

@@ -65,10 +65,10 @@ class SynchronousMotorTorque(Source):
         )
 
     def _check_supply(self, case: Case) -> None:
-        given, needed = case.supply_frequency_hz, self._electrical_hz(case)
-        if given is not None and abs(given - needed) > SUPPLY_TOLERANCE * needed:
+        stated_hz, needed = case.supply_frequency_hz, self._electrical_hz(case)
+        if stated_hz is not None and abs(stated_hz - needed) > SUPPLY_TOLERANCE * needed:
             raise ParameterError(
-                f"operation.supply_frequency_hz = {given:g} Hz: a synchronous motor turns at "
+                f"operation.supply_frequency_hz = {stated_hz:g} Hz: a synchronous motor turns at "
                 f"{case.speed_rpm:g} rpm on {needed:.6g} Hz alone; leave it out"
             )
 

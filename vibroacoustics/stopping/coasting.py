@@ -121,22 +121,22 @@ def run_down(
     """
     _check(parts, shifted, speed_rad_per_s)
     coasting = Coasting.of(stopping, parts, shifted, gas_torque_n_m)
-    motion, rest, rest_angle = _coast(coasting, speed_rad_per_s, sample_rate_hz)
+    motion, rest_s, rest_angle = _coast(coasting, speed_rad_per_s, sample_rate_hz)
     reversal = None
     if after is not None:
-        reversal = turn_back(coasting, after.table, after.gas, rest, rest_angle)
+        reversal = turn_back(coasting, after.table, after.gas, rest_s, rest_angle)
     first = -int(steady_revolutions * 2.0 * np.pi / speed_rad_per_s * sample_rate_hz)
-    end = _end_s(rest, reversal, after)
+    end = _end_s(rest_s, reversal, after)
     time = np.arange(first, np.ceil(end * sample_rate_hz)) / sample_rate_hz
     course = course_of(coasting, motion, reversal, time, rest_angle, speed_rad_per_s)
     shift = coasting.shift(np.maximum(time, 0.0))
     unshifted = course.angle, course.speed, course.acceleration
-    ahead = tuple(one + turned for one, turned in zip(unshifted, shift, strict=True))
+    ahead = tuple(angle + turned for angle, turned in zip(unshifted, shift, strict=True))
     wrenches = [
         (part.source, wrench_along(part, *(ahead if part.source in shifted else unshifted)))
         for part in parts
     ]
-    wrenches += _further(stopping, course, after and after.valve, time - rest)
+    wrenches += _further(stopping, course, after and after.valve, time - rest_s)
     force, moment = np.stack([np.stack(wrench) for _, wrench in wrenches], axis=1)
     sources = tuple(source for source, _ in wrenches)
     return RunDown(
@@ -175,14 +175,14 @@ def _coast(
 ) -> tuple[Array, float, float]:
     """Angle, speed and acceleration from switch-off to the first rest, its time and angle."""
     motion = np.empty((3, int(LONGEST_S * rate_hz)))
-    samples, rest, angle = coast(speed_rad_per_s, 1.0 / rate_hz, motion, coasting.constants)
-    if np.isnan(rest):
+    samples, rest_s, angle = coast(speed_rad_per_s, 1.0 / rate_hz, motion, coasting.constants)
+    if np.isnan(rest_s):
         friction = coasting.stopping.friction_torque_n_m
         raise ParameterError(
             f"friction_torque_n_m = {friction:g} N m: does not stop the shaft within "
             f"{LONGEST_S:g} s"
         )
-    return motion[:, :samples], rest, angle
+    return motion[:, :samples], rest_s, angle
 
 
 def _check(parts: Sequence[MovingPart], shifted: Collection[str], speed: float) -> None:

@@ -61,10 +61,10 @@ def _add_reversal(coasting: Coasting, reversal: Reversal, time_s: Array, course:
         share = gas.share(jamming.rest_angle - angle)
         force = np.array([jamming.force_n(*each) for each in zip(angle, speed, strict=True)])
         course.angle[during], course.speed[during] = angle, speed
-        given = zip(time_s[during], angle, speed, share, radius * force, strict=True)
+        points = zip(time_s[during], angle, speed, share, radius * force, strict=True)
         course.acceleration[during] = [
-            acceleration(time, turned, rate, coasting.constants, left, stretch.turning, push)
-            for time, turned, rate, left, push in given
+            acceleration(time, turned, rate, coasting.constants, gas_share, stretch.turning, push)
+            for time, turned, rate, gas_share, push in points
         ]
         course.gas_share[during], course.brake_force_n[during] = final * share, force
     if reversal.stretches:

@@ -89,12 +89,12 @@ def acceleration(
     shift, rate, shift_acceleration = _shift_at(time, constants.shift, constants.shift_duration)
     ahead = angle + shift
     fixed, fixed_slope = value_and_slope(constants.fixed_inertia, angle)
-    moved, moved_slope = value_and_slope(constants.shifted_inertia, ahead)
+    shifted_inertia, moved_slope = value_and_slope(constants.shifted_inertia, ahead)
     gas, _ = value_and_slope(constants.gas_torque, ahead)
     torque = constants.gas_share * share * gas + constants.friction * turning
-    torque += constants.viscous * speed + moved * shift_acceleration
+    torque += constants.viscous * speed + shifted_inertia * shift_acceleration
     torque += 0.5 * fixed_slope * speed**2 + 0.5 * moved_slope * (speed + rate) ** 2
-    return float((push - torque) / (fixed + moved))
+    return float((push - torque) / (fixed + shifted_inertia))
 
 
 @dataclass(frozen=True)
@@ -117,8 +117,10 @@ class Coasting:
         """With the reduced inertia of the parts over a revolution."""
         angle = 2.0 * np.pi * np.arange(ANGLES) / ANGLES
         fixed = inertia_over_angle([part for part in parts if part.source not in shifted], angle)
-        moved = inertia_over_angle([part for part in parts if part.source in shifted], angle)
-        curves = fixed + stopping.shaft_inertia_kg_m2, moved, gas_torque_n_m
+        shifted_inertia = inertia_over_angle(
+            [part for part in parts if part.source in shifted], angle
+        )
+        curves = fixed + stopping.shaft_inertia_kg_m2, shifted_inertia, gas_torque_n_m
         return cls(stopping, *(_periodic(curve) for curve in curves))
 
     @cached_property

@@ -100,9 +100,10 @@ def stopping_event(
     weighted = levels.weighted_signal(response.pressure_pa, clock.rate_hz, "A")
     fast = levels.time_weighted_mean_square(weighted, clock.rate_hz, levels.FAST_TIME_CONSTANT_S)
     shown = clock.shown
-    rest = LOAD_SAMPLES * shown.stop - speed.size
+    padding = LOAD_SAMPLES * shown.stop - speed.size
     shaft_speed, force, moment = np.split(
-        np.pad(np.vstack([speed, course]), ((0, 0), (0, rest)))[:, ::LOAD_SAMPLES][:, shown], [1, 4]
+        np.pad(np.vstack([speed, course]), ((0, 0), (0, padding)))[:, ::LOAD_SAMPLES][:, shown],
+        [1, 4],
     )
     return StoppingEvent(
         shaft_speed[0],

@@ -153,8 +153,8 @@ def _starts(
     share = float(gas.share(jamming.rest_angle - angle))
     push = jamming.table.wall_radius_m * jamming.force_n(angle, 0.0)
     free, rubbed, empty = (
-        acceleration(time, angle, 0.0, coasting.constants, left, turning, push)
-        for left, turning in ((share, 0.0), (share, 1.0), (0.0, 0.0))
+        acceleration(time, angle, 0.0, coasting.constants, gas_share, turning, push)
+        for gas_share, turning in ((share, 0.0), (share, 1.0), (0.0, 0.0))
     )
     held = abs(free - rubbed) + STUCK_RATIO * abs(free - empty)
     return float(np.sign(free)) if abs(free) > held else 0.0

@@ -98,11 +98,11 @@ class BaselineSettings(Parameters):
 
     @field_validator("file", "recorded_speed_rpm", mode="before")
     @classmethod
-    def _one_or_several(cls, given: Any) -> Any:
-        if isinstance(given, list):
-            return tuple(given)
-        one = isinstance(given, str | int | float) and not isinstance(given, bool)
-        return (float(given) if not isinstance(given, str) else given,) if one else given
+    def _one_or_several(cls, value: Any) -> Any:
+        if isinstance(value, list):
+            return tuple(value)
+        is_single = isinstance(value, str | int | float) and not isinstance(value, bool)
+        return (float(value) if not isinstance(value, str) else value,) if is_single else value
 
 
 class Baseline(BaselineSettings):
@@ -113,13 +113,13 @@ class Baseline(BaselineSettings):
 
     def contradictions(self) -> Contradictions:
         for name in self.measured_at:
-            if len({one.band_hz for one in self.spectra_at(name)}) > 1:
+            if len({spectrum.band_hz for spectrum in self.spectra_at(name)}) > 1:
                 yield f"microphone {name}: has other bands at another speed"
-            if len({one.order for one in self.orders_at(name)}) > 1:
+            if len({row.order for row in self.orders_at(name)}) > 1:
                 yield f"microphone {name}: has other orders at another speed"
         for name in self.measured_at:
             for kind in (self.spectra_at(name), self.orders_at(name)):
-                speeds = [one.speed_rpm for one in kind]
+                speeds = [spectrum.speed_rpm for spectrum in kind]
                 twice = {speed for speed in speeds if speeds.count(speed) > 1}
                 if twice:
                     yield f"microphone {name}: {min(twice):g} rpm is there twice"
@@ -127,31 +127,33 @@ class Baseline(BaselineSettings):
     @property
     def measured_at(self) -> tuple[str, ...]:
         """Microphones, each once."""
-        of_bands = [one.microphone for one in self.third_octaves]
-        return tuple(dict.fromkeys([*of_bands, *(one.microphone for one in self.orders)]))
+        of_bands = [spectrum.microphone for spectrum in self.third_octaves]
+        return tuple(dict.fromkeys([*of_bands, *(row.microphone for row in self.orders)]))
 
     @property
     def all_orders(self) -> tuple[float, ...]:
         """Orders that were measured at any microphone, rising."""
-        return tuple(sorted({order for one in self.orders for order in one.order}))
+        return tuple(sorted({order for row in self.orders for order in row.order}))
 
     def spectra_at(self, microphone: str) -> list[BaselineSpectrum]:
         """Third octaves at a microphone, by rising speed."""
-        here = (one for one in self.third_octaves if one.microphone == microphone)
-        return sorted(here, key=lambda one: one.speed_rpm)
+        here = (spectrum for spectrum in self.third_octaves if spectrum.microphone == microphone)
+        return sorted(here, key=lambda spectrum: spectrum.speed_rpm)
 
     def orders_at(self, microphone: str) -> list[BaselineOrders]:
         """Orders at a microphone, by rising speed."""
-        here = (one for one in self.orders if one.microphone == microphone)
-        return sorted(here, key=lambda one: one.speed_rpm)
+        here = (row for row in self.orders if row.microphone == microphone)
+        return sorted(here, key=lambda row: row.speed_rpm)
 
     def covers(self, microphone: str, speed_rpm: float) -> bool:
         """Whether all that was measured at a microphone reaches a speed."""
         kinds = (self.spectra_at(microphone), self.orders_at(microphone))
-        speeds = [[one.speed_rpm for one in kind] for kind in kinds if kind]
+        speeds = [[row.speed_rpm for row in kind] for kind in kinds if kind]
         return bool(speeds) and all(
-            min(one) * (1.0 - SPEED_TOLERANCE) <= speed_rpm <= max(one) * (1.0 + SPEED_TOLERANCE)
-            for one in speeds
+            min(measured) * (1.0 - SPEED_TOLERANCE)
+            <= speed_rpm
+            <= max(measured) * (1.0 + SPEED_TOLERANCE)
+            for measured in speeds
         )
 
 
@@ -178,9 +180,9 @@ class MeasuredSound(Parameters):
             elif name not in self.baseline.measured_at:
                 yield f"{where}: the files hold nothing of it"
             elif not any(self.baseline.covers(name, speed) for speed in speeds):
-                known = [one.speed_rpm for one in self.baseline.spectra_at(name)]
-                known += [one.speed_rpm for one in self.baseline.orders_at(name)]
+                measured_rpm = [spectrum.speed_rpm for spectrum in self.baseline.spectra_at(name)]
+                measured_rpm += [row.speed_rpm for row in self.baseline.orders_at(name)]
                 yield (
                     f"{where}: speed_rpm = {', '.join(f'{speed:g}' for speed in speeds)} rpm "
-                    f"lies outside its {min(known):g} to {max(known):g} rpm"
+                    f"lies outside its {min(measured_rpm):g} to {max(measured_rpm):g} rpm"
                 )

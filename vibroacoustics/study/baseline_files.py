@@ -80,7 +80,7 @@ def read_baseline(
     ParameterError
         A file is of no known format, cannot be read, or there are more speeds than files.
     """
-    by_suffix = {end: one for one in BASELINE_READERS.values() for end in one.suffixes}
+    by_suffix = {end: reader for reader in BASELINE_READERS.values() for end in reader.suffixes}
     speeds = list(settings.recorded_speed_rpm)
     third_octaves: Rows = []
     orders: Rows = []
@@ -97,11 +97,13 @@ def read_baseline(
             f"recorded_speed_rpm: {len(settings.recorded_speed_rpm)} values, "
             f"{len(settings.recorded_speed_rpm) - len(speeds)} files state no speed"
         )
-    stated = {one["microphone"] for one in third_octaves if not one.get("without_orders")}
+    stated = {
+        spectrum["microphone"] for spectrum in third_octaves if not spectrum.get("without_orders")
+    }
     kept = [
-        one
-        for one in third_octaves
-        if one["microphone"] not in stated or not one.get("without_orders")
+        spectrum
+        for spectrum in third_octaves
+        if spectrum["microphone"] not in stated or not spectrum.get("without_orders")
     ]
     return BaselineContent(kept, orders)
 

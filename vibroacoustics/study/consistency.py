@@ -37,7 +37,7 @@ def check_consistent(study: StudyTables) -> None:
     reference = study.options.get(REFERENCE_OPTION)
     if reference is None or reference.kind != REFERENCE_OPTION:
         raise ValueError('options: an option named none with kind = "none" is required')
-    _raise_all(partial(_check_fits, study, name, one) for name, one in study.options.items())
+    _raise_all(partial(_check_fits, study, name, option) for name, option in study.options.items())
     checks = (
         _check_catalogue, _check_orders, _check_sources, _check_sound_power, _check_room,
         _check_spectrum, _check_rating, _check_criteria, _check_machines,
@@ -217,8 +217,8 @@ def _check_orders(study: StudyTables) -> None:
     fastest, slowest = max(speeds), min(speeds)
     orders, samples = study.highest_order(slowest), study.operation.crank_angle_samples
     if 2 * orders >= samples:
-        given = study.operation.maximum_order is not None
-        twice = f"maximum_order = {orders}" if given else f"{orders} orders at {slowest:g} rpm"
+        is_stated = study.operation.maximum_order is not None
+        twice = f"maximum_order = {orders}" if is_stated else f"{orders} orders at {slowest:g} rpm"
         raise ValueError(
             f"operation.crank_angle_samples = {samples}: must be above {2 * orders}, twice {twice}"
         )
@@ -286,7 +286,7 @@ def _check_turning_back(study: StudyTables) -> None:
 
 
 def _gas_flows_into(study: StudyTables) -> list[str]:
-    read = {name for one in study.sources.values() for name in one.tables_read(study.machine)}
+    read = {name for source in study.sources.values() for name in source.tables_read(study.machine)}
     return sorted(read & set(SPACES))
 
 

@@ -69,10 +69,10 @@ class Wanted(Parameters):
 
     @field_validator("speeds", "receivers", "samples")
     @classmethod
-    def _share(cls, given: Statistic) -> Statistic:
-        if isinstance(given, float) and not 0.0 < given <= 1.0:
-            raise ValueError(f"{given:g}: allowed worst, mean or a share above 0 to 1")
-        return given
+    def _share(cls, value: Statistic) -> Statistic:
+        if isinstance(value, float) and not 0.0 < value <= 1.0:
+            raise ValueError(f"{value:g}: allowed worst, mean or a share above 0 to 1")
+        return value
 
 
 class Objective(Wanted):
@@ -126,13 +126,13 @@ class Design(Parameters):
 
     @field_validator("option", mode="before")
     @classmethod
-    def _names(cls, given: Any) -> Any:
-        return (given,) if isinstance(given, str) else given
+    def _names(cls, value: Any) -> Any:
+        return (value,) if isinstance(value, str) else value
 
     @field_validator("variables", "tolerances", mode="before")
     @classmethod
-    def _dotted(cls, given: Any) -> Any:
-        return flattened(given) if isinstance(given, Mapping) else given
+    def _dotted(cls, value: Any) -> Any:
+        return flattened(value) if isinstance(value, Mapping) else value
 
     def contradictions(self) -> Contradictions:
         if len(set(self.option)) < len(self.option):

@@ -115,7 +115,7 @@ def _study_of(written: Written) -> Study:
         if name in content:
             del content[name]
             reader.problems.append(f"{path}: {name}: unknown key")
-    given = reader.tried(lambda: take_given(content, reader))
+    given_values = reader.tried(lambda: take_given(content, reader))
     evidence = reader.tried(lambda: take_evidence(content, reader))
     content = reader.to_si(content, ())
     for name in _WITH_DATA_FILES:
@@ -123,7 +123,7 @@ def _study_of(written: Written) -> Study:
             resolve_file_names(content[name], reader, (name,))
     reader.tried(lambda: _read_measured(content, reader))
     plate = reader.tried(lambda: _plate(content, reader))
-    content.update(source_file=path.name, given=given, evidence=evidence, titles=titles)
+    content.update(source_file=path.name, given=given_values, evidence=evidence, titles=titles)
     for name, (redesigned, _, _) in redesigns.items():
         content["options"][name]["machine"] = _under(plate, redesigned)
     validate_options(

@@ -22,8 +22,8 @@ class ForcePoint(Hit):
     """From the centre of mass at rest."""
 
     def contradictions(self) -> Contradictions:
-        given = [name for name in _POSITION if getattr(self, name) is not None]
-        if (self.foot is None) != (len(given) == len(_POSITION)) or (self.foot and given):
+        stated = [name for name in _POSITION if getattr(self, name) is not None]
+        if (self.foot is None) != (len(stated) == len(_POSITION)) or (self.foot and stated):
             yield "needs either foot or x_mm, y_mm and z_mm"
 
 

@@ -39,10 +39,10 @@ class Operation(Parameters):
 
     @field_validator("speed_rpm", mode="before")
     @classmethod
-    def _range(cls, given: Any) -> Any:
-        if isinstance(given, dict):
-            return speed_range(given)
-        return tuple(given) if isinstance(given, list) else given
+    def _range(cls, value: Any) -> Any:
+        if isinstance(value, dict):
+            return speed_range(value)
+        return tuple(value) if isinstance(value, list) else value
 
     def contradictions(self) -> Contradictions:
         for speed in self.speed_rpm:

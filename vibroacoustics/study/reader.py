@@ -119,12 +119,12 @@ class Reader:
         return _frozen(number)
 
 
-def _limits(where: str, given: Any) -> tuple[float, float] | tuple[None, None]:
-    if given is None:
+def _limits(where: str, limits: Any) -> tuple[float, float] | tuple[None, None]:
+    if limits is None:
         return None, None
-    if not isinstance(given, list) or len(given) != 2 or not all(map(is_number, given)):
+    if not isinstance(limits, list) or len(limits) != 2 or not all(map(is_number, limits)):
         raise ParameterError(f"{where}: range must be two numbers [lowest, highest]")
-    return float(given[0]), float(given[1])
+    return float(limits[0]), float(limits[1])
 
 
 def is_number(value: Any) -> bool:

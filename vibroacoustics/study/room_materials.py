@@ -38,18 +38,18 @@ def library() -> dict[str, Covering]:
     }
 
 
-def _by_name(given: Any) -> Any:
+def _by_name(value: Any) -> Any:
     """A covering for a name of the library; anything else as it is."""
-    if isinstance(given, dict) and isinstance(ratios := given.get("absorption_ratio"), list):
-        return {**given, "absorption_ratio": tuple(ratios)}  # strict beyond this function
-    if not isinstance(given, str):
-        return given
-    if given not in library():
+    if isinstance(value, dict) and isinstance(ratios := value.get("absorption_ratio"), list):
+        return {**value, "absorption_ratio": tuple(ratios)}  # strict beyond this function
+    if not isinstance(value, str):
+        return value
+    if value not in library():
         raise ValueError(
-            f"{given} is no material of the library; allowed {', '.join(library())}, "
+            f"{value} is no material of the library; allowed {', '.join(library())}, "
             "or a table with absorption_ratio"
         )
-    return library()[given]
+    return library()[value]
 
 
 _SCHEMA: Final = {

@@ -118,7 +118,7 @@ def warn_of_contradictions(study: Study) -> None:
         )
 
 
-def with_sample(machine: Machine, given: Machine, sample: Sample) -> Machine:
+def with_sample(machine: Machine, nominal: Machine, sample: Sample) -> Machine:
     """A machine with sampled values and what follows from them.
 
     What an option has changed of the given machine stays changed.
@@ -126,7 +126,7 @@ def with_sample(machine: Machine, given: Machine, sample: Sample) -> Machine:
     Parameters
     ----------
     machine : as an option leaves it
-    given : of the study
+    nominal : of the study
     sample : values by table and field
 
     Raises
@@ -137,7 +137,7 @@ def with_sample(machine: Machine, given: Machine, sample: Sample) -> Machine:
     changed = {
         f"{table}.{field}".lstrip("."): value
         for (table, field), value in sample.items()
-        if _read(machine, table, field) == _read(given, table, field)
+        if _read(machine, table, field) == _read(nominal, table, field)
     }
     if not changed:
         return machine
@@ -199,9 +199,9 @@ def _by_table(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, dict
     direct: dict[str, Any] = {}
     inner: dict[str, dict[str, Any]] = {}
     for name, value in values.items():
-        first, _, rest = name.partition(".")
-        if rest:
-            inner.setdefault(first, {})[rest] = value
+        first, _, further = name.partition(".")
+        if further:
+            inner.setdefault(first, {})[further] = value
         else:
             direct[first] = value
     return direct, inner

@@ -34,9 +34,9 @@ class SoundPowerSettings(Parameters):
     """Absorption area of that test stand's room; none is an ideal hemi-anechoic room."""
 
     def contradictions(self) -> Contradictions:
-        given = self.model_fields_set
+        stated = self.model_fields_set
         unused = "distance_m" if self.arrangement in HEMISPHERES else "radius_m"
-        if unused in given:
+        if unused in stated:
             yield (
                 f"{unused.removesuffix('_m')}_mm: has no meaning for arrangement = "
                 f"{self.arrangement}"

@@ -87,10 +87,10 @@ class StudyTables(Parameters):
 
     @field_validator("options", "receivers", "machines", "common_receivers")
     @classmethod
-    def _named(cls, given: dict[str, Any]) -> dict[str, Any]:
-        if not all(name.strip() for name in given):
+    def _named(cls, names: dict[str, Any]) -> dict[str, Any]:
+        if not all(name.strip() for name in names):
             raise ValueError("a name is blank")
-        return given
+        return names
 
     @field_validator("options")
     @classmethod

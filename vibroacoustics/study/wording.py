@@ -115,8 +115,10 @@ def _meant(
     """The field that a misspelt key means: one that is missing, or else an optional one."""
     key = reader.file_keys.get((*table, *inner), (inner[-1], None))[0]
     lacking = [other[-1] for other in missing if other[:-1] == inner[:-1]]
-    known = [field for at in _models_at(model, inner[:-1]) for field in at.model_fields]
-    field = meant_field(key, lacking) or meant_field(key, known)
+    fields = [
+        field for inner_model in _models_at(model, inner[:-1]) for field in inner_model.model_fields
+    ]
+    field = meant_field(key, lacking) or meant_field(key, fields)
     if field is None:
         return (), ""
     return (*inner[:-1], field), f", did you mean {meant_key(key, field)}"
@@ -199,9 +201,9 @@ _LIMITS: Final = {"greater_than", "greater_than_equal", "less_than", "less_than_
 
 def _without_tags(location: tuple[str, ...]) -> tuple[str, ...]:
     """Location without what pydantic adds: the kind of a body, and a key's mark."""
-    at = location.index("body") + 1 if "body" in location else 0
-    if 0 < at < len(location) and location[at] in _BODIES:
-        location = (*location[:at], *location[at + 1 :])
+    number = location.index("body") + 1 if "body" in location else 0
+    if 0 < number < len(location) and location[number] in _BODIES:
+        location = (*location[:number], *location[number + 1 :])
     return tuple(part for part in location if part != "[key]")
 
 

@@ -146,15 +146,15 @@ class BendingShell:
             forces, every = self.path.forces_of_parts(), np.arange(frequency_hz.size)
             return self.of_modal_forces(observers, forces, frequency_hz, every, None)
         names = np.round(frequency_hz, _SAME_DECIMALS).tolist()
-        keys, known = [(observers, name) for name in names], self._of_parts
-        new = [number for number, key in enumerate(keys) if key not in known]
+        keys, responses = [(observers, name) for name in names], self._of_parts
+        new = [number for number, key in enumerate(keys) if key not in responses]
         if 2 * len(new) > len(keys):  # all, as gas that acts at them asks for
             new = list(range(len(keys)))
         if new:  # noise shares its frequencies with lines
             of_loads = self._through(self.frame, observers, frequency_hz[new]).of_loads
             each = np.moveaxis(of_loads, -1, 0)
-            known.update(zip((keys[n] for n in new), each, strict=True))
-        return np.stack([known[key] for key in keys], axis=-1)
+            responses.update(zip((keys[n] for n in new), each, strict=True))
+        return np.stack([responses[key] for key in keys], axis=-1)
 
     def _through(
         self, frame: FrameOnShell, observers: Observers, frequency_hz: Array
@@ -163,8 +163,8 @@ class BendingShell:
 
         def sound() -> SoundPerForce:
             gain = amplitude_of_level(self.variation.mobility_change_db)
-            at = observers.of_modes(frequency_hz), observers.rigid(frequency_hz)
-            return frame.sound(*at, frequency_hz, gain)
+            shell_motions = observers.of_modes(frequency_hz), observers.rigid(frequency_hz)
+            return frame.sound(*shell_motions, frequency_hz, gain)
 
         return self._known(("frame", observers, frequency_hz.tobytes()), sound)
 
@@ -206,14 +206,16 @@ def pressure_over_time(
     spectra = {port: fft.rfft(load)[:, : frequency.size] for port, load in loads.items()}
 
     def pressure(first: int) -> ComplexArray:
-        at = slice(first, first + LINES)
-        some = frequency[at]
+        block = slice(first, first + LINES)
+        some = frequency[block]
         every = np.arange(some.size)
         parts = [
-            np.einsum("rcf,cf->rf", shell.response(observers, port, some, every), spectrum[:, at])
+            np.einsum(
+                "rcf,cf->rf", shell.response(observers, port, some, every), spectrum[:, block]
+            )
             for port, spectrum in spectra.items()
         ]
         return np.asarray(sum(parts))
 
-    lines = np.concatenate([pressure(at) for at in range(0, frequency.size, LINES)], axis=1)
+    lines = np.concatenate([pressure(first) for first in range(0, frequency.size, LINES)], axis=1)
     return np.asarray(fft.irfft(lines, times // LOAD_SAMPLES) / LOAD_SAMPLES)

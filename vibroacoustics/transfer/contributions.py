@@ -133,10 +133,10 @@ def _of_source(
             continue
         for way, rows, response in _ways(path, microphones, port, lines.frequency_hz, loaded):
             name = PathName(source, *way)
-            at = paths.setdefault(
+            pressures = paths.setdefault(
                 name, np.zeros((len(response), lines.frequency_hz.size), dtype=complex)
             )
-            at[:, loaded] += np.einsum("rcf,cf->rf", response, load[rows][:, loaded])
+            pressures[:, loaded] += np.einsum("rcf,cf->rf", response, load[rows][:, loaded])
     return paths
 
 

@@ -101,8 +101,8 @@ def corners(pitch_m: float, height_m: float) -> Array:
     )
 
 
-def _or(given: float | None, default: float) -> float:
-    return default if given is None else given
+def _or(value: float | None, default: float) -> float:
+    return default if value is None else value
 
 
 def _matrix(stiffness: Array) -> Array:

@@ -85,8 +85,8 @@ class ForceSound:
     def _at(self, values: ComplexArray, frequency_hz: Array) -> ComplexArray:
         """At some frequencies, on straight lines between those that were measured."""
         flat = values.reshape(-1, values.shape[-1])
-        at = [np.interp(frequency_hz, self.frequency_hz, row) for row in flat]
-        return np.array(at).reshape(*values.shape[:-1], frequency_hz.size)
+        interpolated = [np.interp(frequency_hz, self.frequency_hz, row) for row in flat]
+        return np.array(interpolated).reshape(*values.shape[:-1], frequency_hz.size)
 
 
 def of_body(rigid: PressurePerVelocity, body: MachineOnMounts) -> PressurePerVelocity:

@@ -56,7 +56,10 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
     arrays |= _of_mounts(reference) | _with_bodies(machines)
     return check(
         xr.Dataset(
-            {name: stamp(name, values, at) for name, (values, at) in arrays.items()},
+            {
+                name: stamp(name, values, coordinates)
+                for name, (values, coordinates) in arrays.items()
+            },
             coords={"foot_position": (("foot", "axis"), reference.foot_position)},
         )
     )

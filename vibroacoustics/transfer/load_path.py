@@ -50,8 +50,8 @@ class LoadPath:
         ParameterError
             The machine has no such port.
         """
-        at = np.arange(frequency_hz.size) if lines is None else lines
-        each = [self._of_port(observers, port, frequency_hz, at) for port in ports]
+        columns = np.arange(frequency_hz.size) if lines is None else lines
+        each = [self._of_port(observers, port, frequency_hz, columns) for port in ports]
         return np.concatenate(each, axis=1)
 
     def _of_port(

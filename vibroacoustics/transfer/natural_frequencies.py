@@ -54,10 +54,13 @@ def shell_frequencies(machine: Machine, path: ShellPath) -> Named:
     frame = frame_on_shell(machine, shell)
     if frame is not None:
         hertz = framed_hz(frame)
-        return {f"with_parts_{number:03d}": float(one) for number, one in enumerate(hertz, 1)}
+        return {
+            f"with_parts_{number:03d}": float(frequency_hz)
+            for number, frequency_hz in enumerate(hertz, 1)
+        }
     factor = machine.table(ShellVariation).frequency_factor_ratio
     named = zip((mode.name for mode in shell.modes), factor * shell.natural_hz, strict=True)
-    return {name: float(hertz) for name, hertz in sorted(named, key=lambda one: one[1])}
+    return {name: float(hertz) for name, hertz in sorted(named, key=lambda entry: entry[1])}
 
 
 def framed_hz(frame: FrameOnShell) -> Array:
@@ -99,9 +102,9 @@ def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str,
         for gas in space.orders if name in sound_speed else ():
             numbers = np.sqrt(gas.modes[0])
             hertz = sound_speed[name] * numbers[numbers > 0.0] / (2.0 * np.pi)
-            for number, one in enumerate(hertz[hertz > _FREE_HZ], 1):
-                named[f"{name}_n{gas.order}_{number}"] = float(one)
-    return dict(sorted(named.items(), key=lambda one: one[1]))
+            for number, frequency_hz in enumerate(hertz[hertz > _FREE_HZ], 1):
+                named[f"{name}_n{gas.order}_{number}"] = float(frequency_hz)
+    return dict(sorted(named.items(), key=lambda entry: entry[1]))
 
 
 def sound_speeds(loads: Mapping[str, Loads]) -> dict[str, float]:

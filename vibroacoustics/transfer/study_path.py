@@ -37,7 +37,9 @@ def projection_errors(
         return {}
     highest, shell = study.radiation.maximum_frequency_hz, study.machine.shell
     every = _ends(study, path.structure).items()
-    shaping = [one for one in every if one[0].rpartition(".")[2] in path.structure.changes_shapes]
+    shaping = [
+        entry for entry in every if entry[0].rpartition(".")[2] in path.structure.changes_shapes
+    ]
     errors: dict[str, float] = {}
     for name, ends in shaping:
         progress("errors of projection", len(errors), len(shaping))

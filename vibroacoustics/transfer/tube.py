@@ -82,8 +82,8 @@ def _piece_flexibility(
     middle = np.zeros((6, 6))
     middle[:3, :3] = length / axial * along + length**3 / (12.0 * bending) * across
     middle[3:, 3:] = length / bending * ((1.0 + poisson_ratio) * along + across)
-    moved = motion_at(reference, 0.5 * (start + end))
-    return np.asarray(moved @ middle @ moved.T)
+    displacement = motion_at(reference, 0.5 * (start + end))
+    return np.asarray(displacement @ middle @ displacement.T)
 
 
 def tube_end_reactions(

@@ -171,8 +171,8 @@ def _campbell(machine: HermeticTables, bending: Solved, speed_rpm: float) -> Cur
 
     def frequencies(spin: float) -> Array:
         films = {
-            at: linear_film(machine.bearing, load, spin)
-            for at, load in zip(journals, loads, strict=True)
+            dof: linear_film(machine.bearing, load, spin)
+            for dof, load in zip(journals, loads, strict=True)
         }
         return damped_modes(rotor, films, spin)[0]
 

@@ -140,8 +140,8 @@ def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Arr
 def _guess(machine: HermeticTables, shaft: Crankshaft) -> Array:
     """Journals a little out of the middle, at the synchronous speed."""
     state = np.zeros(2 * shaft.freedoms + 1)
-    for at in shaft.bearing_freedoms:
-        state[at] = -START_ECCENTRICITY * machine.bearing.clearance_m
+    for dof in shaft.bearing_freedoms:
+        state[dof] = -START_ECCENTRICITY * machine.bearing.clearance_m
     state[-1] = machine.motor.synchronous_speed_rad_per_s
     return state
 
@@ -166,9 +166,9 @@ def _clearance_kept(machine: HermeticTables, shaft: Crankshaft) -> Callable[[Arr
 
 
 def _films_and_moves(
-    stages: Array, step: Array, freedoms: Sequence[int], clearance_m: float
+    stages: Array, step: Array, dofs: Sequence[int], clearance_m: float
 ) -> tuple[Array, Array]:
     """Thinnest film and length of the step of each journal at each point."""
-    journal_freedoms = np.array([(at, at + 1) for at in freedoms], dtype=int).reshape(-1, 2)
-    film = clearance_m - np.linalg.norm(stages[..., journal_freedoms], axis=-1)
-    return film, np.linalg.norm(step[..., journal_freedoms], axis=-1)
+    journal_dofs = np.array([(dof, dof + 1) for dof in dofs], dtype=int).reshape(-1, 2)
+    film = clearance_m - np.linalg.norm(stages[..., journal_dofs], axis=-1)
+    return film, np.linalg.norm(step[..., journal_dofs], axis=-1)

@@ -216,12 +216,12 @@ def damped_modes(
     frequencies in Hz and damping ratios of the oscillating modes
     """
     damping, stiffness = spin_rad_per_s * rotor.gyroscopic, rotor.stiffness.copy()
-    for at, film in films.items():
-        stiffness[at : at + 2, at : at + 2] += film.stiffness
-        damping[at : at + 2, at : at + 2] += film.damping
-    zero, one = np.zeros_like(stiffness), np.eye(len(stiffness))
+    for dof, film in films.items():
+        stiffness[dof : dof + 2, dof : dof + 2] += film.stiffness
+        damping[dof : dof + 2, dof : dof + 2] += film.damping
+    zero, identity = np.zeros_like(stiffness), np.eye(len(stiffness))
     lower = -np.linalg.solve(rotor.mass, np.hstack((stiffness, damping)))
-    values = np.linalg.eigvals(np.vstack((np.hstack((zero, one)), lower)))
+    values = np.linalg.eigvals(np.vstack((np.hstack((zero, identity)), lower)))
     values = values[values.imag > 1.0]
     values = values[np.argsort(values.imag)]
     return values.imag / (2.0 * np.pi), -values.real / np.abs(values)

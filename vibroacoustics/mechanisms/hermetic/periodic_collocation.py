@@ -139,7 +139,7 @@ def _compose(particular: Array, transfer: Array) -> tuple[Array, Array]:
 def _propagated(particular: Array, transfer: Array, first: Array) -> Array:
     """Newton steps of all stages from that of the first state."""
     step = np.empty_like(particular)
-    for at, (change, matrix) in enumerate(zip(particular, transfer, strict=True)):
-        step[at] = change + matrix @ first
-        first = step[at, -1]
+    for step_number, (change, matrix) in enumerate(zip(particular, transfer, strict=True)):
+        step[step_number] = change + matrix @ first
+        first = step[step_number, -1]
     return step

@@ -62,10 +62,10 @@ def crank_point(
     p, q = radius_m * np.cos(theta), radius_m * np.sin(theta)
     across, w = cg * p - sg * offset_m, sg * p + cg * offset_m
     up, along = cb * q + sb * w, sb * q - cb * w
-    zero, one = np.zeros_like(p), np.ones_like(p)
+    zero, ones = np.zeros_like(p), np.ones_like(p)
     jacobian = [
-        [one, zero, zero, -w, -cg * q],
-        [zero, one, -along, sb * across, cb * p - sb * sg * q],
+        [ones, zero, zero, -w, -cg * q],
+        [zero, ones, -along, sb * across, cb * p - sb * sg * q],
         [zero, zero, up, -cb * across, sb * p + cb * sg * q],
     ]
     squares = rate_beta**2, rate_gamma**2, rate_theta**2
@@ -212,11 +212,11 @@ def joint_forces(machine: HermeticTables, motion: RodMotion, gas_force_n: Values
     piston_y = pin_y + rod.mass_kg * across
     crank_share = rod.centre_of_mass_m / rod.length_m * rod.mass_kg * GRAVITY
     piston_share = rod.mass_kg * GRAVITY - crank_share
-    one = np.ones_like(pin_x)
+    ones = np.ones_like(pin_x)
     return JointForces(
-        np.stack((piston_x, piston_y, piston_share * one), axis=-1),
-        np.stack((pin_x, pin_y, -crank_share * one), axis=-1),
-        np.stack((0.0 * one, piston_y, (piston_share + piston.mass_kg * GRAVITY) * one), axis=-1),
+        np.stack((piston_x, piston_y, piston_share * ones), axis=-1),
+        np.stack((pin_x, pin_y, -crank_share * ones), axis=-1),
+        np.stack((0.0 * ones, piston_y, (piston_share + piston.mass_kg * GRAVITY) * ones), axis=-1),
     )
 
 

@@ -57,10 +57,10 @@ def crankshaft(machine: HermeticTables) -> Crankshaft:
     """The shaft of the machine's case (Estupiñan, Mathematical Modelling)."""
     if machine.case == "III":
         return _flexible(machine)
-    freedoms = 0 if machine.case == "I" else 2
-    zero = np.zeros((freedoms, freedoms))
+    count = 0 if machine.case == "I" else 2
+    zero = np.zeros((count, count))
     free = (4,) if machine.case == "I" else (0, 1, 4)
-    return Crankshaft(RotorMatrices(zero, zero, zero), (0,) if freedoms else (), free)
+    return Crankshaft(RotorMatrices(zero, zero, zero), (0,) if count else (), free)
 
 
 def _flexible(machine: HermeticTables) -> Crankshaft:
@@ -107,8 +107,8 @@ class ShaftEquations:
 
     def split(self, states: Array) -> tuple[Array, Array, Array]:
         """Displacements, velocities and shaft speed of states (..., 2n + 1)."""
-        freedoms = self.shaft.freedoms
-        return states[..., :freedoms], states[..., freedoms:-1], states[..., -1]
+        count = self.shaft.freedoms
+        return states[..., :count], states[..., count:-1], states[..., -1]
 
     def crank_coordinates(self, angle: Array, states: Array) -> tuple[Array, Array]:
         """x, y, β, Γ, θ of the crank and their rates, shape (..., 5)."""
@@ -128,8 +128,8 @@ class ShaftEquations:
     def film_forces(self, states: Array) -> Array:
         """Force of each bearing's film on its journal, N, shape (..., bearings, 2)."""
         displacement, velocity, speed = self.split(states)
-        pairs = [(displacement[..., at : at + 2], velocity[..., at : at + 2])
-                 for at in self.shaft.bearing_freedoms]  # fmt: skip
+        pairs = [(displacement[..., dof : dof + 2], velocity[..., dof : dof + 2])
+                 for dof in self.shaft.bearing_freedoms]  # fmt: skip
         forces = [self.film(self.machine.bearing, *pair, speed) for pair in pairs]
         return np.stack(forces, axis=-2) if forces else np.zeros((*speed.shape, 0, 2))
 
@@ -143,15 +143,15 @@ class ShaftEquations:
         force[..., :-1] = -displacement @ shaft.matrices.stiffness
         force[..., :-1] -= speed[..., None] * (velocity @ shaft.matrices.gyroscopic.T)
         force[..., -1] = self.motor_torque(speed)
-        for at, film in zip(
+        for dof, film in zip(
             shaft.bearing_freedoms, np.moveaxis(self.film_forces(states), -2, 0), strict=True
         ):
-            force[..., at : at + 2] += film
+            force[..., dof : dof + 2] += film
         coordinates, rates = self.crank_coordinates(angle, states)
         added, load = added_mass(self.machine, coordinates, rates, gas_force_n(self.machine, angle))
-        crank_freedoms, free = shaft.crank_places, list(shaft.free)
-        mass[..., crank_freedoms[:, None], crank_freedoms] += added[..., free, :][..., free]
-        force[..., crank_freedoms] += load[..., free]
+        crank_dofs, free = shaft.crank_places, list(shaft.free)
+        mass[..., crank_dofs[:, None], crank_dofs] += added[..., free, :][..., free]
+        force[..., crank_dofs] += load[..., free]
         return mass, force
 
     def accelerations(self, angle: Array, states: Array) -> Array:
@@ -167,24 +167,24 @@ class ShaftEquations:
 
     def slopes_and_tangents(self, angle: Array, states: Array) -> tuple[Array, Array]:
         """d(states)/dθ and its derivatives by the states, shapes (points, m) and (points, m, m)."""
-        freedoms, speed = self.shaft.freedoms, states[..., -1]
+        count, speed = self.shaft.freedoms, states[..., -1]
         mass, force = self._balance(angle, states)
         accelerations = np.asarray(np.linalg.solve(mass, force[..., None])[..., 0], dtype=float)
         residual = self._residual_tangent(angle, states, accelerations)
-        rates = np.concatenate((states[..., freedoms:-1], accelerations), axis=-1)
+        rates = np.concatenate((states[..., count:-1], accelerations), axis=-1)
         tangent = np.zeros((*rates.shape, rates.shape[-1]))
-        tangent[..., :freedoms, freedoms:-1] = np.eye(freedoms)
-        tangent[..., freedoms:, :] = np.linalg.solve(mass, residual)
+        tangent[..., :count, count:-1] = np.eye(count)
+        tangent[..., count:, :] = np.linalg.solve(mass, residual)
         tangent[..., -1] -= rates / speed[..., None]
         return rates / speed[..., None], tangent / speed[..., None, None]
 
     def _residual_tangent(self, angle: Array, states: Array, accelerations: Array) -> Array:
         """Derivative of force - mass x (given accelerations) by the states."""
         shaft, (_, velocity, speed) = self.shaft, self.split(states)
-        freedoms, matrices = shaft.freedoms, shaft.matrices
-        tangent = np.zeros((*speed.shape, freedoms + 1, 2 * freedoms + 1))
-        tangent[..., :-1, :freedoms] = -matrices.stiffness
-        tangent[..., :-1, freedoms:-1] = -speed[..., None, None] * matrices.gyroscopic
+        count, matrices = shaft.freedoms, shaft.matrices
+        tangent = np.zeros((*speed.shape, count + 1, 2 * count + 1))
+        tangent[..., :-1, :count] = -matrices.stiffness
+        tangent[..., :-1, count:-1] = -speed[..., None, None] * matrices.gyroscopic
         tangent[..., :-1, -1] = -velocity @ matrices.gyroscopic.T
         tangent[..., -1, -1] = -self.machine.motor.torque_slope_n_m_s
         self._add_film_tangent(states, tangent)
@@ -192,31 +192,33 @@ class ShaftEquations:
         return tangent
 
     def _add_film_tangent(self, states: Array, tangent: Array) -> None:
-        freedoms, bearing = self.shaft.freedoms, self.machine.bearing
-        for at in self.shaft.bearing_freedoms:
-            columns = [at, at + 1, freedoms + at, freedoms + at + 1, -1]
+        count, bearing = self.shaft.freedoms, self.machine.bearing
+        for dof in self.shaft.bearing_freedoms:
+            columns = [dof, dof + 1, count + dof, count + dof + 1, -1]
             local = states[..., columns].astype(complex)
             for index, column in enumerate(columns):
-                moved = local.copy()
-                moved[..., index] += 1j * COMPLEX_STEP
-                force = self.film(bearing, moved[..., :2], moved[..., 2:4], moved[..., 4])
-                tangent[..., at : at + 2, column] += force.imag / COMPLEX_STEP
+                perturbed = local.copy()
+                perturbed[..., index] += 1j * COMPLEX_STEP
+                force = self.film(
+                    bearing, perturbed[..., :2], perturbed[..., 2:4], perturbed[..., 4]
+                )
+                tangent[..., dof : dof + 2, column] += force.imag / COMPLEX_STEP
 
     def _add_mechanism_tangent(
         self, angle: Array, states: Array, accelerations: Array, tangent: Array
     ) -> None:
         shaft, gas = self.shaft, gas_force_n(self.machine, angle)
-        crank_freedoms, free = shaft.crank_places, list(shaft.free)
+        crank_dofs, free = shaft.crank_places, list(shaft.free)
         coordinates, rates = (
             value.astype(complex) for value in self.crank_coordinates(angle, states)
         )
         second = np.zeros(coordinates.shape)
-        second[..., free] = accelerations[..., crank_freedoms]
-        moves = [(coordinates, at, at) for at in range(len(free) - 1)]  # but not θ
-        moves += [(rates, at, shaft.freedoms + at) for at in range(len(free) - 1)]
+        second[..., free] = accelerations[..., crank_dofs]
+        moves = [(coordinates, number, number) for number in range(len(free) - 1)]  # but not θ
+        moves += [(rates, number, shaft.freedoms + number) for number in range(len(free) - 1)]
         moves += [(rates, len(free) - 1, 2 * shaft.freedoms)]
-        for moved, at, column in moves:
-            moved[..., free[at]] += 1j * COMPLEX_STEP
+        for perturbed, number, column in moves:
+            perturbed[..., free[number]] += 1j * COMPLEX_STEP
             load = mechanism_motion(self.machine, coordinates, rates, second, gas).shaft_load
-            moved[..., free[at]] -= 1j * COMPLEX_STEP
-            tangent[..., crank_freedoms, column] += load[..., free].imag / COMPLEX_STEP
+            perturbed[..., free[number]] -= 1j * COMPLEX_STEP
+            tangent[..., crank_dofs, column] += load[..., free].imag / COMPLEX_STEP

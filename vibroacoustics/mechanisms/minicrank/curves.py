@@ -122,9 +122,9 @@ def _torque_n_m(
 ) -> Mapping[str, Array]:
     """Input torque of the machine's masses and load on rigid links with one mini-crank."""
     crank_angle = uniform_crank_angle(CRANK_ANGLES)
-    moved = four_bar_motion(links, crank_angle, machine.four_bar.branch)
+    motion = four_bar_motion(links, crank_angle, machine.four_bar.branch)
     load = scroll_load(machine.loads, links, crank_angle)
-    return input_torque(links, moved, machine.masses.of_all(1), load, speed_rad_per_s)
+    return input_torque(links, motion, machine.masses.of_all(1), load, speed_rad_per_s)
 
 
 def _sum(torques: Mapping[str, Array]) -> Array:
@@ -133,8 +133,8 @@ def _sum(torques: Mapping[str, Array]) -> Array:
 
 def _pins(cycle: MiniCrankCycle, angle: CurveAxis) -> Curve:
     """Figure 3: forces that rigid pins take."""
-    given = (cycle.links, cycle.moved, cycle.masses, cycle.load, cycle.rotation)
-    forces = [np.hypot(*crank_pin_force(*given)), np.hypot(*minicrank_pin_force(*given))]
+    arguments = (cycle.links, cycle.moved, cycle.masses, cycle.load, cycle.rotation)
+    forces = [np.hypot(*crank_pin_force(*arguments)), np.hypot(*minicrank_pin_force(*arguments))]
     return Curve(
         "pin_force", "Forces at rigid pins", np.array(forces),
         (CurveAxis("pin", ["crank pin", "mini-crank pin"]), angle), "n",

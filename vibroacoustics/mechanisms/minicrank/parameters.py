@@ -30,11 +30,11 @@ class Masses(Parameters):
 
     def of_all(self, minicranks: int) -> "Masses":
         """With all mini-cranks as one, less what their own counterweights balance."""
-        left = 1.0 - self.minicrank_balance_ratio
+        unbalanced_share = 1.0 - self.minicrank_balance_ratio
         return self.model_copy(
             update={
                 "minicrank_inertia_kg_m2": minicranks * self.minicrank_inertia_kg_m2,
-                "minicrank_mass_kg": minicranks * left * self.minicrank_mass_kg,
+                "minicrank_mass_kg": minicranks * unbalanced_share * self.minicrank_mass_kg,
                 "minicrank_balance_ratio": 0.0,
             }
         )

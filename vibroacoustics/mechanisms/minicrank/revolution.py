@@ -48,10 +48,10 @@ def _facts(cycle: MiniCrankCycle) -> dict[str, float]:
 
 def _facts_of_rocking(cycle: MiniCrankCycle) -> dict[str, float]:
     """Swing of a mini-crank that does not turn, and the forces that rigid pins would take."""
-    given = (cycle.links, cycle.moved, cycle.masses, cycle.load, cycle.rotation)
+    arguments = (cycle.links, cycle.moved, cycle.masses, cycle.load, cycle.rotation)
     forces = {
-        "minicrank_pin_force_n": minicrank_pin_force(*given),
-        "crank_pin_force_n": crank_pin_force(*given),
+        "minicrank_pin_force_n": minicrank_pin_force(*arguments),
+        "crank_pin_force_n": crank_pin_force(*arguments),
     }
     return {
         "minicrank_swing_deg": float(np.rad2deg(np.ptp(cycle.moved.minicrank_angle[0]))),

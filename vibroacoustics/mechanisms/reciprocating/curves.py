@@ -81,10 +81,14 @@ def _over_crank_angle(cycles: list[Cycle], designs: CurveAxis) -> Iterator[Curve
 
 def _inertia_torques_n_m(cycle: Cycle) -> tuple[Array, Array]:
     """Torque at the crankshaft that piston and connecting rod take up."""
-    moved = cycle.moved
-    piston, rod_x, rod_y, turn = rates_of_momentum(cycle.crank, moved, cycle.rotation)
-    rod = rod_x * moved.rod_x_m[1] + rod_y * moved.rod_y_m[1] + turn * moved.rod_angle[1]
-    return piston * moved.piston_m[1], rod
+    kinematics = cycle.moved
+    piston, rod_x, rod_y, turn = rates_of_momentum(cycle.crank, kinematics, cycle.rotation)
+    rod = (
+        rod_x * kinematics.rod_x_m[1]
+        + rod_y * kinematics.rod_y_m[1]
+        + turn * kinematics.rod_angle[1]
+    )
+    return piston * kinematics.piston_m[1], rod
 
 
 def _friction(cycles: list[Cycle], designs: CurveAxis) -> Iterator[Curve]:

@@ -168,12 +168,12 @@ def steady_cycle(
 
 
 def _charge(crank: SliderCrank, cylinder: Cylinder, gas: CylinderGas, samples: int) -> Charge:
-    moved = motion(crank, uniform_crank_angle(samples) + cylinder.lead_rad)
+    kinematics = motion(crank, uniform_crank_angle(samples) + cylinder.lead_rad)
     top = top_dead_centre_m(crank)
-    swept = np.maximum(crank.piston_area_m2 * (top - moved.piston_m[0]), 0.0)
-    pressure = cylinder_pressure(swept, moved.piston_m[1] < 0.0, gas)
+    swept = np.maximum(crank.piston_area_m2 * (top - kinematics.piston_m[0]), 0.0)
+    pressure = cylinder_pressure(swept, kinematics.piston_m[1] < 0.0, gas)
     force = -crank.piston_area_m2 * (pressure - gas.crankcase_pressure_pa)
-    return Charge(cylinder, moved, pressure, force)
+    return Charge(cylinder, kinematics, pressure, force)
 
 
 def _loads(charges: Sequence[Charge], frictions: Sequence[Friction]) -> dict[str, Array]:

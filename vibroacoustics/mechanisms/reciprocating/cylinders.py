@@ -84,9 +84,9 @@ class CylinderBanks(Parameters):
         middle = 0.5 * (len(self.bank_angles_rad) - 1)
         throws = zip(self.throw_angles_rad, self.throw_positions_m, strict=True)
         return tuple(
-            Cylinder(bank, throw, angle, position + self.rod_pitch_m * (number - middle))
+            Cylinder(bank_rad, throw, angle, position + self.rod_pitch_m * (number - middle))
             for throw, (angle, position) in enumerate(throws)
-            for number, bank in enumerate(self.bank_angles_rad)
+            for number, bank_rad in enumerate(self.bank_angles_rad)
         )
 
     def counterweight_pulls_n(self, rotation: Rotation) -> Array:

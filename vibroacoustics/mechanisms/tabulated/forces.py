@@ -66,8 +66,12 @@ class Forces(FileTable):
         try:
             return spectra.between(speed_rpm)
         except ParameterError as error:
-            one = len(self.speed_rpm) == 1
-            hint = '; scaling = "inertia" lets forces grow as the speed squared' if one else ""
+            has_one_speed = len(self.speed_rpm) == 1
+            hint = (
+                '; scaling = "inertia" lets forces grow as the speed squared'
+                if has_one_speed
+                else ""
+            )
             raise ParameterError(f"{self.file}: {error}{hint}") from None
 
     def doubt_at(self, speed_rpm: float) -> str:

@@ -62,7 +62,11 @@ def axes_lines(frame: Mapping[str, Any], source: str) -> list[str]:
         "[shaft_axes]",
         f'stroke = "{stroke}"',
         f'shaft = "{shaft}"',
-        *(f'{axis}_m = {{ value = {at!r}, source = "{source}" }}' for axis, at in position if at),
+        *(
+            f'{axis}_m = {{ value = {coordinate!r}, source = "{source}" }}'
+            for axis, coordinate in position
+            if coordinate
+        ),
     ]
 
 

@@ -30,8 +30,8 @@ class Outdoors:
         """β = ρc/Z of the ground."""
         if self.flow_resistivity_pa_s_per_m2 is None:
             return 0.0
-        at = np.array(frequency_hz)
-        return complex(1.0 / normalised_impedance(at, self.flow_resistivity_pa_s_per_m2))
+        hertz = np.array(frequency_hz)
+        return complex(1.0 / normalised_impedance(hertz, self.flow_resistivity_pa_s_per_m2))
 
     def green(
         self, points: Array, receiver: Array, frequency_hz: float, walls: Sequence[Mirror] = ()
@@ -52,7 +52,9 @@ class Outdoors:
     ) -> Iterator[ComplexArray]:
         """The same to several receivers: (receiver, point), one frequency after the other."""
         for hertz in frequency_hz:
-            yield np.array([self.green(points, one, float(hertz), walls) for one in receivers])
+            yield np.array(
+                [self.green(points, receiver, float(hertz), walls) for receiver in receivers]
+            )
 
     def _of_image(self, points: Array, receiver: Array, frequency_hz: float) -> ComplexArray:
         k = float(wavenumber(np.array(frequency_hz)))

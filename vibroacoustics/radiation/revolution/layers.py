@@ -69,8 +69,8 @@ def layers(
     elements = (mesh.weights, mesh.lengths, mesh.coefficients)
     quadrature = (wavenumber, DIGITS, rules(orders), _element())
     for side in sides:
-        at = np.ascontiguousarray(side, dtype=float)
-        _fill(at, sources, elements, quadrature, single, double)
+        field_points = np.ascontiguousarray(side, dtype=float)
+        _fill(field_points, sources, elements, quadrature, single, double)
     return single, double
 
 

@@ -186,10 +186,10 @@ def _normal_velocity(mesh: Mesh, pattern: Pattern) -> Array:
     position, normal = _turned(mesh.points, angle), _turned(mesh.normals, angle)
     number = len(position)
     area = np.repeat(mesh.weights * mesh.points[:, 0], _ANGLES) * (2.0 * np.pi / _ANGLES)
-    at = SurfacePoints(
+    points = SurfacePoints(
         position, normal, area, np.zeros(number, dtype=np.intp), np.full((number, 3), 1.0 / 3.0)
     )
-    velocity = np.asarray(pattern.velocity(at), dtype=float)
+    velocity = np.asarray(pattern.velocity(points), dtype=float)
     return np.asarray(np.einsum("pi,pi->p", velocity, normal).reshape(-1, _ANGLES))
 
 

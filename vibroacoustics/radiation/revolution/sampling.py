@@ -111,10 +111,12 @@ def _trend(frequency_hz: Array, delay_s: Array) -> ComplexArray:
 
 def _spline(frequency_hz: Array, smooth: ComplexArray, wanted_hz: Array) -> ComplexArray:
     """Through both halves of the spectrum."""
-    both = np.concatenate([-frequency_hz[::-1], frequency_hz])
+    two_sided_hz = np.concatenate([-frequency_hz[::-1], frequency_hz])
     values = np.concatenate([smooth[::-1].conj(), smooth])
-    degree = min(_DEGREE, both.size - 1)
-    return np.asarray(make_interp_spline(both, values, k=degree - 1 + degree % 2)(wanted_hz))
+    degree = min(_DEGREE, two_sided_hz.size - 1)
+    return np.asarray(
+        make_interp_spline(two_sided_hz, values, k=degree - 1 + degree % 2)(wanted_hz)
+    )
 
 
 def _left_out(frequency_hz: Array, smooth: ComplexArray) -> Array:

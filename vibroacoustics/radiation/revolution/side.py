@@ -117,7 +117,9 @@ class RevolutionSide:
 
     def _walls(self, frequency_hz: float) -> list[WallPressure]:
         if frequency_hz not in self._solved:
-            self._solved[frequency_hz] = [one.solve(frequency_hz) for one in self.radiators]
+            self._solved[frequency_hz] = [
+                radiator.solve(frequency_hz) for radiator in self.radiators
+            ]
         return self._solved[frequency_hz]
 
     def spectrum(

@@ -65,8 +65,10 @@ class Air:
         """Let a monopole act at a point of a box: what `force` gives to series and nodes."""
         plan, air = self._layout, self.boxes[box]
         of = [(float(size), count) for size, count in zip(air.size, air.nodes, strict=True)]
-        at = point - air.lower
-        lines = [cosines(at[[axis]], *of[axis])[0] * inverse_norms(*of[axis]) for axis in range(3)]
+        offset = point - air.lower
+        lines = [
+            cosines(offset[[axis]], *of[axis])[0] * inverse_norms(*of[axis]) for axis in range(3)
+        ]
         first, last = plan.terms[box], plan.terms[box + 1]
         self._push[:] = 0.0
         self._push[first:last] = np.einsum("i,j,k->ijk", *lines).ravel()
@@ -74,7 +76,7 @@ class Air:
         planes = np.zeros(plan.side_terms)
         for axis in range(3):
             across = np.outer(*(lines[other] for other in range(3) if other != axis))
-            for end, from_end in enumerate((at[axis], of[axis][0] - at[axis])):
+            for end, from_end in enumerate((offset[axis], of[axis][0] - offset[axis])):
                 lacking, _ = left_out(np.array([from_end]), *of[axis], self.time_step_s)
                 start = plan.sides[box, axis, end]
                 planes[start : start + across.size] = lacking[0] * across.ravel()

@@ -54,9 +54,9 @@ class JoinBox:
             for sign, level in ((-1.0, lower[axis]), (1.0, upper[axis])):
                 if on_floor and (axis, sign) == (2, -1.0):
                     continue
-                at, by = list(lines), list(weights)
-                at[axis], by[axis] = np.array([level]), np.array([sign])
-                self.lattices.append(Lattice(at[0], at[1], at[2]))
+                coordinates, by = list(lines), list(weights)
+                coordinates[axis], by[axis] = np.array([level]), np.array([sign])
+                self.lattices.append(Lattice(coordinates[0], coordinates[1], coordinates[2]))
                 self.weights.append(np.einsum("i,j,k->ijk", *by).ravel())
                 self.axes.append(axis)
 
@@ -64,8 +64,8 @@ class JoinBox:
     def points(self) -> list[Array]:
         """Of each side, (point, 3), m."""
         return [
-            np.stack(np.meshgrid(*one.lines, indexing="ij"), axis=-1).reshape(-1, 3)
-            for one in self.lattices
+            np.stack(np.meshgrid(*lattice.lines, indexing="ij"), axis=-1).reshape(-1, 3)
+            for lattice in self.lattices
         ]
 
     def join(

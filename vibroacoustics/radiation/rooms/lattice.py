@@ -94,21 +94,21 @@ def pieces_of(
     """
     shape = (len(quantities), *lattice.shape)
     result_rows: IndexArray = first_place + np.arange(int(np.prod(shape))).reshape(shape)
-    left, pieces = np.ones(lattice.shape, dtype=bool), []
+    remaining, pieces = np.ones(lattice.shape, dtype=bool), []
     for number, box in enumerate(boxes):
-        at = [
+        indices = [
             np.flatnonzero((line >= low - _EDGE_M) & (line <= high + _EDGE_M))
             for line, low, high in zip(lattice.lines, box.lower, box.upper, strict=True)
         ]
-        if left[np.ix_(*at)].any():
-            left[np.ix_(*at)] = False
-            lines = [line[i] for line, i in zip(lattice.lines, at, strict=True)]
+        if remaining[np.ix_(*indices)].any():
+            remaining[np.ix_(*indices)] = False
+            lines = [line[i] for line, i in zip(lattice.lines, indices, strict=True)]
             pieces += [
-                piece(number, box, lines, time_step_s, quantity, of[np.ix_(*at)].ravel())
+                piece(number, box, lines, time_step_s, quantity, of[np.ix_(*indices)].ravel())
                 for quantity, of in zip(quantities, result_rows, strict=True)
             ]
-    if left.any():
-        first = np.argwhere(left)[0]
+    if remaining.any():
+        first = np.argwhere(remaining)[0]
         holding([], np.array([line[i] for line, i in zip(lattice.lines, first, strict=True)]))
     return pieces
 
@@ -126,7 +126,9 @@ def piece(
         (line - low, float(size), count)
         for line, low, size, count in zip(lines, box.lower, box.size, box.nodes, strict=True)
     ]
-    x, y, z = (slopes(*one) if axis == quantity else cosines(*one) for axis, one in enumerate(of))
+    x, y, z = (
+        slopes(*line) if axis == quantity else cosines(*line) for axis, line in enumerate(of)
+    )
     near = []
     reach = SPEED_OF_SOUND_M_PER_S * time_step_s
     for axis, (line, length, nodes) in enumerate(of):

@@ -50,7 +50,7 @@ def layout(boxes: Sequence[AirBox], faces: Sequence[Face]) -> Layout:
     norm_starts: list[int] = []
     for box in boxes:
         for length, count in zip(box.size, box.nodes, strict=True):
-            norm_starts.append(sum(one.size for one in norms))
+            norm_starts.append(sum(norm.size for norm in norms))
             norms.append(inverse_norms(float(length), count))
     planes = [
         int(np.prod(box.nodes)) // box.nodes[axis]

@@ -180,7 +180,7 @@ def _in_room(
         "room_record_s": runs.samples * runs.sample_s,
         "room_remaining_db": max(remaining.values(), default=0.0),
         "room_boxes": len(boxes),
-        "room_terms": int(sum(np.prod(one.nodes) for one in boxes)),
+        "room_terms": int(sum(np.prod(grid.nodes) for grid in boxes)),
         "room_time_step_s": runs.step_s,
     }
     return xr.Dataset(arrays, attrs=attributes)

@@ -63,12 +63,12 @@ def room_of(settings: StudyRoom) -> Room:
         settings.size_m,
         {side: _material(side, covering) for side, covering in settings.walls.items()},
         tuple(
-            Block(name, one.lower_m, one.upper_m, _material(name, one.material))
-            for name, one in settings.furniture.items()
+            Block(name, block.lower_m, block.upper_m, _material(name, block.material))
+            for name, block in settings.furniture.items()
         ),
         tuple(
-            Patch(name, one.side, one.lower_m, one.upper_m, _material(name, one.material))
-            for name, one in settings.patches.items()
+            Patch(name, patch.side, patch.lower_m, patch.upper_m, _material(name, patch.material))
+            for name, patch in settings.patches.items()
         ),
     )
 
@@ -93,7 +93,8 @@ def machine_middle_m(settings: StudyRoom, shell: Shell) -> Array:
 def listeners_m(settings: StudyRoom) -> dict[str, Array]:
     """Of each listener by name, shape (3,)."""
     return {
-        name: np.array([one.x_m, one.y_m, one.height_m]) for name, one in settings.listeners.items()
+        name: np.array([listener.x_m, listener.y_m, listener.height_m])
+        for name, listener in settings.listeners.items()
     }
 
 
@@ -219,7 +220,7 @@ def diffuse_per_power(
         return np.asarray(
             gain(frequency_hz)
             * np.array(
-                [mean_square_per_power(frequency_hz, away, diffuse, seen) for away, seen in ways]
+                [mean_square_per_power(frequency_hz, away, diffuse, sight) for away, sight in ways]
             )
         )
 
@@ -273,9 +274,9 @@ def place_gains_db(waves: Array, diffuse: Array) -> Array:
 
 def gain_over_frequency(gains_db: Array, middle_hz: Array) -> Callable[[Array], Array]:
     """Factor on the power, of frequencies; over the logarithm between the bands."""
-    known = np.log([*middle_hz, middle_hz[-1] * 2.0 ** (1.0 / 3.0)])
+    log_middle_hz = np.log([*middle_hz, middle_hz[-1] * 2.0 ** (1.0 / 3.0)])
     return lambda frequency_hz: np.asarray(
-        power_of_level(np.interp(np.log(frequency_hz), known, gains_db))
+        power_of_level(np.interp(np.log(frequency_hz), log_middle_hz, gains_db))
     )
 
 
@@ -298,7 +299,7 @@ def arrivals(settings: StudyRoom, source_m: Array) -> Arrivals:
     source_m : where the sound comes from, shape (3,)
     """
     room, ears_m = room_of(settings), list(listeners_m(settings).values())
-    away = np.array([np.linalg.norm(at - source_m) for at in ears_m])
-    seen = [line_of_sight(room, source_m, at) for at in ears_m]
-    direct = [direct_per_power(float(far), one) for far, one in zip(away, seen, strict=True)]
+    away = np.array([np.linalg.norm(ear_m - source_m) for ear_m in ears_m])
+    sights = [line_of_sight(room, source_m, ear_m) for ear_m in ears_m]
+    direct = [direct_per_power(float(far), sight) for far, sight in zip(away, sights, strict=True)]
     return Arrivals(away, np.array(direct))

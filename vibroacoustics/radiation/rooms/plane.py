@@ -94,7 +94,8 @@ def _free_rows(room: Room, x: Array, y: Array, height_m: float) -> list[tuple[in
 def _in_air(room: Room, point: tuple[float, float, float]) -> bool:
     return not any(
         all(
-            low <= at <= high for low, at, high in zip(block.lower, point, block.upper, strict=True)
+            low <= coordinate <= high
+            for low, coordinate, high in zip(block.lower, point, block.upper, strict=True)
         )
         for block in room.blocks
     )

@@ -67,14 +67,14 @@ class Runs:
         air = stable_air(boxes, faces, settings.longest_step_s, settings.maximum_frequency_hz)
         self.step_s = air.time_step_s
         self._shapes = [
-            (len(asked), *lattice.shape)
-            for lattice, asked in zip(lattices, quantities, strict=True)
+            (len(quantity), *lattice.shape)
+            for lattice, quantity in zip(lattices, quantities, strict=True)
         ]
         first = np.cumsum([0, *(int(np.prod(shape)) for shape in self._shapes)])
         self._columns = int(first[-1])
         pieces = (
-            pieces_of(boxes, lattice, self.step_s, asked, int(start))
-            for lattice, asked, start in zip(lattices, quantities, first[:-1], strict=True)
+            pieces_of(boxes, lattice, self.step_s, quantity, int(start))
+            for lattice, quantity, start in zip(lattices, quantities, first[:-1], strict=True)
         )
         self._readings = Readings(air.plan, list(chain.from_iterable(pieces)))
         self._pulse = Pulse(*settings.force(self.step_s), self.step_s)
@@ -248,7 +248,9 @@ def spacing_error_db(
     settings = settings or RoomSettings()
     finer = replace(settings, nodes_per_wave=2.0 * settings.wavelength_m / settings.spacing_m)
     of = (room, lattices, microphones, frequency_hz)
-    coarse, fine = (room_transfer(*of, one, progress=progress) for one in (settings, finer))
+    coarse, fine = (
+        room_transfer(*of, accuracy, progress=progress) for accuracy in (settings, finer)
+    )
     return {name: _difference_db(coarse[name].values, fine[name].values) for name in microphones}
 
 

@@ -148,7 +148,7 @@ def _between(block: Block, lower: Array, upper: Array) -> tuple[int, int]:
         )
         for axis, end in _SIDES
     }
-    side = max(away, key=lambda one: away[one])
+    side = max(away, key=lambda name: away[name])
     if away[side] < 0.0:
         raise ParameterError(f"room.foot_mm: meets room.furniture.{block.name}")
     return side

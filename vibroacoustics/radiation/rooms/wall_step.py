@@ -45,18 +45,18 @@ class Walls:
 
     def __init__(self, patches: Sequence[WallPatch], time_step_s: float) -> None:
         self.patches: IndexArray = np.array(
-            [[one.first_node, one.nodes] for one in patches], dtype=np.intp
+            [[patch.first_node, patch.nodes] for patch in patches], dtype=np.intp
         ).reshape(-1, 2)
         count = WAVE_OCTAVES
         self.coefficients = np.zeros((len(patches), 3, count))
         self.mass = np.zeros(len(patches))
-        for number, one in enumerate(patches):
-            self.mass[number] = one.mass_m / (SPEED_OF_SOUND_M_PER_S * time_step_s)
-            self.coefficients[number] = _coefficients(one.material, time_step_s)
+        for number, patch in enumerate(patches):
+            self.mass[number] = patch.mass_m / (SPEED_OF_SOUND_M_PER_S * time_step_s)
+            self.coefficients[number] = _coefficients(patch.material, time_step_s)
         total = int(self.patches[:, 1].sum())
         self.flux = np.zeros((count, total))
         self.sums = np.zeros((count, total))
-        self.work = np.zeros((3, max((one.nodes for one in patches), default=1)))
+        self.work = np.zeros((3, max((patch.nodes for patch in patches), default=1)))
 
     @property
     def arguments(self) -> tuple[Any, ...]:

@@ -195,12 +195,12 @@ def _numbers(
 def _row_texts(table: _Table) -> Iterator[str]:
     """Rows with a decimal point, all of the same number of columns."""
     table.file.seek(table.begin)
-    at, row = table.begin, 0
+    position, row = table.begin, 0
     separator, separators = table.head.separator, len(table.head.names) - 1
     decimal = table.head.form.decimal
     other = {",": ".", ".": "," if separator != "," else "\0"}[decimal]
-    while at < table.end and (line := table.file.readline(MAXIMUM_LINE_BYTES)):
-        at += len(line)
+    while position < table.end and (line := table.file.readline(MAXIMUM_LINE_BYTES)):
+        position += len(line)
         row += 1
         plain = line.decode("latin-1")
         if not plain.strip():

@@ -93,9 +93,9 @@ def layout(chart: Chart) -> Layout:
         row = chart.panels[start : start + chart.columns]
         height = max(96.0 * panel.height for panel in row)
         for column, panel in enumerate(row):
-            left, right, below, above = margins(panel)
-            size = (max(each - left - right, 30.0), max(height - below - above, 30.0))
-            boxes.append(Box(column * each + left, top + above, *size))
+            left_margin, right, below, above = margins(panel)
+            size = (max(each - left_margin - right, 30.0), max(height - below - above, 30.0))
+            boxes.append(Box(column * each + left_margin, top + above, *size))
         top += height
     keys = _keys(chart, width, top + 4.0)
     bottom = max((key.y + ROW * lines(key.name) for key in keys), default=top)

@@ -51,7 +51,7 @@ def _panel(panel: Panel, box: Box, name: str, keys: dict[str, str]) -> list[str]
 
 def _titles(panel: Panel, box: Box) -> list[str]:
     """Title and labels around the axes."""
-    left, _, below, above = margins(panel)
+    left_margin, _, below, above = margins(panel)
     parts = []
     if panel.title:
         parts.append(words(box.x, box.y - above + 13.0, panel.title, font_size="12.5"))
@@ -59,7 +59,7 @@ def _titles(panel: Panel, box: Box) -> list[str]:
         foot = box.y + box.height + below - ROW * lines(panel.x.label) + 10.0
         parts.append(words(box.x + 0.5 * box.width, foot, panel.x.label, "middle"))
     if panel.y.label and not panel.polar:
-        position = (box.x - left + 14.0, box.y + 0.5 * box.height)
+        position = (box.x - left_margin + 14.0, box.y + 0.5 * box.height)
         parts.append(upright_words(*position, panel.y.label))
     return parts
 
@@ -133,9 +133,9 @@ class Picture(NamedTuple):
     wide: bool = False
 
 
-def picture_file(drawn: Picture) -> str:
+def picture_file(picture: Picture) -> str:
     """Return the name of the file of a picture."""
-    return f"{file_name(drawn.name)}.{drawn.ending}"
+    return f"{file_name(picture.name)}.{picture.ending}"
 
 
 _DRAWN: Final[WeakKeyDictionary[Chart, Picture]] = WeakKeyDictionary()

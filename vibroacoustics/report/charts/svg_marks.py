@@ -213,18 +213,18 @@ def _contours(mark: Image, frame: Frame) -> str:
 def colour_bar(mark: Image, box: Box) -> str:
     """Return the scale of the colours at the right of the axes."""
     low, high = mark.ends
-    left, width = box.x + box.width + 9.0, 11.0
+    x, width = box.x + box.width + 9.0, 11.0
     count = 32
     each = box.height / count
     cells = "".join(
-        f'<path d="{rectangle(Box(left, box.y + row * each, width, each + 0.4))}" '
+        f'<path d="{rectangle(Box(x, box.y + row * each, width, each + 0.4))}" '
         f'fill="#{PALETTE[3 * index : 3 * index + 3].hex()}"/>'
         for row in range(count)
         for index in [round(254 * (1.0 - (row + 0.5) / count))]
     )
     ticks = "".join(
-        words(left + width + 4.0, box.y + box.height * (high - value) / (high - low) + 4.0, word)
+        words(x + width + 4.0, box.y + box.height * (high - value) / (high - low) + 4.0, word)
         for value, word in round_ticks(low, high, most=5)
     )
-    name = upright_words(left + width + 38.0, box.y + 0.5 * box.height, mark.label)
+    name = upright_words(x + width + 38.0, box.y + 0.5 * box.height, mark.label)
     return cells + ticks + name

@@ -132,11 +132,11 @@ def _agreement(validations: Sequence[Validation]) -> str:
     agree, differ = (
         sum(each.verdict == word for each in validations) for word in (AGREES, DIFFERS)
     )
-    known = sum(each.uncertainty > 0.0 for each in validations)
+    count = sum(each.uncertainty > 0.0 for each in validations)
     return (
         f"Of {len(validations)} figures of the study beside the recordings {agree} agree within "
         f"{LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)} and {differ} differ by more than "
-        f"{COVERAGE:g} times the validation uncertainty; it is known, in part at least, of {known}."
+        f"{COVERAGE:g} times the validation uncertainty; it is known, in part at least, of {count}."
     )
 
 
@@ -160,12 +160,12 @@ def _orders(orders: xr.Dataset) -> list[Block]:
         return [Text(summary(orders))]
     have_pictures = orders["order_difference"].notnull().any(("speed", "order")).values
     with_pictures = map(str, orders["channel"].values[have_pictures])
-    drawn = dict(zip(with_pictures, compared_order_charts(orders), strict=True))
+    charts_of = dict(zip(with_pictures, compared_order_charts(orders), strict=True))
     loud = dict(zip(map(str, orders["channel"].values), is_pressure(orders), strict=True))
     first = [name for name in channels if loud[name]] or channels[:1]
     blocks: list[Block] = [Pictures((order_differences(orders),))]
     for name in channels:
-        pictures_of = (*(channel_charts(orders, name) if name in first else ()), drawn[name])
+        pictures_of = (*(channel_charts(orders, name) if name in first else ()), charts_of[name])
         of_channel: tuple[Block, ...] = (orders_table(orders, name), Pictures(pictures_of))
         blocks += of_channel if name in first else [Details(name, of_channel)]
     return blocks

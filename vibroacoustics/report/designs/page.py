@@ -143,7 +143,13 @@ def _shares(search: xr.Dataset) -> Table:
     """Share of each variable in the variance of each wanted value, where chance gives less."""
     keys = [variable_label(str(key)) for key in search["design_variable"].values]
     rows = [
-        (str(name), *(share_words(search, "design_share", number, at) for at in range(len(keys))))
+        (
+            str(name),
+            *(
+                share_words(search, "design_share", number, number_of_key)
+                for number_of_key in range(len(keys))
+            ),
+        )
         for number, name in enumerate(search["wanted"].values)
     ]
     caption = (

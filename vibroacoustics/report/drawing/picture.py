@@ -91,10 +91,10 @@ def _above(
 ) -> list[str]:
     """Along z: outline, feet, walls, numbered microphones."""
     points = [point[:2] for point in receivers.values()]
-    points += [np.where(np.arange(2) == axis, at, 0.0) for axis, at in walls]
+    points += [np.where(np.arange(2) == axis, coordinate, 0.0) for axis, coordinate in walls]
     around = np.concatenate([lines.above, np.array(points).reshape(-1, 2)])
     view = fitted((0, 1), around, (40, 220), (280, 140))
-    parts = [_wall(view, axis, at) for axis, at in walls]
+    parts = [_wall(view, axis, coordinate) for axis, coordinate in walls]
     parts.append(svg.path(view.at(lines.above), True, fill=FILL, stroke=svg.INK))
     parts += [svg.disc(view.of(foot), 1.5, fill=svg.INK) for foot in feet]
     for number, point in enumerate(receivers.values(), 1):

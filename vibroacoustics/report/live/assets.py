@@ -21,7 +21,9 @@ SCRIPTS: Final = {
 _STYLES: Final = {"sliders": (), "run_up": ("run_up.css",)}
 _LEFT_OUT: Final = b"<\\"
 """Of the letters from ( to ~, so that the rest are 85 that mean nothing in HTML and in JSON."""
-_LETTERS: Final = np.array([one for one in range(ord("("), ord("~") + 1) if one not in _LEFT_OUT])
+_LETTERS: Final = np.array(
+    [code for code in range(ord("("), ord("~") + 1) if code not in _LEFT_OUT]
+)
 
 
 @cache

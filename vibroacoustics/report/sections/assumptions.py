@@ -74,10 +74,10 @@ def _mounts_held(machine: dict[str, Any]) -> tuple[str, ...]:
     """Where the stiffness of mounts from files ends."""
     feet = (machine.get("feet") or {}).values()
     tables = [machine.get("mount_stiffness"), *(foot and foot["stiffness"] for foot in feet)]
-    known = [table["frequency_hz"] for table in tables if table]
-    if not known:
+    frequencies = [table["frequency_hz"] for table in tables if table]
+    if not frequencies:
         return ()
-    lowest, highest = max(each[0] for each in known), min(each[-1] for each in known)
+    lowest, highest = max(each[0] for each in frequencies), min(each[-1] for each in frequencies)
     return (
         f"Stiffness and loss of the mounts are known from {lowest:g} to {highest:g} Hz, and "
         "constant below and above.",

@@ -16,10 +16,17 @@ from . import Section
 
 def figures_data(results: xr.Dataset) -> dict[str, DataTable]:
     """Return every reported figure by option and speed."""
-    known, figures = words(results), results["reported_figure"]
+    words_of_figures, figures = words(results), results["reported_figure"]
     columns = {name: figures[name] for name in ("option", "figure", "speed")}
     rows = [
-        (option, name, labels.name(name, known), labels.unit(name, known) or "1", speed, value)
+        (
+            option,
+            name,
+            labels.name(name, words_of_figures),
+            labels.unit(name, words_of_figures) or "1",
+            speed,
+            value,
+        )
         for option, name, speed, value in zip(
             *data_table(tuple(columns), {**columns, "value": figures}).values(), strict=True
         )

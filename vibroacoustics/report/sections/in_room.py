@@ -61,7 +61,7 @@ def sones(results: xr.Dataset, listener: str) -> list[str]:
     if "loudness_in_room" not in results:
         return []
     here = results["loudness_in_room"].sel(speed=nearest_speed(results), listener=listener)
-    return [rounding.fixed(one) for one in here.values.tolist()] if here.notnull().all() else []
+    return [rounding.fixed(value) for value in here.values.tolist()] if here.notnull().all() else []
 
 
 def _loudness_words(results: xr.Dataset) -> str:
@@ -111,12 +111,12 @@ def room_table(results: xr.Dataset, listener: str) -> Table:
     rows = []
     for number, option in enumerate(options(results)):
         here = {"option": option, "listener": listener, "speed": nearest_speed(results)}
-        both = _both(results, listener, option)
+        total = _both(results, listener, option)
         cells = [option, band(results, "room_level", **here).middle_and_ends(rounding.level)]
-        cells += [_plate(results, listener, option), rounding.level(both)] if plate else []
+        cells += [_plate(results, listener, option), rounding.level(total)] if plate else []
         cells += loud[number : number + 1]
         cells += [_carrier(results, listener, option)] if plate else []
-        over_db = [both - limit for limit in limits.values()]
+        over_db = [total - limit for limit in limits.values()]
         cells += ["met" if db <= 0.0 else f"missed by {rounding.fixed(db)} dB" for db in over_db]
         rows.append(tuple(cells))
     caption = f"{listener}, {nearest_speed(results):g} rpm: level of the machine in the room"
@@ -175,8 +175,8 @@ def absorption(results: xr.Dataset) -> list[Table]:
             for end in ("_requested", "")
         )
         row = tuple(
-            f"{one:.2f} → {rounding.NOTHING if np.isnan(other) else f'{other:.2f}'}"
-            for one, other in zip(requested, in_waves, strict=True)
+            f"{wanted:.2f} → {rounding.NOTHING if np.isnan(other) else f'{other:.2f}'}"
+            for wanted, other in zip(requested, in_waves, strict=True)
         )
         rows.setdefault(row, []).append(str(surface).partition(".")[2])
     head = ("Surfaces", *(f"{octave:g} Hz" for octave in results["room_octave"].values))
@@ -202,8 +202,8 @@ def power_sentence(results: xr.Dataset) -> str:
 
 
 def _value(results: xr.Dataset, name: str, listener: str, option: str = REFERENCE_OPTION) -> float:
-    at = {"option": option, "listener": listener, "speed": nearest_speed(results)}
-    return estimate(results, name, **at).value
+    coordinates = {"option": option, "listener": listener, "speed": nearest_speed(results)}
+    return estimate(results, name, **coordinates).value
 
 
 def _level(results: xr.Dataset, name: str, listener: str, option: str = REFERENCE_OPTION) -> str:

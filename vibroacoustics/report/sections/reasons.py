@@ -46,7 +46,8 @@ def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:
     if not verdicts:
         return None
     rows = tuple(
-        (one.option, one.judgement, one.reason, " ".join(one.sentences)) for one in verdicts
+        (verdict.option, verdict.judgement, verdict.reason, " ".join(verdict.sentences))
+        for verdict in verdicts
     )
     head = ("Option", "Verdict", "Because", "Remarks")
     return Table("Each option against no balancer", head, rows, frozenset({0, 1, 2, 3}))
@@ -102,8 +103,12 @@ def _remainder(results: xr.Dataset) -> str:
     receiver = catalogue_receiver(results)
     modelled = float(column(results, "level_modelled_dba").sel(receiver=receiver).max())
     speed = measured_rpm(results)
-    at = at_catalogue(results, speed=speed)
-    total = quoted_dba(results) if speed is None else float(results["level_total"].sel(at).round(1))
+    coordinates = at_catalogue(results, speed=speed)
+    total = (
+        quoted_dba(results)
+        if speed is None
+        else float(results["level_total"].sel(coordinates).round(1))
+    )
     gap = total - modelled
     carried = (
         f"all shaft orders together reach at most {rounding.level(modelled)} dB(A) at {receiver}, "
@@ -113,10 +118,10 @@ def _remainder(results: xr.Dataset) -> str:
         "option, above the level of the machine"
     )
     if speed is not None:
-        rest = remainder_band(results, speed).middle_text(rounding.fixed)
+        unmodelled = remainder_band(results, speed).middle_text(rounding.fixed)
         assumed = not_measured(results) > _HALF
         how = "most of it assumed in bands that were not measured" if assumed else "as measured"
-        what, growth = f"The rest, {how}, {rest}", ""
+        what, growth = f"The rest, {how}, {unmodelled}", ""
     else:
         speed, growth = quoted_speed(results), f" {growth_sentence(results)}"
         what = f"The rest, {rounding.fixed(results['level_unmodelled'].item())}"

@@ -42,7 +42,7 @@ def scores_data(results: xr.Dataset) -> DataTable:
         for number in probability["rank_position"].values:
             of_rank = probability.sel(rank_position=number)
             columns[f"share_of_rank_{number:g}"] = of_rank.values.tolist()
-    words = {one.option: one for one in option_verdicts(results)}
+    words = {verdict.option: verdict for verdict in option_verdicts(results)}
     for column, name in (("verdict", "judgement"), ("because", "reason")):
         columns[column] = [getattr(words.get(each), name, "") for each in options(results)]
     return columns
@@ -68,11 +68,11 @@ def scores_table(results: xr.Dataset) -> Table:
     for method in _names(results, "scoring_method"):
         scores, ranks = (results[name].sel(scoring_method=method) for name in ("score", "rank"))
         name = labels.name(method)
-        columns[f"{name}, score 0 to 1"] = [rounding.fixed(one, 2) for one in scores.values]
-        columns[f"{name}, rank"] = [rounding.fixed(one, 0) for one in ranks.values]
+        columns[f"{name}, score 0 to 1"] = [rounding.fixed(score, 2) for score in scores.values]
+        columns[f"{name}, rank"] = [rounding.fixed(rank, 0) for rank in ranks.values]
     first = results["first_place_share"].values
     columns["First, whatever the weights"] = [f"{100.0 * share:.1f} %" for share in first]
-    rows = tuple(tuple(column[at] for column in columns.values()) for at in order)
+    rows = tuple(tuple(column[index] for column in columns.values()) for index in order)
     return Table("Scores and ranks, best first by the first method", tuple(columns), rows)
 
 
@@ -94,7 +94,11 @@ def criteria_of_advantage(results: xr.Dataset, option: str, other: str) -> list[
     better, worse = utilities(values.transpose("option", "criterion").values, *scale)
     lead = results["weight"].values * (better - worse)
     labels_of = results["criterion_label"].values
-    return [str(labels_of[at]) for at in np.argsort(-lead, kind="stable") if lead[at] > ROUNDING]
+    return [
+        str(labels_of[index])
+        for index in np.argsort(-lead, kind="stable")
+        if lead[index] > ROUNDING
+    ]
 
 
 def wrong_sums(results: xr.Dataset) -> list[str]:

@@ -108,8 +108,8 @@ def _band(values: Array, weight: Array, write: Callable[[float], str]) -> str:
     values, weight = values[finite], weight[finite]
     if not values.size:
         return rounding.NOTHING
-    known = weighted_estimate(values, weight)
-    return written(known, effective_number(weight)).middle_and_ends(write)
+    interval = weighted_estimate(values, weight)
+    return written(interval, effective_number(weight)).middle_and_ends(write)
 
 
 def _narrowed(values: Array, weight: Array) -> float:

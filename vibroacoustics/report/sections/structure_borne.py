@@ -73,12 +73,12 @@ def ways_table(results: xr.Dataset, receiver: str) -> Table:
             _value(results, f"structure_borne_level{end}", receiver, option)
             for end in ("", "_low", "_high")
         )
-        all_by_air, both = (
+        all_by_air, total_words = (
             rounding.level(_value(results, name, receiver, option))
             for name in ("level_total", "level_both_ways")
         )
         first = (rounding.level(by_air), ranged(by_plate, low, high), carrier(by_air, low, high))
-        rows.append((option, *first, all_by_air, ranged(*total), both))
+        rows.append((option, *first, all_by_air, ranged(*total), total_words))
     head = (
         "Option", "1× by air, dB(A)", "1× by the plate, dB(A)", "1× carried by",
         "All by air, dB(A)", "All by the plate, dB(A)", "Both, dB(A)",
@@ -92,15 +92,15 @@ def ways_table(results: xr.Dataset, receiver: str) -> Table:
 
 def plate_lines_table(results: xr.Dataset, receiver: str) -> Table:
     """The loudest lines of the plate without a balancer, with the powers."""
-    at = at_catalogue(results, receiver=receiver, speed=nearest_speed(results))
-    there = a_weighted(results[_OF_LINES].sel(at))
-    level = there["structure_borne_line_level"].values
+    coordinates = at_catalogue(results, receiver=receiver, speed=nearest_speed(results))
+    lines = a_weighted(results[_OF_LINES].sel(coordinates))
+    level = lines["structure_borne_line_level"].values
     loudest = np.argsort(-level, kind="stable")[:_LINES]
     rows = []
     for number in sorted(row for row in loudest if level[row] >= rounding.LEVEL_FLOOR_DB):
-        line = str(there["line"].values[number])
+        line = str(lines["line"].values[number])
         db, low, high, hertz, power_in, power = (
-            float(there[name].values[number]) for name in _OF_LINES
+            float(lines[name].values[number]) for name in _OF_LINES
         )
         order = line.removeprefix("order ")
         rows.append(
@@ -117,14 +117,19 @@ def plate_lines_table(results: xr.Dataset, receiver: str) -> Table:
     return Table(f"{where}: lines of the plate", head, tuple(rows))
 
 
-def _value(results: xr.Dataset, name: str, receiver: str, option: str, **at: str | int) -> float:
+def _value(
+    results: xr.Dataset, name: str, receiver: str, option: str, **coordinates: str | int
+) -> float:
     at_speed = {"receiver": receiver, "option": option, "speed": nearest_speed(results)}
-    return estimate(results, name, weighting="A", **at_speed, **at).value
+    return estimate(results, name, weighting="A", **at_speed, **coordinates).value
 
 
 def _best(results: xr.Dataset, receiver: str, by_plate: float) -> str:
     """The option that leaves least of 1× by the plate."""
-    each = {one: first_order_levels(results, receiver, one)[1] for one in balancers(results)}
+    each = {
+        balancer: first_order_levels(results, receiver, balancer)[1]
+        for balancer in balancers(results)
+    }
     if not each or by_plate < rounding.LEVEL_FLOOR_DB:
         return ""
     least = min(each, key=lambda option: each[option])

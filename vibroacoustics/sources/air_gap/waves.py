@@ -40,10 +40,10 @@ def cosine(wave: Wave, amplitude: complex) -> dict[Wave, complex]:
     return {wave: 0.5 * amplitude, against: 0.5 * amplitude.conjugate()}
 
 
-def product(one: Waves, other: Waves) -> dict[Wave, complex]:
+def product(first: Waves, other: Waves) -> dict[Wave, complex]:
     """Product of two fields."""
     total: defaultdict[Wave, complex] = defaultdict(complex)
-    for (n, line, shaft), value in one.items():
+    for (n, line, shaft), value in first.items():
         for (m, other_line, other_shaft), factor in other.items():
             total[Wave(n + m, line + other_line, shaft + other_shaft)] += value * factor
     return dict(total)
@@ -60,14 +60,14 @@ def permeance(gap: AirGap, stator_slots: int, rotor_slots: int | None) -> dict[W
     gap : sizes of the waves
     stator_slots, rotor_slots : their numbers; none for a rotor without
     """
-    one = {Wave(0, 0, 0): 1.0 + 0j}
-    stator = one | cosine(Wave(stator_slots, 0, 0), -gap.stator_slot_ratio + 0j)
+    unity = {Wave(0, 0, 0): 1.0 + 0j}
+    stator = unity | cosine(Wave(stator_slots, 0, 0), -gap.stator_slot_ratio + 0j)
     static = cosine(Wave(1, 0, 0), _turned(gap.static_eccentricity_ratio, gap.static_angle_rad))
     dynamic = cosine(Wave(1, 0, 1), _turned(gap.dynamic_eccentricity_ratio, gap.dynamic_angle_rad))
-    factors = [stator, one | static | dynamic]
+    factors = [stator, unity | static | dynamic]
     if rotor_slots is not None:
         rotor = cosine(Wave(rotor_slots, 0, rotor_slots), -gap.rotor_slot_ratio + 0j)
-        factors.append(one | rotor)
+        factors.append(unity | rotor)
     return reduce(product, factors)
 
 
@@ -128,14 +128,14 @@ def loads_of_stress(
     for (around, line, shaft_turns), stress in stress_pa.items():
         if abs(stress) < NO_STRESS * largest:
             continue
-        at = line, shaft_turns
+        key = line, shaft_turns
         parts = np.array([1.0, -1j * np.sign(around)])  # with cos nθ and with sin nθ
         if abs(around) == 1:
             for port, per_force in pulled.items():
-                loads[at][port] += across * stress * (per_force @ parts)
+                loads[key][port] += across * stress * (per_force @ parts)
         elif abs(around) in YOKE_ORDERS:
             first = 2 * YOKE_ORDERS.index(abs(around))
-            loads[at][STATOR_YOKE][first : first + 2] -= per_stress * stress * parts
+            loads[key][STATOR_YOKE][first : first + 2] -= per_stress * stress * parts
     return dict(loads)
 
 

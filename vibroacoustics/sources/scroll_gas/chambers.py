@@ -55,8 +55,8 @@ def least_chamber_volume_m3(wraps: ScrollWraps) -> float:
     The chamber shrinks until its contacts reach t = 0, or until it is one with the pair.
     """
     _, inner = contacts_at_opening(wraps)
-    left = max(inner - np.pi, 0.0)
-    return 0.5 * swept_volume_m3(wraps) * (inner**2 - left**2)
+    inner_turn = max(inner - np.pi, 0.0)
+    return 0.5 * swept_volume_m3(wraps) * (inner**2 - inner_turn**2)
 
 
 def full_gap_area_m2(wraps: ScrollWraps) -> float:

@@ -127,7 +127,7 @@ def _of_the_filling(filling: SuctionFlow) -> Iterator[Curve]:
 
 
 def _at(opened: OpenedGas, angle: Array, courses: Mapping[str, Array]) -> Array:
-    return np.array([np.interp(angle, opened.since_opening, one) for one in courses.values()])
+    return np.array([np.interp(angle, opened.since_opening, course) for course in courses.values()])
 
 
 def _since_closing(angle: Array) -> CurveAxis:
@@ -197,7 +197,7 @@ def discharge_line_curves(
     courses = {"at the shell": spectrum, "behind the muffler": behind}
     yield Curve(
         "tube_pressure", "Pulsation in the discharge tube",
-        np.array([_over_angle(one, angle) for one in courses.values()]),
+        np.array([_over_angle(course, angle) for course in courses.values()]),
         (CurveAxis("tube_at", list(courses)),
          angle_axis(angle, "opening_angle", "Crank angle since a pocket has opened")),
         "bar", "derived: plane waves in tube and chamber",

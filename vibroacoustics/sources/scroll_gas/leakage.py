@@ -147,5 +147,5 @@ def closing_ratio(gas: ScrollGas, filling: SuctionFlow | None) -> float:
     """Mass that a pocket closes with, over that at the suction pressure."""
     if filling is None:
         return 1.0
-    over = float(filling.pocket_pa[-1]) / gas.suction_pressure_pa
-    return float(over ** (1.0 / gas.polytropic_index))
+    ratio = float(filling.pocket_pa[-1]) / gas.suction_pressure_pa
+    return float(ratio ** (1.0 / gas.polytropic_index))

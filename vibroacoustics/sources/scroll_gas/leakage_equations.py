@@ -86,12 +86,12 @@ def leaks_at(
     """
     inner_pa, inner = opened
     for j in range(p.pairs + 1):
-        at = (p.pairs - j) * 2 * p.steps + half
-        outer_pa, outer = p.base_pa[at], p.suction_density
-        if at >= p.closes_at:
+        number = (p.pairs - j) * 2 * p.steps + half
+        outer_pa, outer = p.base_pa[number], p.suction_density
+        if number >= p.closes_at:
             outer_pa *= ratio[j] ** p.polytropic_index
-            outer = ratio[j] * mass / p.volume_m3[at]
-        area = p.area_m2[at + 2 * p.steps]
+            outer = ratio[j] * mass / p.volume_m3[number]
+        area = p.area_m2[number + 2 * p.steps]
         leak[j] = 0.0
         if area > 0.0:
             flow = nozzle_flow(inner_pa, outer_pa, inner, outer, p.isentropic_exponent)

@@ -171,9 +171,9 @@ def _steady_turn(
     before, beside = None, pockets.first
     for _ in range(MOST_TURNS):
         start[PAIR], mass = opening_pair(beside.opens_with)
-        at = np.linspace(0.0, 2.0 * steps, beside.leak_kg_per_s.size)
+        half_step = np.linspace(0.0, 2.0 * steps, beside.leak_kg_per_s.size)
         mean = mass * frequency - float(beside.leak_kg_per_s[:-1].mean())
-        leak = np.interp(half_steps, at, beside.leak_kg_per_s)
+        leak = np.interp(half_steps, half_step, beside.leak_kg_per_s)
         states = one_turn(start, steps, leak, constants._replace(mean_flow=mean))
         change = (states[kept, -1] - states[kept, 0]) / size
         if not np.all(np.isfinite(change)):

@@ -122,5 +122,7 @@ def polytropic_pressure_pa(wraps: ScrollWraps, gas: ScrollGas, angle_since_closi
 
 def _over_equalisation_angle(gas: ScrollGas, compressed: Array, since_opening: Array) -> Array:
     width = max(gas.equalisation_angle_rad, OPENED_BEFORE)
-    left = 0.5 + 0.5 * np.cos(np.pi * np.minimum(since_opening / width, 1.0))
-    return np.asarray(gas.discharge_pressure_pa + left * (compressed - gas.discharge_pressure_pa))
+    remaining = 0.5 + 0.5 * np.cos(np.pi * np.minimum(since_opening / width, 1.0))
+    return np.asarray(
+        gas.discharge_pressure_pa + remaining * (compressed - gas.discharge_pressure_pa)
+    )

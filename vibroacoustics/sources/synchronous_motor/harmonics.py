@@ -187,8 +187,8 @@ def pair_currents(
     backward = motor.phase_resistance_ohm + 1j * slow * mean
     to_forward, to_backward = 1j * fast * half, 1j * slow * half
     determinant = forward * backward - to_forward * to_backward
-    one = (backward * first - to_forward * second) / determinant
-    return one, (forward * second - to_backward * first) / determinant
+    forward_current = (backward * first - to_forward * second) / determinant
+    return forward_current, (forward * second - to_backward * first) / determinant
 
 
 def fundamental_voltage_v(motor: SynchronousMotor, omega: float, current_a: complex) -> complex:
@@ -213,9 +213,9 @@ def reluctance_torque(
     mean and complex peaks, shape (highest + 1,)
     """
     torque = np.zeros(highest + 1, dtype=complex)
-    for h, one in rotor_frame_a.items():
+    for h, current in rotor_frame_a.items():
         for m, other in rotor_frame_a.items():
-            product = -1.5j * motor.pole_pairs * motor.saliency_h * one * other
+            product = -1.5j * motor.pole_pairs * motor.saliency_h * current * other
             if abs(h + m) <= highest:
                 torque[abs(h + m)] += product if h + m >= 0 else np.conj(product)
     torque[0] = torque[0].real

@@ -105,10 +105,10 @@ def _any_machine(machine: Schema) -> Schema:
     """Values of a machine of any kind, which stand in place of its own."""
     of_kinds: dict[str, list[Schema]] = {}
     for part in machine["anyOf"]:
-        for name, one in in_file(part)["properties"].items():
-            known = of_kinds.setdefault(name, [])
-            if name != "kind" and one not in known:
-                known.append(one)
+        for name, schema in in_file(part)["properties"].items():
+            schemas = of_kinds.setdefault(name, [])
+            if name != "kind" and schema not in schemas:
+                schemas.append(schema)
     alternatives = {name: ones for name, ones in of_kinds.items() if ones}
     return _table(
         {

@@ -82,16 +82,16 @@ class FrameOnShell:
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
         # By reciprocity: motions of the contacts as the receivers drive the shell.
-        moved = times(self._on_modes.T, modes * (turning * shell))
-        moved -= times(self._of_gaps.T, rigid) / omega**2
-        forces = np.moveaxis(self._joined(shell, parts, omega, np.moveaxis(moved, 0, 1)), 0, 1)
+        gap_m = times(self._on_modes.T, modes * (turning * shell))
+        gap_m -= times(self._of_gaps.T, rigid) / omega**2
+        forces = np.moveaxis(self._joined(shell, parts, omega, np.moveaxis(gap_m, 0, 1)), 0, 1)
         through = times(self._at_gaps.T, forces) * parts
         of_loads = times(self._together.T, rigid) / omega**2
         of_loads += times(self._of_motions.T, through)
 
         def of_modes(some: IndexArray) -> ComplexArray:
-            moved = times(self._on_modes, forces[..., some])
-            return np.asarray((modes[..., some] * turning[some] - moved) * shell[:, some])
+            on_modes = times(self._on_modes, forces[..., some])
+            return np.asarray((modes[..., some] * turning[some] - on_modes) * shell[:, some])
 
         return SoundPerForce(of_loads, of_modes)
 
@@ -111,9 +111,9 @@ class FrameOnShell:
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
-        moved = times(self._at_gaps, parts * times(self._of_motions, on_parts))
-        moved -= times(self._on_modes.T, shell * on_modes)
-        forces = self._joined(shell, parts, omega, moved[:, None])[:, 0]
+        gap_m = times(self._at_gaps, parts * times(self._of_motions, on_parts))
+        gap_m -= times(self._on_modes.T, shell * on_modes)
+        forces = self._joined(shell, parts, omega, gap_m[:, None])[:, 0]
         modes = shell * (on_modes + times(self._on_modes, forces))
         rigid = times(self._together, on_parts) - times(self._of_gaps, forces)
         motion = np.concatenate([modes, rigid / omega**2])
@@ -131,12 +131,12 @@ class FrameOnShell:
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
-        moved = np.einsum("cn,nf,nl->clf", self._at_gaps, parts, self._of_motions)
-        forces = self._joined(shell, parts, omega, moved) * (frequency_hz > 0.0)
+        gap_m = np.einsum("cn,nf,nl->clf", self._at_gaps, parts, self._of_motions)
+        forces = self._joined(shell, parts, omega, gap_m) * (frequency_hz > 0.0)
         return np.moveaxis(forces[: len(self.contacts.part)], -1, 0)
 
     def _joined(
-        self, shell: ComplexArray, parts: ComplexArray, omega: Array, moved: ComplexArray
+        self, shell: ComplexArray, parts: ComplexArray, omega: Array, gap_m: ComplexArray
     ) -> ComplexArray:
         """Forces that close the gaps, shape (gap, side, frequency).
 
@@ -144,14 +144,14 @@ class FrameOnShell:
         ----------
         shell, parts : answers of the modes and of the parts' motions, shape (motion, frequency)
         omega : shape (frequency,)
-        moved : gaps without them, shape (contact, side, frequency)
+        gap_m : gaps without them, shape (contact, side, frequency)
         """
-        forces = np.empty(moved.shape, dtype=complex)
+        forces = np.empty(gap_m.shape, dtype=complex)
         for first in range(0, omega.size, AT_A_TIME):
-            at = slice(first, first + AT_A_TIME)
-            some = np.ascontiguousarray(moved[..., at])
-            solve_symmetric(*self._compliance(shell[:, at], parts[:, at], omega[at]), some)
-            forces[..., at] = some
+            block = slice(first, first + AT_A_TIME)
+            some = np.ascontiguousarray(gap_m[..., block])
+            solve_symmetric(*self._compliance(shell[:, block], parts[:, block], omega[block]), some)
+            forces[..., block] = some
         return forces
 
     def _compliance(
@@ -185,8 +185,8 @@ class FrameOnShell:
         springs[:held, :held] = np.diag(1.0 / self.contacts.stiffness)
         springs[:held, :held] += self.residual / (1.0 + 1j * self.loss_factor_ratio)
         rigid = _padded(self.contacts.rigid, gaps) @ self._of_gaps
-        rest = [each[rows, columns] for each in (rigid, springs.real, springs.imag)]
-        return np.concatenate([shell, parts, bearings, np.stack(rest, axis=1)], axis=1)
+        springs_at_gaps = [each[rows, columns] for each in (rigid, springs.real, springs.imag)]
+        return np.concatenate([shell, parts, bearings, np.stack(springs_at_gaps, axis=1)], axis=1)
 
     @cached_property
     def _alike(self) -> tuple[IndexArray, IndexArray]:

@@ -147,11 +147,11 @@ def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple
     """
     element, coordinate, area = _gauss_points(meridian, order)
     strain = strains(meridian, element, coordinate, order)
-    moved = displacement_shapes(meridian, element, coordinate)
+    shapes = displacement_shapes(meridian, element, coordinate)
     surface_mass = structure.density_kg_per_m3 * structure.thickness_m
     stiffness = np.einsum("p,pai,ab,pbj->pij", area, strain, _elasticity(structure), strain,
                           optimize=True)  # fmt: skip
-    mass = surface_mass * np.einsum("p,pai,paj->pij", area, moved, moved, optimize=True)
+    mass = surface_mass * np.einsum("p,pai,paj->pij", area, shapes, shapes, optimize=True)
     return _assembled(meridian, stiffness), _assembled(meridian, mass)
 
 
@@ -207,9 +207,9 @@ def _elasticity(structure: ShellStructure) -> Array:
 def _assembled(meridian: Meridian, at_points: Array) -> Any:
     """Sum of the matrices (point, 12, 12) of all Gauss points, sparse."""
     by_element = at_points.reshape(meridian.elements, _GAUSS, 12, 12).sum(axis=1)
-    at = element_freedoms(meridian)
+    dofs = element_freedoms(meridian)
     rows, columns = (
-        np.broadcast_to(part, by_element.shape) for part in (at[:, :, None], at[:, None])
+        np.broadcast_to(part, by_element.shape) for part in (dofs[:, :, None], dofs[:, None])
     )
-    freedoms = rows.ravel(), columns.ravel()
-    return coo_matrix((by_element.ravel(), freedoms), (freedom_count(meridian),) * 2).tocsc()
+    indices = rows.ravel(), columns.ravel()
+    return coo_matrix((by_element.ravel(), indices), (freedom_count(meridian),) * 2).tocsc()

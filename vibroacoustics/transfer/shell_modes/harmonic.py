@@ -113,23 +113,23 @@ class Harmonic:
             count *= 2
         return eigh(stiffness.toarray(), mass.toarray())  # type: ignore[no-any-return]
 
-    def static_flexibility(self, freedoms: IndexArray) -> Array:
+    def static_flexibility(self, dofs: IndexArray) -> Array:
         """Displacement per steady force without the rigid motions, (freedoms, freedoms).
 
         The force is balanced by the inertia of the rigid motions that it starts.
 
         Parameters
         ----------
-        freedoms : among all amplitudes
+        dofs : among all amplitudes
         """
-        forces = self.reduction.T[:, freedoms]
+        forces = self.reduction.T[:, dofs]
         stiffness, mass = self.free_matrices
         momentum, rigid = mass @ self.rigid_motions, self.rigid_motions.shape[1]
         right = forces.toarray() - momentum @ (forces.T @ self.rigid_motions).T
         if rigid:  # without their momentum; its rows as large as the others
             momentum *= abs(stiffness).max() / abs(momentum).max()
             stiffness = bmat([[stiffness, momentum], [momentum.T, None]], "csc")
-            right = np.concatenate([right, np.zeros((rigid, freedoms.size))])
+            right = np.concatenate([right, np.zeros((rigid, dofs.size))])
         return np.asarray(forces.T @ splu(stiffness).solve(right)[: self.kept.size])
 
 

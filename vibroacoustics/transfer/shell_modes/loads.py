@@ -117,9 +117,9 @@ def mean_over_band(meridian: Meridian, joint: Joint) -> Array:
         )
     heights, weights = _mean_points(middle, band, _BAND_POINTS)
     points = np.stack([np.full(heights.size, meridian.wall_radius_m), heights], axis=1)
-    freedoms, shapes = interpolation(meridian, points)
+    dofs, shapes = interpolation(meridian, points)
     mean = np.zeros((freedom_count(meridian), 3))
-    np.add.at(mean, freedoms, np.einsum("p,pia->pai", weights, shapes))
+    np.add.at(mean, dofs, np.einsum("p,pia->pai", weights, shapes))
     mean.flags.writeable = False
     return mean
 

@@ -37,9 +37,9 @@ class ProjectedModes:
 
     def mass_factor(self, structure: ShellStructure) -> float:
         """Modal mass over that as given, the same of every mode."""
-        given = self.shell.structure
-        density = structure.density_kg_per_m3 / given.density_kg_per_m3
-        return density * structure.thickness_m / given.thickness_m
+        nominal = self.shell.structure
+        density = structure.density_kg_per_m3 / nominal.density_kg_per_m3
+        return density * structure.thickness_m / nominal.thickness_m
 
     def stiffness(self, structure: ShellStructure) -> Array:
         """Modal stiffness of another wall in the shapes as given, shape (mode,), N/m."""
@@ -113,7 +113,7 @@ def _frequencies_hz(
     return {mode.name: mode.frequency_hz for mode in modes}
 
 
-def least_frequency_factor(given: ShellStructure, ends: Sequence[ShellStructure]) -> float:
+def least_frequency_factor(nominal: ShellStructure, ends: Sequence[ShellStructure]) -> float:
     """A bound below the frequency factors of all walls between ends that differ in one value each.
 
     Stretching stiffness goes as E h, bending as E h³, mass as ρ h; Poisson's ratio enters both
@@ -121,16 +121,16 @@ def least_frequency_factor(given: ShellStructure, ends: Sequence[ShellStructure]
 
     Parameters
     ----------
-    given : as the modes are computed for
+    nominal : as the modes are computed for
     ends : walls with one value at an end of its range
     """
-    return float(np.prod([min(1.0, _least(given, end)) for end in ends]))
+    return float(np.prod([min(1.0, _least(nominal, end)) for end in ends]))
 
 
-def _least(given: ShellStructure, changed: ShellStructure) -> float:
-    one, other = given.poisson_ratio, changed.poisson_ratio
-    poisson = min((1.0 - one) / (1.0 - other), (1.0 + one) / (1.0 + other))
-    modulus = changed.youngs_modulus_pa / given.youngs_modulus_pa
-    density = changed.density_kg_per_m3 / given.density_kg_per_m3
-    thickness = changed.thickness_m / given.thickness_m
+def _least(nominal: ShellStructure, changed: ShellStructure) -> float:
+    poisson_nominal, other = nominal.poisson_ratio, changed.poisson_ratio
+    poisson = min((1.0 - poisson_nominal) / (1.0 - other), (1.0 + poisson_nominal) / (1.0 + other))
+    modulus = changed.youngs_modulus_pa / nominal.youngs_modulus_pa
+    density = changed.density_kg_per_m3 / nominal.density_kg_per_m3
+    thickness = changed.thickness_m / nominal.thickness_m
     return float(min(1.0, thickness) * np.sqrt(modulus * poisson / density))

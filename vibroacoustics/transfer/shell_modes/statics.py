@@ -86,13 +86,13 @@ class WallFlexibility:
         return [harmonic.static_flexibility(self._freedoms) for harmonic in harmonics]
 
 
-def local_flexibility_factor(given: ShellStructure, changed: ShellStructure) -> float:
+def local_flexibility_factor(nominal: ShellStructure, changed: ShellStructure) -> float:
     """Flexibility under a local force of a changed wall over that of the wall as given.
 
     1/(E t²) and slowly with Poisson's ratio, as of a sphere (Reissner 1946): w = ¼ √(12 (1 - ν²))
     F R/(E t²).
     """
-    thickness = given.thickness_m / changed.thickness_m
-    modulus = given.youngs_modulus_pa / changed.youngs_modulus_pa
-    poisson = (1.0 - changed.poisson_ratio**2) / (1.0 - given.poisson_ratio**2)
+    thickness = nominal.thickness_m / changed.thickness_m
+    modulus = nominal.youngs_modulus_pa / changed.youngs_modulus_pa
+    poisson = (1.0 - changed.poisson_ratio**2) / (1.0 - nominal.poisson_ratio**2)
     return float(modulus * thickness**2 * np.sqrt(poisson))

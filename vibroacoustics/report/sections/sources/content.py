@@ -51,19 +51,19 @@ def sources_data(results: xr.Dataset) -> dict[str, DataTable]:
 def source_table(results: xr.Dataset) -> Table:
     """Return level and share of each source without a balancer at the published speed."""
     speed = nearest_speed(results)
-    at = at_catalogue(results, speed=speed)
+    coordinates = at_catalogue(results, speed=speed)
     rows = []
     for source in ranked(results, speed):
-        level = band(results, "source_level", **at, sound_source=source)
+        level = band(results, "source_level", **coordinates, sound_source=source)
         share = source_share(results, source, speed).in_percent()
         name = source_name(results, source).capitalize()
         rows.append((name, level.middle_and_ends(rounding.level), share))
-    modelled = band(results, "level_modelled", **at).middle_and_ends(rounding.level)
+    modelled = band(results, "level_modelled", **coordinates).middle_and_ends(rounding.level)
     rows.append(("All modelled sources", modelled, rounding.NOTHING))
     if overall_noise(results) is not None:
         unmodelled = remainder_band(results, speed).middle_and_ends(rounding.level)
         share = unmodelled_share(results, speed).in_percent()
-        total = band(results, "level_total", **at).middle_and_ends(rounding.level)
+        total = band(results, "level_total", **coordinates).middle_and_ends(rounding.level)
         rows += [("Unmodelled noise", unmodelled, share), ("Machine", total, "100 %")]
     of_level, of_share = ("", "")
     if has_samples(results):
@@ -105,8 +105,8 @@ def spectrum_sentence(results: xr.Dataset) -> str:
 
 def alternative_share(results: xr.Dataset, alternative: str, part: str) -> Band:
     """Return the share of a part of the energy with less evidence or another prior."""
-    known = estimate(results, "alternative_share", alternative=alternative, energy_part=part)
-    return written(known, _effective(results, alternative))
+    share = estimate(results, "alternative_share", alternative=alternative, energy_part=part)
+    return written(share, _effective(results, alternative))
 
 
 def _effective(results: xr.Dataset, alternative: str) -> float:

@@ -38,8 +38,8 @@ def elsewhere(results: xr.Dataset) -> str:
 
 def source_share(results: xr.Dataset, source: str, speed: float) -> Band:
     """Return the share of a source in the energy of the machine without a balancer."""
-    at = at_catalogue(results, sound_source=source, speed=speed)
-    return band(results, "source_share", **at)
+    coordinates = at_catalogue(results, sound_source=source, speed=speed)
+    return band(results, "source_share", **coordinates)
 
 
 def unmodelled_share(results: xr.Dataset, speed: float) -> Band:
