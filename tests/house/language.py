@@ -23,6 +23,7 @@ LISTS: Final = tomllib.loads(Path(__file__).with_name("language.toml").read_text
 HOLDS: Final = {entry["word"] for entry in LISTS["holds"]}
 IS: Final = {entry["word"] for entry in LISTS["is"]}
 PHRASES: Final = [re.compile(entry["pattern"], re.MULTILINE) for entry in LISTS["phrase"]]
+EXEMPT: Final = {(entry["path"], entry["what"]) for entry in LISTS["exempt"]}
 ANY_PHRASE: Final = re.compile("|".join(f"(?:{one.pattern})" for one in PHRASES), re.MULTILINE)
 """Most lines hold none: one search tells it."""
 PROSE: Final = re.compile(r"[A-Za-z]+\s+[A-Za-z]+")
@@ -97,7 +98,7 @@ def faults() -> tuple[Fault, ...]:
             reader = faults_of_code if file.suffix == ".py" else faults_of_text
             reader = faults_of_table if file in tables else reader
             found += reader(path, file.read_text(encoding="utf-8"))
-    return tuple(found)
+    return tuple(fault for fault in found if (fault.path, fault.what) not in EXEMPT)
 
 
 def room_of(path: str) -> str:

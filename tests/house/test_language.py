@@ -3,7 +3,19 @@
 import re
 
 import pytest
-from language import LISTS, committed, counts, faults, faults_of_code, faults_of_text, risen
+from language import (
+    EXEMPT,
+    LISTS,
+    ROOT,
+    committed,
+    counts,
+    faults,
+    faults_of_code,
+    faults_of_text,
+    risen,
+)
+
+MOST_EXEMPT = 20
 
 
 def test_no_room_has_more_of_them_than_written_down():
@@ -27,6 +39,23 @@ def test_each_phrase_is_seen_in_its_example():
     for entry in LISTS["phrase"]:
         assert re.search(entry["pattern"], entry["example"]), entry
         assert list(faults_of_text("a.md", entry["example"])), entry
+
+
+def test_exemptions_are_few_and_each_is_needed():
+    assert len(EXEMPT) <= MOST_EXEMPT
+    for path, what in EXEMPT:
+        code = (ROOT / path).read_text("utf-8")
+        assert what in {fault.what for fault in faults_of_code(path, code)}, path
+
+
+@pytest.mark.parametrize(
+    "line", ["name : of a thing", "a, *b : the same", "x : what acts", "x : as y"]
+)
+def test_parameter_lines_begin_with_a_noun(line):
+    assert list(faults_of_code("a.py", f'"""Sum.\n\n    {line}\n"""'))
+    assert not list(
+        faults_of_code("a.py", f'"""Sum.\n\n    {line.replace(" :", " : length")}\n"""')
+    )
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_power, power_of_level
 from ..base.vocabulary import PUBLISHED_LEVEL, PUBLISHED_SHARE
-from ..machine.remainder import OverallNoise, Remainder
+from ..machine.remainder import OverallNoise, UnmodelledNoise
 from .by_source import GAIN_BANDS
 
 LEVELS_DB: Final[Array] = np.linspace(-40.0, 10.0, 51, dtype=np.float64)
@@ -59,10 +59,10 @@ ALL_ALIKE: Final = Prior("even", "of none, as no level is published", np.ones_li
 """Where no published datum weighs samples."""
 
 
-def priors_of(remainder: Remainder) -> tuple[Prior, ...]:
+def priors_of(noise: UnmodelledNoise) -> tuple[Prior, ...]:
     """Return the priors of a machine's unmodelled noise, in the order of their names."""
-    lowest, highest = remainder.flat_lowest_db, remainder.flat_highest_db
-    near, deviation = remainder.near_level_db, remainder.near_deviation_db
+    lowest, highest = noise.flat_lowest_db, noise.flat_highest_db
+    near, deviation = noise.near_level_db, noise.near_deviation_db
     flat = f"anywhere from {_beside(lowest)} to {_beside(highest)} the published level"
     words = (flat, f"{_beside(near)} the published level, give or take {deviation:g} dB")
     densities = (partial(_flat, lowest, highest), partial(_near, near, deviation))

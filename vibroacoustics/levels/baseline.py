@@ -20,14 +20,14 @@ from .measured_change import changed_orders, left_of_squares
 from .measured_points import (
     BASELINE_BANDS,
     MIDDLE_HZ,
-    REMAINDER_BANDS,
+    UNMODELLED_BANDS,
     MeasuredPoint,
     PointKey,
     holds,
     measured_points,
 )
 
-_UNMODELLED_COLUMNS: Final = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
+_UNMODELLED_COLUMNS: Final = [BASELINE_BANDS.index(band) for band in UNMODELLED_BANDS]
 """Columns of unmodelled noise among the bands of a baseline."""
 
 
@@ -37,13 +37,13 @@ class Changed:
 
     Attributes
     ----------
-    rest : what the model leaves of the measured bands, without orders, shape (option, band)
+    unmodelled : what the model leaves of the measured bands, without orders, shape (option, band)
     beside : modelled in these bands, without the measured orders, shape (option, band)
     order : measured orders, changed, shape (option, order)
     modelled_order : of the model alone, shape (option, order)
     """
 
-    rest: Array
+    unmodelled: Array
     beside: Array
     order: Array
     modelled_order: Array
@@ -76,14 +76,14 @@ def with_baseline(
     axes : of the levels
     points : of `points_of`
     sound : of every case
-    remaining : unmodelled noise in `REMAINDER_BANDS`, shape (speed, option, receiver, band), Pa²
+    remaining : unmodelled noise in `UNMODELLED_BANDS`, shape (speed, option, receiver, band), Pa²
     """
     unmodelled: Array = remaining.sum(axis=3)
     for (receiver, speed), point in points.items():
         row = axes.speeds.index(speed), slice(None), axes.receivers.index(receiver)
         changed = _changed(study, axes, (receiver, speed), point, sound)
         elsewhere = ~np.isin(_UNMODELLED_COLUMNS, point.band)
-        unmodelled[row] = remaining[row] @ elsewhere + changed.rest @ _a_weight(
+        unmodelled[row] = remaining[row] @ elsewhere + changed.unmodelled @ _a_weight(
             MIDDLE_HZ[point.band]
         )
         weight = _a_weight(point.frequency_hz)
@@ -107,7 +107,7 @@ def over_baseline(
     chosen = _columns(axes, point)
     modelled = none.beside_total[column, point.band] @ of_bands
     modelled += 0.5 * np.abs(none.order_total[column, chosen]) ** 2 @ of_orders
-    measured = point.rest @ of_bands + 0.5 * np.abs(point.peak) ** 2 @ of_orders
+    measured = point.unmodelled @ of_bands + 0.5 * np.abs(point.peak) ** 2 @ of_orders
     if np.isnan(modelled):
         return float("nan")
     return float(mean_square_level(modelled, 1.0) - mean_square_level(measured, 1.0))
@@ -137,8 +137,8 @@ def baseline_variables(
         square = 0.5 * np.abs(point.peak) ** 2
         order_share[s, r, chosen] = _ratio(changed.modelled_order[none], square)
         tones = changed.order @ holds(point.frequency_hz)[:, point.band]
-        bands[s][:, r, point.band] = _level(changed.rest + changed.beside + tones)
-        share[s, r, point.band] = _ratio(changed.beside[none], point.rest)
+        bands[s][:, r, point.band] = _level(changed.unmodelled + changed.beside + tones)
+        share[s, r, point.band] = _ratio(changed.beside[none], point.unmodelled)
     values = {"baseline_share": share, "baseline_band_level": bands}
     if order.size:
         values |= {
@@ -188,7 +188,7 @@ def _changed(
     middle_hz, hertz = MIDDLE_HZ[point.band], point.frequency_hz
     by_band = [1.0 if loss is None else loss.power_factor(middle_hz) for loss in losses]
     by_order = [1.0 if loss is None else loss.amplitude_factor(hertz) for loss in losses]
-    unmodelled = left_of_squares(point.rest, none.beside_total[column, point.band])
+    unmodelled = left_of_squares(point.unmodelled, none.beside_total[column, point.band])
     factor = np.array([gain * np.ones(hertz.size) for gain in by_order])
     return Changed(
         np.array([unmodelled * gain for gain in by_band]),

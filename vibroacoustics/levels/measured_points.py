@@ -17,7 +17,7 @@ from .by_source import GAIN_BANDS
 
 BASELINE_BANDS: Final = GAIN_BANDS
 """Third octaves that a baseline may have."""
-REMAINDER_BANDS: Final = bands_between(3, 25.0, 10000.0)
+UNMODELLED_BANDS: Final = bands_between(3, 25.0, 10000.0)
 """Third octaves of the remainder, where no baseline stands."""
 MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in BASELINE_BANDS])
 _EDGES: Final[Array] = np.array([[band.lower_hz, band.upper_hz] for band in BASELINE_BANDS])
@@ -30,7 +30,7 @@ class MeasuredPoint:
     Attributes
     ----------
     band : numbers of `BASELINE_BANDS`, shape (band,); none where no third octaves were measured
-    rest : mean squares without the measured orders, shape (band,), Pa²
+    unmodelled : mean squares without the measured orders, shape (band,), Pa²
     order, frequency_hz : shape (order,)
     peak : complex at the study's crank angle where the phase is known, else amplitudes, shape
         (order,), Pa
@@ -38,7 +38,7 @@ class MeasuredPoint:
     """
 
     band: IndexArray
-    rest: Array
+    unmodelled: Array
     order: Array
     frequency_hz: Array
     peak: ComplexArray

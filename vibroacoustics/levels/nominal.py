@@ -19,7 +19,7 @@ from .continuous import noise_levels
 from .labelled import level_variables
 from .lines import line_pressure
 from .measured_points import BASELINE_BANDS, MeasuredPoint, PointKey, evidence
-from .remainder import in_spectrum, remainder, remaining
+from .remainder import in_spectrum, remaining, unmodelled_square
 from .spectrum_data import spectrum_data
 
 Sound = dict[CaseKey, SourceSound]
@@ -77,7 +77,7 @@ class NominalSound:
         """
         study, axes, points, sound = self.study, self.axes, self.points, self.sound
         replaced = any(receiver == study.catalogue_receiver for receiver, _ in points)
-        unmodelled = remainder(study, axes, sound, replaced or bool(study.ranges))
+        unmodelled = unmodelled_square(study, axes, sound, replaced or bool(study.ranges))
         noise_pa2 = in_spectrum(study.machine, unmodelled)
         residual = remaining(study, axes, study.machine, noise_pa2)
         lines, noise = line_pressure(axes, received), noise_levels(axes, received, residual)

@@ -15,14 +15,14 @@ from ..study.study import Study
 from .axes import LevelAxes
 from .by_source import GAIN_BANDS, SourceSound, gain_band_number
 from .insertion_loss import remaining_factor
-from .measured_points import REMAINDER_BANDS
+from .measured_points import UNMODELLED_BANDS
 from .published import published_of
 
-REMAINDER_MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in REMAINDER_BANDS])
+UNMODELLED_MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in UNMODELLED_BANDS])
 """Middle frequencies of the third octaves of unmodelled noise."""
 
 
-def remainder(
+def unmodelled_square(
     study: Study, axes: LevelAxes, sound: Mapping[CaseKey, SourceSound], may_be_none: bool
 ) -> float:
     """Mean square that the model leaves of the published level at its microphone and speed, Pa².
@@ -59,7 +59,7 @@ def remainder(
 def remaining(study: Study, axes: LevelAxes, machine: Machine, noise: Array) -> Array:
     """Compute unmodelled noise, A-weighted, shape (speed, option, receiver, band), Pa².
 
-    The bands are `REMAINDER_BANDS`. It grows with speed, each band passes the insertion loss of an
+    The bands are `UNMODELLED_BANDS`. It grows with speed, each band passes the insertion loss of an
     option, and it spreads from the machine to the microphones.
 
     Parameters
@@ -70,13 +70,13 @@ def remaining(study: Study, axes: LevelAxes, machine: Machine, noise: Array) -> 
     noise : unmodelled noise at the published speed and microphone without an option, (band,), Pa²
     """
     growth = machine.remainder.speed_factor(np.array(axes.speeds), study.catalogue_speed_rpm)
-    factor = remaining_factor(study.options, REMAINDER_MIDDLE_HZ)
+    factor = remaining_factor(study.options, UNMODELLED_MIDDLE_HZ)
     return axes.spread(growth[:, None, None] * factor * noise)
 
 
 def in_spectrum(machine: Machine, square: float) -> Array:
-    """Return unmodelled noise of a mean square in `REMAINDER_BANDS`, shape (band,), Pa²."""
-    return np.asarray(square * machine.remainder.spectrum(REMAINDER_MIDDLE_HZ))
+    """Return unmodelled noise of a mean square in `UNMODELLED_BANDS`, shape (band,), Pa²."""
+    return np.asarray(square * machine.remainder.spectrum(UNMODELLED_MIDDLE_HZ))
 
 
 def unmodelled_bands(study: Study, machine: Machine) -> Array:
@@ -90,10 +90,10 @@ def in_gain_bands(remaining: Array) -> Array:
 
     Parameters
     ----------
-    remaining : in `REMAINDER_BANDS`, shape (..., band), Pa²
+    remaining : in `UNMODELLED_BANDS`, shape (..., band), Pa²
     """
     bands = np.zeros((*remaining.shape[:-1], len(GAIN_BANDS)))
-    bands[..., gain_band_number(REMAINDER_MIDDLE_HZ)] = remaining
+    bands[..., gain_band_number(UNMODELLED_MIDDLE_HZ)] = remaining
     return bands
 
 

@@ -28,7 +28,7 @@ class AirInRoom:
     Attributes
     ----------
     modelled : of all sources, A-weighted, shape (speed, option, listener), Pa²
-    rest : of what no source explains, A-weighted, the same shape, Pa²
+    unmodelled : of what no source explains, A-weighted, the same shape, Pa²
     alone : of each source, A-weighted, shape (speed, option, listener, source), Pa²
     band : of all of it, shape (speed, option, listener, band), Pa²
     power_band : of the machine, shape (speed, option, band), W
@@ -37,7 +37,7 @@ class AirInRoom:
     """
 
     modelled: Array
-    rest: Array
+    unmodelled: Array
     alone: Array
     band: Array
     power_band: Array
@@ -86,7 +86,7 @@ class AirInRoom:
     @property
     def total(self) -> Array:
         """Of the whole machine, A-weighted, Pa²."""
-        return self.modelled + self.rest
+        return self.modelled + self.unmodelled
 
 
 def room_variables(

@@ -19,7 +19,7 @@ def shown_bands(between_hz: tuple[float, float]) -> IndexArray:
     return np.flatnonzero((low / ROUNDED < MIDDLE_HZ) & (high * ROUNDED > MIDDLE_HZ))
 
 
-def seam_variables(
+def crossover_variables(
     listeners: Sequence[str], shown: IndexArray, waves: Array, diffuse: Array, gains_db: Array
 ) -> xr.Dataset:
     """Levels at the listeners over the sound power level by both methods, and their difference.

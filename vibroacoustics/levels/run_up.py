@@ -9,7 +9,7 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.decibel import level_of_power
 from ..base.vocabulary import stamped
-from ..machine.remainder import Remainder
+from ..machine.remainder import UnmodelledNoise
 from ..mechanics.received_sound import ReceivedSound
 from .axes import LevelAxes
 from .by_source import sound_by_source
@@ -22,7 +22,7 @@ _QUIETER_DB: Final = 40.0
 
 
 def unmodelled_over_speed(
-    band_level: xr.DataArray, growth: Remainder, speed_rpm: float, speeds_rpm: Sequence[float]
+    band_level: xr.DataArray, growth: UnmodelledNoise, speed_rpm: float, speeds_rpm: Sequence[float]
 ) -> Array:
     """Compute the A-weighted mean square of unmodelled noise, shape (speed, receiver), Pa².
 

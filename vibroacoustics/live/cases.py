@@ -28,15 +28,17 @@ def case_of(numbers: Numbers, lines: Lines, moving: Moving | None, speed: int) -
     case: dict[str, Any] = {
         "frequency": [round(float(hertz), 9) for hertz in lines.frequency_hz],
         "order": [None if np.isnan(order) else float(order) for order in lines.order],
-        "rest": [numbers.put(of_option) for of_option in lines.rest],
+        "rest": [numbers.put(of_option) for of_option in lines.continuous],
         "noise": [numbers.put(of_option, NOISE_BITS) for of_option in lines.noise],
     }
     if moving is None:
         return case | {
-            "modelled": [numbers.put(values) for values in lines.modelled_rest + lines.of_model],
+            "modelled": [
+                numbers.put(values) for values in lines.modelled_continuous + lines.of_model
+            ],
             "pressure": [numbers.put(values, FEW_BITS) for values in lines.pressure],
         }
-    case["modelled"] = [numbers.put(of_option) for of_option in lines.modelled_rest]
+    case["modelled"] = [numbers.put(of_option) for of_option in lines.modelled_continuous]
     return case | _moving_case(numbers, lines, moving, speed)
 
 

@@ -31,8 +31,8 @@ class Lines:
     modelled : the same without what was measured
     measured : of the orders of a baseline, (receiver, line), Pa; zero where there is none
     has_phase : whether its phase is known, of the same shape
-    rest : A-weighted mean square beside these lines, as the total has it, (option, receiver), Pa²
-    modelled_rest : the same of the modelled level
+    continuous : A-weighted mean square of the total beside these lines, (option, receiver), Pa²
+    modelled_continuous : A-weighted mean square of the modelled sound beside them, same shape, Pa²
     noise : mean square of the noise in third octaves, shape (option, receiver, band), Pa²
     """
 
@@ -42,8 +42,8 @@ class Lines:
     modelled: ComplexArray
     measured: ComplexArray
     has_phase: NDArray[np.bool_]
-    rest: Array
-    modelled_rest: Array
+    continuous: Array
+    modelled_continuous: Array
     noise: Array
 
     @property

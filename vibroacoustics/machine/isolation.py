@@ -42,7 +42,7 @@ def total_stiffness(
     for foot in feet or [Foot(x_m=0.0, y_m=0.0)] * 4:
         table = foot.stiffness or (None if foot.has_constant_values else stiffness)
         if table is not None:
-            total += table.at(np.array(frequency_hz)).real[1:]
+            total += table.dynamic_stiffness(np.array(frequency_hz)).real[1:]
         else:
             total += (
                 foot.lateral_stiffness_n_per_m or mounts.lateral_stiffness_n_per_m,

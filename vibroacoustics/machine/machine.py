@@ -30,7 +30,7 @@ from .isolation import doubts_of_isolation, total_stiffness
 from .limits import OF_EVERY_MACHINE, Limit
 from .mount_stiffness import MountStiffness
 from .mounts import Mounts
-from .remainder import OF_THE_REMAINDER, OverallNoise, Remainder
+from .remainder import UNMODELLED_KEYS, OverallNoise, UnmodelledNoise
 from .shell import Shell
 from .shell_structure import ShellStructure
 from .speed_growth import Growth
@@ -81,7 +81,7 @@ class Machine(KindOfParameters):
     shell: Shell
     overall_noise: OverallNoise | None = None
     """What a catalogue gives; without it levels hold only what the model holds."""
-    remainder: Remainder = Remainder()
+    remainder: UnmodelledNoise = UnmodelledNoise()
     feet: Feet | None = None
     """Anywhere; four in a square, as `mounts` says, where there are none."""
     mount_stiffness: MountStiffness | None = None
@@ -260,7 +260,7 @@ class Machine(KindOfParameters):
     def unread(self) -> frozenset[str]:
         """Values without effect beside the machine's other tables, dotted, in SI."""
         of_mounts = values_not_read(self.feet, self.mount_stiffness)
-        return of_mounts if self.overall_noise is not None else of_mounts | OF_THE_REMAINDER
+        return of_mounts if self.overall_noise is not None else of_mounts | UNMODELLED_KEYS
 
     @property
     def crank_frame(self) -> CrankFrame:

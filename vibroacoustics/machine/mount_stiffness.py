@@ -53,7 +53,7 @@ class MountStiffness(FileTable):
         of_fields = zip(fields, (frequency, lateral, vertical, loss), strict=True)
         return {name: tuple(values.tolist()) for name, values in of_fields}
 
-    def at(self, frequency_hz: Array) -> ComplexArray:
+    def dynamic_stiffness(self, frequency_hz: Array) -> ComplexArray:
         """Along x, y and z, shape (..., 3), N/m; without loss at frequency zero.
 
         Parameters

@@ -12,7 +12,7 @@ from ..base.parameters import Contradictions, Held, Parameters, Regime
 
 PRIOR: Final = Held("say what is held of the remainder before anything is sampled")
 LEAST_FLAT_DB: Final = 1.0
-OF_THE_REMAINDER: Final = frozenset(
+UNMODELLED_KEYS: Final = frozenset(
     f"remainder.{name}" for name in ("speed_growth_db", "peak_frequency_hz", "slope_db")
 )
 """Without effect where a machine has no published level that leaves a remainder."""
@@ -54,7 +54,7 @@ class OverallNoise(Parameters):
             yield f"other_speed_rpm = {self.speed_rpm:g} rpm: must differ from speed_rpm"
 
 
-class Remainder(Parameters):
+class UnmodelledNoise(Parameters):
     """Growth with speed and A-weighted third-octave spectrum of unmodelled noise.
 
     The level grows by so many decibels for ten times the speed; the spectrum falls from its peak

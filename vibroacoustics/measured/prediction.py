@@ -21,7 +21,7 @@ from .files import attributes, naming_settings
 from .scatter import measured_again
 from .settings import Prediction, load_prediction
 
-DRAWS_OF_TRUNCATION: Final = 10
+SAMPLES_OF_TRUNCATION: Final = 10
 
 
 def predict(path: str | Path) -> xr.Dataset:
@@ -117,7 +117,7 @@ def _truncation(
     """The truncation, given or chosen, and what each tried one makes wrong."""
     tries = [
         lambda share, sample=sample: _changed(sample, elements, share)
-        for sample in samples[:DRAWS_OF_TRUNCATION]
+        for sample in samples[:SAMPLES_OF_TRUNCATION]
     ]
     errors = truncation_errors(_changed(bench, elements, 0.0), tries)
     stated = settings.measured.truncation_ratio

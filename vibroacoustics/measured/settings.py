@@ -67,7 +67,7 @@ class NewMount(Parameters):
         """
         if self.stiffness is not None:
             axis = "xyz".index(direction[-1:] or "z")
-            return np.asarray(self.stiffness.at(frequency_hz)[:, axis])
+            return np.asarray(self.stiffness.dynamic_stiffness(frequency_hz)[:, axis])
         return mount_stiffness(frequency_hz, self.stiffness_n_per_m or 0.0, self.loss_factor_ratio)
 
 

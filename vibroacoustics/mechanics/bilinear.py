@@ -83,17 +83,17 @@ class Bilinear:
     ) -> tuple[Array, Array]:
         """A step that changes sides: state after it and derivative by the state before."""
 
-        def at(time: float) -> Array:
+        def state_after(time: float) -> Array:
             homogeneous = expm(self._system(stiff) * time) @ apart
             return np.asarray(homogeneous + self._particular(stiff, angle + time))
 
         begun = 1e-9 * length
         crossing = 0.0  # of a step that starts at zero
-        if at(begun)[0] * at(length)[0] < 0.0:
-            crossing = float(brentq(lambda time: at(time)[0], begun, length, xtol=1e-15))
+        if state_after(begun)[0] * state_after(length)[0] < 0.0:
+            crossing = float(brentq(lambda time: state_after(time)[0], begun, length, xtol=1e-15))
         first = expm(self._system(stiff) * crossing)
         second = expm(self._system(not stiff) * (length - crossing))
-        other = at(crossing) - self._particular(not stiff, angle + crossing)
+        other = state_after(crossing) - self._particular(not stiff, angle + crossing)
         after = second @ other + self._particular(not stiff, angle + length)
         return np.asarray(after), np.asarray(second @ first)
 

@@ -67,14 +67,14 @@ class AngularPlan:
             )
 
     @cached_property
-    def known(self) -> tuple[int, int]:
+    def covered(self) -> tuple[int, int]:
         """First sample at which the motion is known, and the one after the last."""
         return known_samples(self.motion, self.sample_rate_hz, self.samples)
 
     @cached_property
     def highest_hz(self) -> float:
         """Highest shaft frequency at a sample."""
-        start, stop = self.known
+        start, stop = self.covered
         return max(
             float(np.max(self.motion.frequency_hz(np.arange(first, last) / self.sample_rate_hz)))
             for first, last in pieces(start, stop)
@@ -102,7 +102,7 @@ class AngularPlan:
     @cached_property
     def grid(self) -> tuple[int, int]:
         """First and last index of the grid around which the whole kernel has samples."""
-        start, stop = self.known
+        start, stop = self.covered
         begin, end = self.position(np.array([start, stop - 1]))
         half = self.low_pass.half_length
         return int(np.ceil(begin)) + half, int(np.floor(end)) - half

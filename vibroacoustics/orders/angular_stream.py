@@ -63,7 +63,7 @@ class AngularStream:
         self._added = 0
         self._next = plan.grid[0]
         # Samples under the kernel of index `_next` and what follows.
-        self._begin = plan.known[0]
+        self._begin = plan.covered[0]
         self._rows: Array = np.empty((channels, 0))
         self._position: Array = np.empty(0)
         self._width: Array = np.empty(0)
@@ -77,7 +77,7 @@ class AngularStream:
             A sample is not finite.
         """
         check_finite(block)
-        start, stop = self.plan.known
+        start, stop = self.plan.covered
         first, self._added = self._added, self._added + block.shape[1]
         self._join(block[:, max(start - first, 0) : max(stop - first, 0)])
         last = self._next - 1

@@ -102,7 +102,7 @@ def pulses_of(
         states.add(block)
     low, high, are_two_states = states.levels()
     levels = _Levels(
-        rest=states.rest(),
+        idle=states.idle(),
         middle=0.5 * (low + high) if threshold is None else threshold,
         band=_HYSTERESIS * (high - low) if hysteresis is None else hysteresis,
         middle_follows=threshold is None,
@@ -123,7 +123,7 @@ def pulses_of(
 class _Levels(NamedTuple):
     """Threshold and band around it at full height, the level at rest, what follows the height."""
 
-    rest: float
+    idle: float
     middle: float
     band: float
     middle_follows: bool
@@ -172,8 +172,8 @@ def _detected(
     sign = 1.0 if edge == "rising" else -1.0
     state, first, parts = np.array([np.nan, 0.0, 0.0, -np.inf, np.inf, 0.0]), 0, []
     for block in blocks():
-        height = np.ones(1) if heights is None else heights.at(first, block.size)
-        middle = levels.rest + (levels.middle - levels.rest) * height
+        height = np.ones(1) if heights is None else heights.height_at(first, block.size)
+        middle = levels.idle + (levels.middle - levels.idle) * height
         half = 0.5 * levels.band * (height if levels.band_follows else np.ones(height.size))
         middle = middle if levels.middle_follows else np.full(height.size, levels.middle)
         parts.append(_crossings(block, first, sign, sign * middle, half, state))

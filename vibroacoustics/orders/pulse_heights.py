@@ -45,7 +45,7 @@ class Heights:
         """Least height."""
         return float(self.height.min())
 
-    def at(self, first: int, samples: int) -> Array:
+    def height_at(self, first: int, samples: int) -> Array:
         """Height at samples from a first one; half of the last one beyond the pulses."""
         before, behind = self.sample[1] - self.sample[0], self.sample[-1] - self.sample[-2]
         ends = np.array([1.0, 0.5])

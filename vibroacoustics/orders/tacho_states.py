@@ -100,6 +100,6 @@ class TachoStates:
         top = float(np.sort(self._top)[-nth])
         return (bottom, top) if top > bottom else (self.lowest, self.highest)
 
-    def rest(self) -> float:
+    def idle(self) -> float:
         """Median of the samples, about which the height of pulses changes."""
         return float(np.median(np.concatenate(self._some)))

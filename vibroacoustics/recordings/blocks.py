@@ -34,7 +34,7 @@ class FileBlocks:
     Samples that `hold_recording` has read already are converted from memory.
     """
 
-    asked: Asked
+    file_request: Asked
     header: Mapping[str, Any]
     first_sample: int
     samples: int
@@ -55,7 +55,7 @@ class FileBlocks:
     @property
     def channels(self) -> Sequence[str]:
         """Names, each once."""
-        return tuple(self.asked.new_names(self.header))
+        return tuple(self.file_request.new_names(self.header))
 
     @property
     def read_bytes(self) -> int:
@@ -67,7 +67,7 @@ class FileBlocks:
         """Attributes as `read_recording` gives them; a hash of what was read all at once."""
         attributes: dict[str, Any] = {
             "sample_rate_hz": self.sample_rate_hz,
-            "source_file": self.asked.path.name,
+            "source_file": self.file_request.path.name,
             **self.further,
         }
         if self.header["start_time"]:
@@ -95,8 +95,8 @@ class FileBlocks:
             return _in_si(self.stored[:, first:last], rows, self.calibration_factors)
         stored = [self.header["names"][row] for row in rows]
         part = {"samples": [start + first, start + last], "channels": stored, "hashed": False}
-        with naming_file(self.asked.path):
-            header, samples = read_in_child(self.asked.request() | part)
+        with naming_file(self.file_request.path):
+            header, samples = read_in_child(self.file_request.request() | part)
             units = [self.channel_units[row] for row in rows]
             scale_in_place(samples, channels, [self.calibration_factors[row] for row in rows])
         self._remark(overload_lines(header, units))
@@ -106,7 +106,7 @@ class FileBlocks:
         """Warn of a channel's overload once, not in every block."""
         new = {line.partition(": ")[0]: line for line in lines}
         new = {about: line for about, line in new.items() if about not in self.remarks}
-        remark(self.asked.path, new.values())
+        remark(self.file_request.path, new.values())
         self.remarks.update(new)
 
 

@@ -273,7 +273,7 @@ def to_json(blocks: Sequence[Block]) -> str:
     ValueError
         One of them is no block, or holds a value of another type than its own.
     """
-    text = json.dumps(_adapter().dump_python(drawn(blocks), mode="json", warnings=False))
+    text = json.dumps(_adapter().dump_python(rendered(blocks), mode="json", warnings=False))
     from_json(text)
     return text
 
@@ -294,7 +294,7 @@ def from_json(text: str) -> tuple[Block, ...]:
 
 def pictures(blocks: Sequence[Block]) -> Iterator[Picture]:
     """All pictures of some blocks, folded ones too."""
-    for block in _flat(drawn(blocks)):
+    for block in _flat(rendered(blocks)):
         if isinstance(block, Pictures):
             yield from (each for each in block.pictures if isinstance(each, Picture))
 
@@ -311,19 +311,19 @@ def tables(blocks: Sequence[Block]) -> Iterator[Table]:
     return (block for block in _flat(blocks) if isinstance(block, Table))
 
 
-def drawn(blocks: Sequence[Block]) -> tuple[Block, ...]:
+def rendered(blocks: Sequence[Block]) -> tuple[Block, ...]:
     """Return blocks with pictures in place of charts."""
-    return tuple(map(_drawn, blocks))
+    return tuple(map(_rendered, blocks))
 
 
-def _drawn(block: Block) -> Block:
+def _rendered(block: Block) -> Block:
     if isinstance(block, Pictures):
         finished = (picture(each) if isinstance(each, Chart) else each for each in block.pictures)
         return Pictures(tuple(finished))
     if isinstance(block, Details):
-        return replace(block, blocks=drawn(block.blocks))
+        return replace(block, blocks=rendered(block.blocks))
     if isinstance(block, Beside):
-        return Beside(_drawn(block.narrow), _drawn(block.wide))
+        return Beside(_rendered(block.narrow), _rendered(block.wide))
     return block
 
 

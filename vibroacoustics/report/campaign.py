@@ -22,8 +22,8 @@ from .tables import (
     DataTable,
     Table,
     amplitude,
+    cell,
     data_table,
-    known,
     phase_deg,
     records,
     table_of,
@@ -265,4 +265,4 @@ def _levels(
 
 
 def _without_nan(table: DataTable) -> DataTable:
-    return {head: list(map(known, values)) for head, values in table.items()}
+    return {head: list(map(cell, values)) for head, values in table.items()}

@@ -11,7 +11,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from ..base.visible import visible
-from .blocks import Live, Part, Sounds, Text, drawn
+from .blocks import Live, Part, Sounds, Text, rendered
 from .charts.svg import Picture
 from .live.assets import blind_script, live_script, live_style, packed, unpacking_script
 
@@ -30,7 +30,7 @@ def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = ""
         "along": _along,
         "breakable": _breakable,
         "linked": _linked,
-        "drawn": drawn,
+        "rendered": rendered,
         "script_data": _script_data,
     }
     style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")

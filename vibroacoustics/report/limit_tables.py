@@ -13,7 +13,7 @@ from ..results.bands import percent
 from ..results.figure_limits import CheckedFigure
 from ..results.order_limits import NOT_CHECKED
 from .blocks import Block, Bullets, Text
-from .tables import DataTable, Record, Table, amplitude, columns_of, data_table, known, records
+from .tables import DataTable, Record, Table, amplitude, cell, columns_of, data_table, records
 
 _OF_RESULT: Final = ("channel", "speed_rpm", "value", "margin_db")
 _OF_ONE: Final = {"": ("channel", "speed", "channel_order_rms", "limit_margin")}
@@ -197,7 +197,7 @@ def figure_limits_table(figures: Sequence[CheckedFigure]) -> Table:
 def figure_limits_data(figures: Sequence[CheckedFigure]) -> DataTable:
     """Every figure that has a limit; the speed is empty where a figure is of all speeds."""
     rows = [
-        [*(known(getattr(row, name)) for name in _FIELDS), "yes" if row.is_within else "no"]
+        [*(cell(getattr(row, name)) for name in _FIELDS), "yes" if row.is_within else "no"]
         for row in figures
     ]
     return columns_of((*_FIELDS, "within"), rows)

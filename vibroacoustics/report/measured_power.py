@@ -13,7 +13,7 @@ from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Pictures
 from .figures.sources import power_chart
-from .tables import Cell, DataTable, Table, known
+from .tables import Cell, DataTable, Table, cell
 
 GRADES: Final = {
     2: "grade 2 (ISO 3744, engineering)",
@@ -56,7 +56,7 @@ def _bands(measured: xr.Dataset) -> DataTable:
                for name, head in _COLUMNS.items()}  # fmt: skip
     return {
         "band_hz": [*measured["band"].values.tolist(), "A"],
-        **{head: [*map(known, values)] for head, values in columns.items()},
+        **{head: [*map(cell, values)] for head, values in columns.items()},
         "is_upper_bound": [*map(_bound, margins)],
     }
 

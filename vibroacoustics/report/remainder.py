@@ -19,7 +19,7 @@ NO_LEVEL: Final = (
 )
 
 
-def remainder_band(results: xr.Dataset, speed: float) -> Band:
+def unmodelled_level(results: xr.Dataset, speed: float) -> Band:
     """Level of unmodelled noise at a speed without an option, with its interval."""
     return band(results, "residual_level", **at_catalogue(results, speed=speed))
 

@@ -11,7 +11,7 @@ from ..base import rounding
 from ..results.number import Number
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Sound, Sounds, Text
-from .tables import DataTable, Table, columns_of, data_table, known
+from .tables import DataTable, Table, cell, columns_of, data_table
 
 _SUMMARY_WEIGHTING: Final = "A"
 _UNWEIGHTED: Final = "Z"
@@ -234,4 +234,4 @@ def _unchanged_data(summary: xr.Dataset) -> DataTable:
 
 def _without_gaps(table: DataTable) -> DataTable:
     """Empty cells where there is no value."""
-    return {name: [known(value) for value in values] for name, values in table.items()}
+    return {name: [cell(value) for value in values] for name, values in table.items()}

@@ -43,7 +43,7 @@ def to_csv(table: DataTable) -> bytes:
     return csv_bytes(list(table), rows, lambda number: f"{number:.9g}")
 
 
-def known(value: str | float | None) -> str | float:
+def cell(value: str | float | None) -> str | float:
     """Return a cell of a CSV: empty where there is no value, or where it is not a number."""
     return "" if value is None or (isinstance(value, float) and np.isnan(value)) else value
 

@@ -41,7 +41,7 @@ _ALONG: Final = (
 """Coordinates of a case."""
 _Case = dict[str, Any]
 """Values of an option at a position and speed, by name of variable or coordinate."""
-DUST: Final = 1e-9
+ROUNDING_SHARE: Final = 1e-9
 """Of a band's mean square: less is what rounding leaves where lines are taken out."""
 
 
@@ -305,7 +305,7 @@ def _measured_bands(case: _Case, lines: SoundLines, number: Array, otherwise: Ar
     of_lines = third_octave_number(lines.frequency_hz)[:, None] == number
     tones = (0.5 * np.abs(lines.pressure_pa) ** 2) @ of_lines
     measured = REFERENCE_PRESSURE_PA**2 * power_of_level(levels)
-    noise_pa2 = np.where(measured - tones > DUST * measured, measured - tones, 0.0)
+    noise_pa2 = np.where(measured - tones > ROUNDING_SHARE * measured, measured - tones, 0.0)
     return np.where(np.isnan(measured), otherwise, noise_pa2)
 
 

@@ -87,7 +87,7 @@ def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Ar
         _decaying(room, number, decaying, length, hertz) for number in range(room.distance_m.size)
     ]
     parts = _received(room, hertz, np.array(noise))
-    waves, others, square = _weighed(room, parts, hertz, length)
+    waves, others, square = _weighted(room, parts, hertz, length)
     spectrum = np.zeros((*waves.shape[:-1], length // 2 + 1), dtype=complex)
     in_crossover = waves * least_phase(np.sqrt(1.0 - room.ways.wave_share(hertz)), length)
     gate = _gate(room.distance_m / SPEED_OF_SOUND_M_PER_S, samples, length, sample_rate_hz)
@@ -159,7 +159,7 @@ def _of_block(room: WaysOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
     return _Received(waves, np.einsum("pmf,lpf->lmf", turned, noise), ways.power(by_motion), square)
 
 
-def _weighed(
+def _weighted(
     room: WaysOfRoom, parts: _Received, hertz: Array, length: int
 ) -> tuple[ComplexArray, ComplexArray, Array]:
     """Waves, direct sound with noise, mean squares of all, each (listener, motion, frequency).

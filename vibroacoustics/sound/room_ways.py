@@ -29,7 +29,7 @@ class BothMethods(NamedTuple):
     gain : of the power at the machine's place, of frequencies
     waves : mean square per power, shape (listener, band), Pa²/W
     shown : numbers of the bands around the seam
-    both : waves and diffuse field in these, without the gain
+    transfers : waves and diffuse field in these, without the gain
     gains_db : of the place, in these and above
     """
 
@@ -37,7 +37,7 @@ class BothMethods(NamedTuple):
     gain: Callable[[Array], Array]
     waves: Array
     shown: IndexArray
-    both: tuple[Array, Array]
+    transfers: tuple[Array, Array]
     gains_db: Array
 
 
@@ -57,7 +57,7 @@ def ways_of(
     count = len(settings.listeners)
     free = RoomWays(count, radius_m, share, rooms.diffuse_per_power(settings, middle_m))
     waves = wave_gains(pressure, free, highest_hz)
-    shown = shown_bands(rooms.seam_bands_hz(highest_hz))
+    shown = shown_bands(rooms.crossover_bands_hz(highest_hz))
     transfers = (waves[:, shown], blended_gains(waves, free)[1][:, shown])
     gains_db = rooms.place_gains_db(*transfers)
     gain = rooms.gain_over_frequency(gains_db, MIDDLE_HZ[shown])

@@ -14,7 +14,7 @@ from ..base.vocabulary import stamped
 from ..levels.by_source import membership
 from ..levels.measured_points import BASELINE_BANDS, MIDDLE_HZ
 from .audibility import tonal_adjustment_db
-from .ingredients import DUST
+from .ingredients import ROUNDING_SHARE
 from .predicted_audibility import predicted_audibility
 from .prominence import judged_tones
 
@@ -63,7 +63,7 @@ class ToneSpectra(NamedTuple):
         measured = band_square(band_db)
         replaced = self._replace(square=square)
         noise = measured - replaced.in_bands()
-        noise = np.where(noise > DUST * measured, noise, 0.0)
+        noise = np.where(noise > ROUNDING_SHARE * measured, noise, 0.0)
         return ToneSpectra(
             self.frequency_hz, square, np.where(np.isnan(band_db), self.noise, noise)
         )

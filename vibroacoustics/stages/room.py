@@ -11,7 +11,7 @@ from ..levels.in_room import blended_gains, room_sound
 from ..levels.nominal import NominalSound
 from ..levels.room_levels import AirInRoom, room_variables
 from ..levels.room_map import map_bands_hz, map_level
-from ..levels.room_seam import seam_variables
+from ..levels.room_seam import crossover_variables
 from ..machine.cases import Cases
 from ..radiation.patterns import SurfaceMotion
 from ..radiation.rooms import of_study as rooms
@@ -89,7 +89,9 @@ def _sound_in_room(chain: Chain, settings: StudyRoom) -> xr.Dataset:
     statistics = sampled_room_level(air, results, study.catalogue_receiver)
     levels = room_variables(air, sound, results, statistics, per_power)
     levels = levels.merge(rooms.surface_variables(settings))
-    levels = levels.merge(seam_variables(listeners, both.shown, *both.both, both.gains_db))
+    levels = levels.merge(
+        crossover_variables(listeners, both.shown, *both.transfers, both.gains_db)
+    )
     return levels.merge(_map(study, settings, air, chain.progress))
 
 

@@ -61,7 +61,7 @@ class Stand:
         lateral = mounts.lateral_stiffness_n_per_m
         vertical, loss = mounts.vertical_stiffness_n_per_m, mounts.loss_factor_ratio
         if table is not None:
-            lateral, _, vertical = table.at(np.array(0.0)).real.tolist()
+            lateral, _, vertical = table.dynamic_stiffness(np.array(0.0)).real.tolist()
             loss = 0.0
         elif foot is not None:
             lateral = _or(foot.lateral_stiffness_n_per_m, lateral)
@@ -71,7 +71,7 @@ class Stand:
         floor = self.floor if with_floor else None
         over_frequency = None
         if table is not None or floor is not None:
-            mount = _constant(constant, loss) if table is None else table.at
+            mount = _constant(constant, loss) if table is None else table.dynamic_stiffness
             over_frequency = mount if floor is None else _in_series(mount, floor, name)
         return Bushing(
             f"foot_{name}".replace("foot_foot", "foot"), body, None, point, _matrix(constant),
@@ -112,11 +112,11 @@ def _matrix(stiffness: Array) -> Array:
 def _constant(stiffness: Array, loss: float) -> Callable[[Array], ComplexArray]:
     """Of frequencies to a stiffness that is the same at all of them, lossless at zero."""
 
-    def at(frequency_hz: Array) -> ComplexArray:
+    def stiffness_at(frequency_hz: Array) -> ComplexArray:
         moving = np.asarray(frequency_hz, dtype=float)[..., None] > 0.0
         return np.asarray(stiffness * (1.0 + 1j * loss * moving))
 
-    return at
+    return stiffness_at
 
 
 def _in_series(
@@ -124,8 +124,8 @@ def _in_series(
 ) -> Callable[[Array], ComplexArray]:
     """A mount on a floor that gives way: 1/(1/k + receptance of the floor)."""
 
-    def at(frequency_hz: Array) -> ComplexArray:
+    def stiffness_at(frequency_hz: Array) -> ComplexArray:
         stiffness = mount(frequency_hz)
         return np.asarray(stiffness / (1.0 + stiffness * floor.receptance(foot, frequency_hz)))
 
-    return at
+    return stiffness_at

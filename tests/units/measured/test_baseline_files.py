@@ -116,7 +116,7 @@ def test_orders_of_a_coarse_spectrum_do_not_count_twice(tmp_path, study, resolut
     point = measured_points(found, ["front_1m"], [RPM])["front_1m", RPM]
     for middle, truth in ((31.5, 2e-4 + 1e-4 / 512.0 * 7.3), (200.0, 1e-4 / 512.0 * 46.0)):
         band = [each.nominal_hz for each in BASELINE_BANDS].index(middle)
-        square = point.rest[point.band == band].item()
+        square = point.unmodelled[point.band == band].item()
         if middle < 100.0:
             square += 0.5 * abs(point.peak[1]) ** 2
         assert 10.0 * np.log10(square / truth) == pytest.approx(0.0, abs=0.2)

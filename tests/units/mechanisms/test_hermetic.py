@@ -316,7 +316,7 @@ def test_tangent_meets_differences(cycles, case):
     equations, solution = cycles[case]
     angle, state = solution.mesh[40:42], solution.states[40:42]
     _, tangent = equations.slopes_and_tangents(angle, state)
-    freedoms = equations.shaft.freedoms
+    freedoms = equations.shaft.dof_count
     steps = np.concatenate((np.full(freedoms, 1e-10), np.full(freedoms, 1e-6), [1e-2]))
     for column, step in enumerate(steps):
         move = step * np.eye(state.shape[-1])[column]

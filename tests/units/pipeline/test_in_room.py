@@ -21,10 +21,10 @@ from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.sections.in_room import (
     absorption,
+    crossover_sentence,
+    crossover_table,
     room_sentence,
     room_table,
-    seam_sentence,
-    seam_table,
     sones,
 )
 from vibroacoustics.results.size import result_bytes
@@ -173,7 +173,7 @@ def test_waves_end_where_the_power_takes_over():
     np.testing.assert_allclose(share(np.array([399.0, 631.0])), [1.0, 0.0])
     lower = rooms.wave_share(315.0)
     np.testing.assert_allclose(lower(np.array([199.0, 315.0])), [1.0, 0.0], atol=1e-12)
-    assert rooms.seam_bands_hz(315.0) == (125.0, 315.0)
+    assert rooms.crossover_bands_hz(315.0) == (125.0, 315.0)
 
 
 def test_plate_in_the_room(kitchen):
@@ -275,9 +275,9 @@ def test_report_says_how_loud_by_which_path_and_what_changes_it(kitchen):
     assert len(table.head) == len(table.rows[0]) == 8
     assert "missed by" in table.rows[0][-1]
     assert "differ by more than 2 dB, in the mean over 2 listeners, at 250 Hz (" in (
-        seam_sentence(kitchen)
+        crossover_sentence(kitchen)
     )
-    assert "mean, for the gain of the place" in {row[0] for row in seam_table(kitchen).rows}
+    assert "mean, for the gain of the place" in {row[0] for row in crossover_table(kitchen).rows}
     section = SECTIONS["in-room"]
     assert section.applies(kitchen)
     page = page_of(Part("s", section.title, tuple(section.blocks(kitchen))))

@@ -167,7 +167,7 @@ def _campbell(machine: HermeticTables, bending: Solved, speed_rpm: float) -> Cur
     """Frequencies on films linearised about the cycle's mean loads."""
     rotor = with_disc(rotor_matrices(machine), 0, machine.crank.mass_kg, 0.0, 0.0)
     loads = [float(np.linalg.norm(bearing.force_n, axis=-1).mean()) for bearing in bending.bearings]
-    journals = crankshaft(bending.equations.machine).bearing_freedoms
+    journals = crankshaft(bending.equations.machine).bearing_dofs
 
     def frequencies(spin: float) -> Array:
         films = {

@@ -139,8 +139,8 @@ def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Arr
 
 def _guess(machine: HermeticTables, shaft: Crankshaft) -> Array:
     """Journals a little out of the middle, at the synchronous speed."""
-    state = np.zeros(2 * shaft.freedoms + 1)
-    for dof in shaft.bearing_freedoms:
+    state = np.zeros(2 * shaft.dof_count + 1)
+    for dof in shaft.bearing_dofs:
         state[dof] = -START_ECCENTRICITY * machine.bearing.clearance_m
     state[-1] = machine.motor.synchronous_speed_rad_per_s
     return state
@@ -150,7 +150,7 @@ def _size(machine: HermeticTables, shaft: Crankshaft) -> Array:
     """Magnitude of each state: the clearance, the clearance per radian, the speed."""
     speed, clearance = machine.motor.synchronous_speed_rad_per_s, machine.bearing.clearance_m
     tilt = clearance / machine.shaft.bearing_distance_m
-    displacement = np.resize([clearance, clearance, tilt, tilt], shaft.freedoms)
+    displacement = np.resize([clearance, clearance, tilt, tilt], shaft.dof_count)
     return np.concatenate((displacement, speed * displacement, [speed]))
 
 
@@ -159,7 +159,7 @@ def _clearance_kept(machine: HermeticTables, shaft: Crankshaft) -> Callable[[Arr
     clearance = machine.bearing.clearance_m
 
     def fraction(stages: Array, step: Array) -> float:
-        film, move = _films_and_moves(stages, step, shaft.bearing_freedoms, clearance)
+        film, move = _films_and_moves(stages, step, shaft.bearing_dofs, clearance)
         return float(min(1.0, 0.8 * np.min(film / np.maximum(move, 1e-300), initial=np.inf)))
 
     return fraction

@@ -37,9 +37,7 @@ def bearing_cycles(equations: ShaftEquations, states: Array) -> tuple[BearingCyc
     displacement, velocity, speed = equations.split(states)
     bearing, forces = equations.machine.bearing, equations.film_forces(states)
     cycles = []
-    for dof, force in zip(
-        equations.shaft.bearing_freedoms, np.moveaxis(forces, -2, 0), strict=True
-    ):
+    for dof, force in zip(equations.shaft.bearing_dofs, np.moveaxis(forces, -2, 0), strict=True):
         orbit, moving = displacement[..., dof : dof + 2], velocity[..., dof : dof + 2]
         eccentricity, _, _ = film_coordinates(bearing, orbit, moving, speed)
         cycles.append(
@@ -86,7 +84,7 @@ def works_per_cycle_j(equations: ShaftEquations, solution: PeriodicSolution) -> 
     _, rates = equations.crank_coordinates(angle, states)
     films = np.moveaxis(equations.film_forces(states), -2, 0)
     film_power = np.zeros_like(speed)
-    for dof, force in zip(equations.shaft.bearing_freedoms, films, strict=True):
+    for dof, force in zip(equations.shaft.bearing_dofs, films, strict=True):
         film_power += np.sum(force * velocity[..., dof : dof + 2], axis=-1)
     weight = -machine.crank.mass_kg * STANDARD_GRAVITY_M_PER_S2
     powers = {

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...mechanics.beam_rotor import (
-    NODE_FREEDOMS,
+    NODE_DOFS,
     RotorMatrices,
     Section,
     assemble,
@@ -34,23 +34,23 @@ class Crankshaft:
     Attributes
     ----------
     matrices : of the rotor's n freedoms; the first are those of the crank
-    bearing_freedoms : index of x of each bearing; y follows it
+    bearing_dofs : index of x of each bearing; y follows it
     free : which of the crank's x, y, β, Γ, θ move, in this order; the others are held
     """
 
     matrices: RotorMatrices
-    bearing_freedoms: tuple[int, ...]
+    bearing_dofs: tuple[int, ...]
     free: tuple[int, ...]
 
     @property
-    def freedoms(self) -> int:
+    def dof_count(self) -> int:
         """Number of the rotor's freedoms, without the crank angle."""
         return int(self.matrices.mass.shape[0])
 
     @property
     def crank_places(self) -> Array:
         """Where the free crank coordinates stand among the freedoms and, last, θ."""
-        return np.array([*range(len(self.free) - 1), self.freedoms])
+        return np.array([*range(len(self.free) - 1), self.dof_count])
 
 
 def crankshaft(machine: HermeticTables) -> Crankshaft:
@@ -64,7 +64,7 @@ def crankshaft(machine: HermeticTables) -> Crankshaft:
 
 
 def _flexible(machine: HermeticTables) -> Crankshaft:
-    lower = NODE_FREEDOMS * ELEMENTS_TO_LOWER_BEARING
+    lower = NODE_DOFS * ELEMENTS_TO_LOWER_BEARING
     return Crankshaft(rotor_matrices(machine), (0, lower), (0, 1, 2, 3, 4))
 
 
@@ -107,7 +107,7 @@ class ShaftEquations:
 
     def split(self, states: Array) -> tuple[Array, Array, Array]:
         """Displacements, velocities and shaft speed of states (..., 2n + 1)."""
-        count = self.shaft.freedoms
+        count = self.shaft.dof_count
         return states[..., :count], states[..., count:-1], states[..., -1]
 
     def crank_coordinates(self, angle: Array, states: Array) -> tuple[Array, Array]:
@@ -129,14 +129,14 @@ class ShaftEquations:
         """Force of each bearing's film on its journal, N, shape (..., bearings, 2)."""
         displacement, velocity, speed = self.split(states)
         pairs = [(displacement[..., dof : dof + 2], velocity[..., dof : dof + 2])
-                 for dof in self.shaft.bearing_freedoms]  # fmt: skip
+                 for dof in self.shaft.bearing_dofs]  # fmt: skip
         forces = [self.film(self.machine.bearing, *pair, speed) for pair in pairs]
         return np.stack(forces, axis=-2) if forces else np.zeros((*speed.shape, 0, 2))
 
     def _balance(self, angle: Array, states: Array) -> tuple[Array, Array]:
         """Mass matrix and force of the freedoms and, last, the crank angle."""
         shaft, (displacement, velocity, speed) = self.shaft, self.split(states)
-        size = shaft.freedoms + 1
+        size = shaft.dof_count + 1
         mass, force = np.zeros((*speed.shape, size, size)), np.zeros((*speed.shape, size))
         mass[..., :-1, :-1] = shaft.matrices.mass
         mass[..., -1, -1] = self.axial_inertia_kg_m2
@@ -144,7 +144,7 @@ class ShaftEquations:
         force[..., :-1] -= speed[..., None] * (velocity @ shaft.matrices.gyroscopic.T)
         force[..., -1] = self.motor_torque(speed)
         for dof, film in zip(
-            shaft.bearing_freedoms, np.moveaxis(self.film_forces(states), -2, 0), strict=True
+            shaft.bearing_dofs, np.moveaxis(self.film_forces(states), -2, 0), strict=True
         ):
             force[..., dof : dof + 2] += film
         coordinates, rates = self.crank_coordinates(angle, states)
@@ -167,7 +167,7 @@ class ShaftEquations:
 
     def slopes_and_tangents(self, angle: Array, states: Array) -> tuple[Array, Array]:
         """d(states)/dθ and its derivatives by the states, shapes (points, m) and (points, m, m)."""
-        count, speed = self.shaft.freedoms, states[..., -1]
+        count, speed = self.shaft.dof_count, states[..., -1]
         mass, force = self._balance(angle, states)
         accelerations = np.asarray(np.linalg.solve(mass, force[..., None])[..., 0], dtype=float)
         residual = self._residual_tangent(angle, states, accelerations)
@@ -181,7 +181,7 @@ class ShaftEquations:
     def _residual_tangent(self, angle: Array, states: Array, accelerations: Array) -> Array:
         """Derivative of force - mass x (given accelerations) by the states."""
         shaft, (_, velocity, speed) = self.shaft, self.split(states)
-        count, matrices = shaft.freedoms, shaft.matrices
+        count, matrices = shaft.dof_count, shaft.matrices
         tangent = np.zeros((*speed.shape, count + 1, 2 * count + 1))
         tangent[..., :-1, :count] = -matrices.stiffness
         tangent[..., :-1, count:-1] = -speed[..., None, None] * matrices.gyroscopic
@@ -192,8 +192,8 @@ class ShaftEquations:
         return tangent
 
     def _add_film_tangent(self, states: Array, tangent: Array) -> None:
-        count, bearing = self.shaft.freedoms, self.machine.bearing
-        for dof in self.shaft.bearing_freedoms:
+        count, bearing = self.shaft.dof_count, self.machine.bearing
+        for dof in self.shaft.bearing_dofs:
             columns = [dof, dof + 1, count + dof, count + dof + 1, -1]
             local = states[..., columns].astype(complex)
             for index, column in enumerate(columns):
@@ -215,8 +215,8 @@ class ShaftEquations:
         second = np.zeros(coordinates.shape)
         second[..., free] = accelerations[..., crank_dofs]
         moves = [(coordinates, number, number) for number in range(len(free) - 1)]  # but not θ
-        moves += [(rates, number, shaft.freedoms + number) for number in range(len(free) - 1)]
-        moves += [(rates, len(free) - 1, 2 * shaft.freedoms)]
+        moves += [(rates, number, shaft.dof_count + number) for number in range(len(free) - 1)]
+        moves += [(rates, len(free) - 1, 2 * shaft.dof_count)]
         for perturbed, number, column in moves:
             perturbed[..., free[number]] += 1j * COMPLEX_STEP
             load = mechanism_motion(self.machine, coordinates, rates, second, gas).shaft_load

@@ -43,7 +43,7 @@ def minicrank_curves(machine: MiniCrankTables, speed_rpm: float) -> Iterator[Cur
     speed_rpm : mean over time
     """
     cycle = steady_minicrank_cycle(machine, speed_rpm, CRANK_ANGLES)
-    angle = angle_axis(cycle.moved.crank_angle)
+    angle = angle_axis(cycle.motion.crank_angle)
     speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
     yield from _loads(machine, cycle, speed, angle)
     ideal = _torque_n_m(machine, _ideal(machine), speed)
@@ -133,7 +133,7 @@ def _sum(torques: Mapping[str, Array]) -> Array:
 
 def _pins(cycle: MiniCrankCycle, angle: CurveAxis) -> Curve:
     """Figure 3: forces that rigid pins take."""
-    arguments = (cycle.links, cycle.moved, cycle.masses, cycle.load, cycle.rotation)
+    arguments = (cycle.links, cycle.motion, cycle.masses, cycle.load, cycle.rotation)
     forces = [np.hypot(*crank_pin_force(*arguments)), np.hypot(*minicrank_pin_force(*arguments))]
     return Curve(
         "pin_force", "Forces at rigid pins", np.array(forces),

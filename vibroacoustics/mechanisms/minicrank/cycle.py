@@ -114,7 +114,7 @@ class MiniCrankCycle:
     Attributes
     ----------
     links : lengths with their errors
-    moved : motion of scroll and mini-crank
+    motion : motion of scroll and mini-crank
     masses : with all mini-cranks as one
     load : on the scroll
     input_torque_n_m : at constant speed by source, equation (17)
@@ -122,7 +122,7 @@ class MiniCrankCycle:
     """
 
     links: Links
-    moved: FourBarMotion
+    motion: FourBarMotion
     masses: Masses
     load: ScrollLoad
     input_torque_n_m: Mapping[str, Array]

@@ -81,7 +81,7 @@ def _over_crank_angle(cycles: list[Cycle], designs: CurveAxis) -> Iterator[Curve
 
 def _inertia_torques_n_m(cycle: Cycle) -> tuple[Array, Array]:
     """Torque at the crankshaft that piston and connecting rod take up."""
-    kinematics = cycle.moved
+    kinematics = cycle.kinematics
     piston, rod_x, rod_y, turn = rates_of_momentum(cycle.crank, kinematics, cycle.rotation)
     rod = (
         rod_x * kinematics.rod_x_m[1]

@@ -52,7 +52,7 @@ class Forces(FileTable):
             )
         _spectra(self)  # refuses what was not read from a file
 
-    def at(self, speed_rpm: float) -> ComplexArray:
+    def orders_at(self, speed_rpm: float) -> ComplexArray:
         """Orders at a speed, shape (source, component, order), N and N m.
 
         Raises

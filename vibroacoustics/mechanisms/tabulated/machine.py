@@ -92,7 +92,7 @@ class TabulatedMachine(Machine):
     def doubts(self) -> Iterable[str]:
         """Forces at the table's highest speed, against masses and speed of the machine."""
         speed_rpm = max(self.forces.speed_rpm)
-        first = self.forces.at(speed_rpm).sum(axis=0)[:3, 1]
+        first = self.forces.orders_at(speed_rpm).sum(axis=0)[:3, 1]
         force = float(np.linalg.norm(first))
         speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
         if words := doubt_of_forces(self.scale.mass_kg, force, speed):
@@ -133,7 +133,7 @@ class TabulatedMachine(Machine):
         mass_kg, amplitude_m = sliding.mass_kg, sliding.amplitude_m
         if mass_kg is None or amplitude_m is None:
             speed_rpm, frame = max(self.forces.speed_rpm), self.crank_frame
-            first_n = self.forces.at(speed_rpm).sum(axis=0)[:3, 1]
+            first_n = self.forces.orders_at(speed_rpm).sum(axis=0)[:3, 1]
             along_n, across_n = np.dot(frame.stroke, first_n), np.dot(frame.across, first_n)
             moment = oscillating_mass_moment(along_n, across_n, speed_rpm)
             mass_kg, amplitude_m = moment / planes.radius_m, planes.radius_m
@@ -152,7 +152,7 @@ class TabulatedMachine(Machine):
         ParameterError
             The table does not reach the speed.
         """
-        values = over_revolution(self.forces.at(speed_rpm), samples)
+        values = over_revolution(self.forces.orders_at(speed_rpm), samples)
         wrenches = {
             source: Wrench(each[:3], each[3:])
             for source, each in zip(self.forces.sources, values, strict=True)

@@ -171,10 +171,10 @@ def addition(
     inner = box.weights * np.array([green.inner - exact.inner for green, exact in couples])
     outer = box.weights * np.array([green.outer - exact.outer for green, exact in couples])
 
-    def at(index: int) -> ComplexArray:
+    def pressure_added(index: int) -> ComplexArray:
         pressure = side.finer_pressures(float(table_hz[index]), points)
         added: ComplexArray = outer[:, index] @ pressure[:pairs]
         added -= inner[:, index] @ pressure[pairs:]
         return added
 
-    return at
+    return pressure_added

@@ -134,7 +134,7 @@ class RevolutionSide:
         delay_s, done, lock = self.delays_s(points), list[int](), Lock()
         expected = min(_SOLVED * first_solved(table_hz).size, table_hz.size)
 
-        def at(index: int) -> tuple[ComplexArray, Array]:
+        def pressures_at(index: int) -> tuple[ComplexArray, Array]:
             pressure, error = self.pressures(float(table_hz[index]), points)
             return (pressure if addition is None else pressure + addition(index)), error
 
@@ -142,7 +142,7 @@ class RevolutionSide:
             total = max(expected, len(done) + indices.size)
 
             def counted(index: int) -> tuple[ComplexArray, Array]:
-                result = at(index)
+                result = pressures_at(index)
                 with lock:
                     done.append(index)
                     progress(name, min(len(done), total - 1), total)

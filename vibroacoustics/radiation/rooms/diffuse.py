@@ -11,7 +11,7 @@ from ..arrays import Array
 from .cutting import cut, faces
 from .room import OCTAVES_HZ, WAVE_OCTAVES, Room
 
-SEAM_HZ: Final = (400.0, 630.0)
+CROSSOVER_HZ: Final = (400.0, 630.0)
 """Below, waves alone; above, the diffuse field alone."""
 _MOST_MEAN_ABSORPTION: Final = 0.99
 _NEAREST_M: Final = 0.05
@@ -119,7 +119,7 @@ def blend(frequency_hz: Array) -> Array:
     3 x² - 2 x³ over the logarithm of the frequency. With it, mean squares of the waves and of the
     diffuse field are added.
     """
-    low, high = np.log(SEAM_HZ)
+    low, high = np.log(CROSSOVER_HZ)
     with np.errstate(divide="ignore"):
         x = np.clip((np.log(frequency_hz) - low) / (high - low), 0.0, 1.0)
     return np.asarray(x**2 * (3.0 - 2.0 * x))

@@ -55,11 +55,11 @@ class MachineField:
             for step in (-1.0, 1.0)
         ]
 
-        def at(number: int) -> ComplexArray:
+        def pressures_at(number: int) -> ComplexArray:
             progress("machine on its floor", number, count)
             return side.finer_pressures(float(self._table_hz[number]), np.concatenate(layers))
 
-        pressure = np.array(in_threads([partial(at, number) for number in range(count)]))
+        pressure = np.array(in_threads([partial(pressures_at, number) for number in range(count)]))
         pressure /= self._trend(self._table_hz)[:, None, None]
         parts = np.split(
             pressure, np.cumsum([len(layer_points) for layer_points in layers])[:-1], axis=1

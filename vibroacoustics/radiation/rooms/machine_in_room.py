@@ -161,13 +161,15 @@ def _in_room(
     advance = together(progress, len(listeners))
     remaining: dict[str, float] = {}
 
-    def one(name: str, position: Array) -> tuple[ComplexArray, ComplexArray]:
+    def of_listener(name: str, position: Array) -> tuple[ComplexArray, ComplexArray]:
         record = runs.record(name, position, advance)
         remaining[name] = record.remaining_db
         green = record.on_grid(len(box.lattices), length, lines)[:, 0].mean(axis=-1)
         return field.join(record, length, lines, step_hz), green
 
-    values, green = zip(*in_threads([partial(one, *of) for of in listeners.items()]), strict=True)
+    values, green = zip(
+        *in_threads([partial(of_listener, *of) for of in listeners.items()]), strict=True
+    )
     ears = {"listener": list(listeners)}
     hertz = {"room_frequency": step_hz * np.arange(1.0, lines + 1.0)}
     coords = {**ears, "pattern": list(names), **hertz}
@@ -255,7 +257,7 @@ def _between_lines(values: ComplexArray, vectors: xr.Dataset) -> Callable[[Array
     below = turned[..., _MORE_LINES - 1 :: -1][..., -_MORE_LINES:].conj()
     around = np.concatenate([below, np.zeros((*values.shape[:-1], 1)), turned], axis=-1)
 
-    def at(frequency_hz: Array) -> ComplexArray:
+    def interpolated(frequency_hz: Array) -> ComplexArray:
         frequency_hz = np.asarray(frequency_hz, dtype=float)
         if frequency_hz.size and not (
             frequency_hz.min() >= 0.0 and frequency_hz.max() <= highest_hz * (1.0 + 1e-9)
@@ -273,4 +275,4 @@ def _between_lines(values: ComplexArray, vectors: xr.Dataset) -> Callable[[Array
         result *= np.exp(-2j * np.pi * frequency_hz * middle_s)
         return result
 
-    return at
+    return interpolated

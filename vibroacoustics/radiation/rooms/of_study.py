@@ -21,7 +21,7 @@ from ..interpolation import interpolant
 from ..patterns import SurfaceMotion
 from ..transfer_vectors import cache_key_material
 from .diffuse import (
-    SEAM_HZ,
+    CROSSOVER_HZ,
     DiffuseRoom,
     absorption_area_m2,
     blend,
@@ -186,12 +186,12 @@ def wave_share(highest_hz: float) -> Callable[[Array], Array]:
     From the waves to the power over the seam's frequencies; lower by a factor where the waves end
     below them.
     """
-    return lambda frequency_hz: np.asarray(1.0 - blend(frequency_hz / seam_shift(highest_hz)))
+    return lambda frequency_hz: np.asarray(1.0 - blend(frequency_hz / crossover_shift(highest_hz)))
 
 
-def seam_shift(highest_hz: float) -> float:
+def crossover_shift(highest_hz: float) -> float:
     """Factor on the seam's frequencies where waves end below it."""
-    return min(1.0, highest_hz / SEAM_HZ[1])
+    return min(1.0, highest_hz / CROSSOVER_HZ[1])
 
 
 def diffuse_per_power(
@@ -253,9 +253,9 @@ def plate_per_power(settings: StudyRoom, vectors: xr.Dataset) -> Callable[[Array
     return per_power
 
 
-def seam_bands_hz(highest_hz: float) -> tuple[float, float]:
+def crossover_bands_hz(highest_hz: float) -> tuple[float, float]:
     """Lowest and highest middle of the third octaves that are shown around the seam, Hz."""
-    return SHOWN_FROM_HZ * seam_shift(highest_hz), highest_hz
+    return SHOWN_FROM_HZ * crossover_shift(highest_hz), highest_hz
 
 
 def place_gains_db(waves: Array, diffuse: Array) -> Array:

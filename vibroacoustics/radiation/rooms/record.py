@@ -39,7 +39,7 @@ class Record:
     remaining_db: float
     """Level at which the run ended, of its largest pressure: what was cut off."""
 
-    def at(self, frequency_hz: Array) -> tuple[ComplexArray, ...]:
+    def greens_at(self, frequency_hz: Array) -> tuple[ComplexArray, ...]:
         """Green's functions of each lattice, (frequency, quantity, x, y, z)."""
         time = self.pulse.step_s * self.every * np.arange(len(self.samples))
         angle = 2.0 * np.pi * np.outer(frequency_hz, time)

@@ -140,11 +140,11 @@ def run_all(
     runs = Runs(boxes, faces, lattices, quantities, settings, longest_s)
     advance = together(progress, len(microphones))
 
-    def one(name: str, position: Array) -> RoomResponse:
+    def of_microphone(name: str, position: Array) -> RoomResponse:
         record = runs.record(name, position, advance)
-        return RoomResponse(record.at(frequency_hz), record.remaining_db)
+        return RoomResponse(record.greens_at(frequency_hz), record.remaining_db)
 
-    tasks = [partial(one, name, position) for name, position in microphones.items()]
+    tasks = [partial(of_microphone, name, position) for name, position in microphones.items()]
     return dict(zip(microphones, in_threads(tasks, workers), strict=True))
 
 

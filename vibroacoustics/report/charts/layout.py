@@ -24,7 +24,7 @@ COLOURS: Final = (
 """Okabe & Ito's palette without its yellow, and a violet."""
 DASHES: Final = ("-", "--", "-.", ":")
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
-NOTHING_TO_DRAW: Final = "Every value is too small to draw."
+NOTHING_TO_SHOW: Final = "Every value is too small to draw."
 _KEY: Final = 40.0
 """Width of what the legend draws before a name."""
 _GAP: Final = 14.0

@@ -8,9 +8,9 @@ from pydantic import Base64Bytes
 
 from ..file_names import file_name
 from .frame import Frame, frame_of
-from .layout import NOTHING_TO_DRAW, ROW, Box, Key, layout, lines, margins, styled
+from .layout import NOTHING_TO_SHOW, ROW, Box, Key, layout, lines, margins, styled
 from .marks import Chart, Image, Panel
-from .svg_marks import BLANK, colour_bar, draw_mark
+from .svg_marks import BLANK, colour_bar, mark_content
 from .svg_parts import INK, opening, rectangle, upright_words, words
 
 GRID: Final = "#dddddd"
@@ -35,11 +35,11 @@ def _panel(panel: Panel, box: Box, name: str, keys: dict[str, str]) -> list[str]
     frame = frame_of(panel, box)
     if frame is None:
         middle = (box.x + 0.5 * box.width, box.y + 0.5 * box.height)
-        return [*parts, words(*middle, NOTHING_TO_DRAW if panel.marks else "", "middle")]
+        return [*parts, words(*middle, NOTHING_TO_SHOW if panel.marks else "", "middle")]
     clip = f'<clipPath id="{name}"><path d="{rectangle(frame.box)}"/></clipPath>'
     marks = []
     for mark in styled(panel.marks):
-        shape, key = draw_mark(mark, frame)
+        shape, key = mark_content(mark, frame)
         marks.append(shape)
         if key and getattr(mark, "label", ""):
             keys.setdefault(mark.label, key)  # type: ignore[union-attr]
@@ -138,11 +138,13 @@ def picture_file(picture: Picture) -> str:
     return f"{file_name(picture.name)}.{picture.ending}"
 
 
-_DRAWN: Final[WeakKeyDictionary[Chart, Picture]] = WeakKeyDictionary()
+_PICTURES: Final[WeakKeyDictionary[Chart, Picture]] = WeakKeyDictionary()
 
 
 def picture(chart: Chart) -> Picture:
     """Return the picture of a chart, which is drawn once."""
-    if chart not in _DRAWN:
-        _DRAWN[chart] = Picture(chart.name, chart.alt, chart.caption, svg(chart), "svg", chart.wide)
-    return _DRAWN[chart]
+    if chart not in _PICTURES:
+        _PICTURES[chart] = Picture(
+            chart.name, chart.alt, chart.caption, svg(chart), "svg", chart.wide
+        )
+    return _PICTURES[chart]

@@ -56,11 +56,11 @@ def feet_m(machine: Mapping[str, Any]) -> Array:
     under = -machine["shell"]["centre_of_mass_height_m"]
     feet = machine.get("feet")
     if feet:
-        drawn_feet = [foot for _, foot in sorted(feet.items()) if foot is not None]
+        given_feet = [foot for _, foot in sorted(feet.items()) if foot is not None]
         heights = [
-            under if foot.get("height_m") is None else foot["height_m"] for foot in drawn_feet
+            under if foot.get("height_m") is None else foot["height_m"] for foot in given_feet
         ]
-        return np.array([(f["x_m"], f["y_m"], z) for f, z in zip(drawn_feet, heights, strict=True)])
+        return np.array([(f["x_m"], f["y_m"], z) for f, z in zip(given_feet, heights, strict=True)])
     if not machine.get("mounts"):
         return np.empty((0, 3))
     half = machine["mounts"]["pitch_m"] / 2.0

@@ -55,13 +55,13 @@ def _side(lines: Outline, feet: Array, acting: Loads) -> list[str]:
     floor = np.array([(0.0, lines.floor_z_m)])
     around = np.concatenate([lines.side, feet[:, [0, 2]], floor])
     view = fitted((0, 2), around, (110, 14), (140, 150))
-    level = view.at(floor)[0, 1]
+    level = view.in_drawing(floor)[0, 1]
     largest_foot = max(float(np.abs(acting.foot_force_n).max()), 1e-12)
     largest = max(acting.force_amplitude_n, 1e-12)
     foot_scale, scale = LONGEST_FOOT_FORCE / largest_foot, LONGEST_FORCE / largest
     ground = np.array([(20.0, level), (340.0, level)])
     parts = [
-        svg.path(view.at(lines.side), True, fill=FILL, stroke=svg.INK, stroke_width=1.2),
+        svg.path(view.in_drawing(lines.side), True, fill=FILL, stroke=svg.INK, stroke_width=1.2),
         svg.path(ground, stroke=svg.SOFT, stroke_dasharray="5 3"),
         *(_mount(view, foot, level) for foot in feet),
     ]
@@ -95,7 +95,7 @@ def _above(
     around = np.concatenate([lines.above, np.array(points).reshape(-1, 2)])
     view = fitted((0, 1), around, (40, 220), (280, 140))
     parts = [_wall(view, axis, coordinate) for axis, coordinate in walls]
-    parts.append(svg.path(view.at(lines.above), True, fill=FILL, stroke=svg.INK))
+    parts.append(svg.path(view.in_drawing(lines.above), True, fill=FILL, stroke=svg.INK))
     parts += [svg.disc(view.of(foot), 1.5, fill=svg.INK) for foot in feet]
     for number, point in enumerate(receivers.values(), 1):
         x, y = view.of(point)
@@ -111,7 +111,7 @@ def _above(
 
 
 def _wall(view: View, axis: int, at_m: float) -> str:
-    x, y = view.at(np.full(2, at_m))
+    x, y = view.in_drawing(np.full(2, at_m))
     ends = [(x, 214.0), (x, 374.0)] if axis == 0 else [(14.0, y), (346.0, y)]
     return svg.path(np.array(ends), stroke=svg.SOFT, stroke_width=3)
 
@@ -202,8 +202,10 @@ def _view(
     size = semi_major_axis(force.values, -1)
     scale = _LONGEST / max(float(size.max()), 1e-12)
     marks = [
-        svg.path(view.at(lines.side), True, fill="#f4f6f8", stroke=svg.INK, stroke_width=1.2),
-        *(svg.path(view.at(part), True, fill=_PART, stroke=svg.SOFT) for part in parts),
+        svg.path(
+            view.in_drawing(lines.side), True, fill="#f4f6f8", stroke=svg.INK, stroke_width=1.2
+        ),
+        *(svg.path(view.in_drawing(part), True, fill=_PART, stroke=svg.SOFT) for part in parts),
         svg.words((8.0, top + 10.0), title),
         axes_cross((16.0, top + 60.0), "x", "z"),
         bar((20.0, top + _VIEW - 14.0), scale, "N", 90.0, FORCE_COLOUR),

@@ -24,13 +24,13 @@ class View(NamedTuple):
     scale: float
     origin: Array
 
-    def at(self, points_m: Array) -> Array:
+    def in_drawing(self, points_m: Array) -> Array:
         """Points of the plane, shape (..., 2), in the drawing."""
         return np.asarray(self.origin + self.scale * points_m * [1.0, -1.0])
 
     def of(self, points_m: Array) -> Array:
         """Points in space, shape (..., 3), in the drawing."""
-        return self.at(points_m[..., list(self.axes)])
+        return self.in_drawing(points_m[..., list(self.axes)])
 
     def vector(self, peak: ComplexArray, from_m: Array, scale: float, colour: str) -> list[str]:
         """What a complex peak, shape (axis,), draws over a revolution, with arrows to its ends.

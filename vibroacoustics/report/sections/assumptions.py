@@ -126,7 +126,7 @@ def records_table(results: xr.Dataset) -> Table:
     return Table(f"Inputs {what}", head, tuple(rows), frozenset({0, 2, 4}))
 
 
-def remainder_sentence(results: xr.Dataset) -> str:
+def unmodelled_sentence(results: xr.Dataset) -> str:
     """How the part of the level that the model does not explain is fixed."""
     noise = overall_noise(results)
     if noise is None:
@@ -188,7 +188,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Bullets(tuple(not_modelled(results))),
         *([Text(structure_borne_sentence(results))] if overall_noise(results) else []),
         Heading("Unmodelled noise"),
-        Text(remainder_sentence(results)),
+        Text(unmodelled_sentence(results)),
         *([Heading("Model discrepancy")] if discrepancy else []),
         *discrepancy,
         Heading("Inputs"),

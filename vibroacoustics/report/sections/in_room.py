@@ -12,14 +12,14 @@ from ...results.bands import band
 from ...results.estimates import estimate
 from ...results.stored_study import balancers, nearest_speed, options, overall_noise
 from ..blocks import Block, Details, Pictures, Text
-from ..figures.in_room import room_map, room_seam
+from ..figures.in_room import room_crossover, room_map
 from ..tables import DataTable, Table, long_table
 from . import Section, hold
 from .structure_borne import carrier, ranged
 from .tones import NO_LOUDNESS
 
 SONE_HEAD: Final = "Loudness, sone (diffuse field)"
-SEAM_DB: Final = 2.0
+CROSSOVER_DB: Final = 2.0
 """Difference of the two methods that is told."""
 _HOW: Final = (
     "Loudness by ISO 532-1 (Zwicker, diffuse field) is that of airborne and structure-borne sound "
@@ -36,9 +36,9 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(room_sentence(results), "strong"),
         room_table(results, loudest),
         Text(power_sentence(results)),
-        Text(seam_sentence(results)),
-        Pictures((room_map(results), room_seam(results, loudest))),
-        Details("Both methods at every listener", (seam_table(results),)),
+        Text(crossover_sentence(results)),
+        Pictures((room_map(results), room_crossover(results, loudest))),
+        Details("Both methods at every listener", (crossover_table(results),)),
         *(Details("Absorption of walls and furniture", (table,)) for table in absorption(results)),
         Text(
             "Below the crossover frequency sound is a wave field, above it direct sound and the "
@@ -124,7 +124,7 @@ def room_table(results: xr.Dataset, listener: str) -> Table:
     return Table(caption, tuple(head), tuple(rows), words)
 
 
-def seam_table(results: xr.Dataset) -> Table:
+def crossover_table(results: xr.Dataset) -> Table:
     """Waves less diffuse field of the power in the open at every listener, in third octaves."""
     difference = results["room_gain_difference"].transpose("listener", "seam_band").values
     named = dict(zip(listeners(results), difference, strict=True))
@@ -134,7 +134,7 @@ def seam_table(results: xr.Dataset) -> Table:
     return Table("Waves less diffuse field of the power in the open, dB", head, rows)
 
 
-def seam_sentence(results: xr.Dataset) -> str:
+def crossover_sentence(results: xr.Dataset) -> str:
     """Where the two methods differ by more than is to be passed over, and what follows of it."""
     gain = results["room_place_gain"]
     alone = (results["room_gain_difference"] - gain).transpose("listener", "seam_band")
@@ -147,7 +147,7 @@ def seam_sentence(results: xr.Dataset) -> str:
     none = "no third octave"
     return (
         "Waves and the diffuse field of the power in the open differ by more than "
-        f"{SEAM_DB:g} dB, in the mean over {len(listeners(results))} listeners, at "
+        f"{CROSSOVER_DB:g} dB, in the mean over {len(listeners(results))} listeners, at "
         f"{', '.join(_large_differences(gain)) or none}. The mean is taken for what the place does "
         f"to the machine's power and given to the diffuse field; above the waves {above} dB, "
         "where single third octaves may be 5 dB off (assumed). "
@@ -158,7 +158,7 @@ def seam_sentence(results: xr.Dataset) -> str:
 def _large_differences(gain: xr.DataArray) -> list[str]:
     """Third octaves where a difference over them, dB, counts."""
     pairs = zip(gain["seam_band"].values.tolist(), gain.values.tolist(), strict=True)
-    return [f"{hz:g} Hz ({rounding.signed(db)} dB)" for hz, db in pairs if abs(db) > SEAM_DB]
+    return [f"{hz:g} Hz ({rounding.signed(db)} dB)" for hz, db in pairs if abs(db) > CROSSOVER_DB]
 
 
 def absorption(results: xr.Dataset) -> list[Table]:

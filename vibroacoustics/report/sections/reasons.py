@@ -22,7 +22,7 @@ from ..blocks import Block, Text
 from ..columns import column
 from ..option_verdict import OptionVerdict, option_verdicts
 from ..quantities import FOOT_FORCE, FORCE, MOMENT
-from ..remainder import growth_sentence, measured_rpm, remainder_band
+from ..remainder import growth_sentence, measured_rpm, unmodelled_level
 from ..shown_speeds import many_speeds
 from ..tables import Table
 from . import Section
@@ -37,7 +37,7 @@ def reasons(results: xr.Dataset) -> list[str]:
     """Return forces and level without an option, and what limits the effect of the options."""
     texts = [_as_it_is(results)]
     if not has_sources(results):
-        texts += [_remainder(results), not_sampled_sentence(results)]
+        texts += [_unmodelled(results), not_sampled_sentence(results)]
     return [*filter(None, texts)]
 
 
@@ -96,7 +96,7 @@ def _shaken_over_the_speeds(results: xr.Dataset, reference: xr.Dataset) -> str:
     )
 
 
-def _remainder(results: xr.Dataset) -> str:
+def _unmodelled(results: xr.Dataset) -> str:
     """Why the total hardly follows the line; that there is none where nothing is published."""
     if overall_noise(results) is None and measured_rpm(results) is None:
         return growth_sentence(results)
@@ -118,7 +118,7 @@ def _remainder(results: xr.Dataset) -> str:
         "option, above the level of the machine"
     )
     if speed is not None:
-        unmodelled = remainder_band(results, speed).middle_text(rounding.fixed)
+        unmodelled = unmodelled_level(results, speed).middle_text(rounding.fixed)
         assumed = not_measured(results) > _HALF
         how = "most of it assumed in bands that were not measured" if assumed else "as measured"
         what, growth = f"The rest, {how}, {unmodelled}", ""

@@ -70,7 +70,7 @@ def _residual(path: ShellPath, wall: ProjectedModes, contacts: Contacts, driven:
     stiffness = np.array(
         [mode.modal_mass_kg * (2.0 * np.pi * mode.frequency_hz) ** 2 for mode in modes]
     )
-    residual = wall.flexibility.at(contacts.joints) - driven[rows].T @ (
+    residual = wall.flexibility.at_joints(contacts.joints) - driven[rows].T @ (
         driven[rows] / stiffness[:, None]
     )
     return np.asarray(residual * local_flexibility_factor(shell.structure, path.structure))

@@ -14,7 +14,7 @@ from ...machine.shell_structure import ShellStructure
 from .elements import (
     AXIAL,
     CIRCUMFERENTIAL,
-    NODE_FREEDOMS,
+    NODE_DOFS,
     RADIAL,
     ROTATION,
     freedom_count,
@@ -40,7 +40,7 @@ class Harmonic:
         """
         held = [tip + freedom for tip in self._tips for freedom in _ON_AXIS.get(self.order, _ALL)]
         if self.order >= 2:
-            rings = [NODE_FREEDOMS * node for node in self.meridian.round_nodes]
+            rings = [NODE_DOFS * node for node in self.meridian.round_nodes]
             held += [ring + freedom for ring in rings for freedom in (RADIAL, CIRCUMFERENTIAL)]
         return np.setdiff1d(np.arange(freedom_count(self.meridian)), held)
 
@@ -57,7 +57,7 @@ class Harmonic:
     def _tips(self) -> list[int]:
         """First freedoms of the nodes on the axis."""
         ends = (0, self.meridian.elements)
-        return [NODE_FREEDOMS * end for end in ends if self.meridian.nodes[end, 0] == 0.0]
+        return [NODE_DOFS * end for end in ends if self.meridian.nodes[end, 0] == 0.0]
 
     @cached_property
     def free_matrices(self) -> tuple[Any, Any]:
@@ -75,16 +75,16 @@ class Harmonic:
         mounts has them; the elastic modes are orthogonal to them.
         """
         motions = np.zeros((freedom_count(self.meridian), 2 if self.order < 2 else 0))
-        nodes = motions[: NODE_FREEDOMS * (self.meridian.elements + 1)]
+        nodes = motions[: NODE_DOFS * (self.meridian.elements + 1)]
         radius, height = self.meridian.nodes.T
         if self.order == 0:
-            nodes[AXIAL::NODE_FREEDOMS, 0] = 1.0
-            nodes[CIRCUMFERENTIAL::NODE_FREEDOMS, 1] = radius
+            nodes[AXIAL::NODE_DOFS, 0] = 1.0
+            nodes[CIRCUMFERENTIAL::NODE_DOFS, 1] = radius
         elif self.order == 1:
-            nodes[RADIAL::NODE_FREEDOMS] = np.stack([np.ones_like(height), height], axis=1)
-            nodes[CIRCUMFERENTIAL::NODE_FREEDOMS] = -nodes[RADIAL::NODE_FREEDOMS]
-            nodes[AXIAL::NODE_FREEDOMS, 1] = -radius
-            nodes[ROTATION::NODE_FREEDOMS, 1] = -1.0
+            nodes[RADIAL::NODE_DOFS] = np.stack([np.ones_like(height), height], axis=1)
+            nodes[CIRCUMFERENTIAL::NODE_DOFS] = -nodes[RADIAL::NODE_DOFS]
+            nodes[AXIAL::NODE_DOFS, 1] = -radius
+            nodes[ROTATION::NODE_DOFS, 1] = -1.0
         free = motions[self.kept]
         gram = free.T @ self.free_matrices[1] @ free
         return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), free.T).T)

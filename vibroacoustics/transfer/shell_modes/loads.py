@@ -10,7 +10,7 @@ import numpy as np
 from ...base.arrays import Array, IndexArray
 from ...base.errors import ParameterError
 from ...machine.shell_structure import Joint
-from .elements import displacement_shapes, element_freedoms, freedom_count
+from .elements import displacement_shapes, element_dofs, freedom_count
 from .meridian import Meridian
 from .modes import Around
 
@@ -127,7 +127,7 @@ def mean_over_band(meridian: Meridian, joint: Joint) -> Array:
 def interpolation(meridian: Meridian, points: Array) -> tuple[IndexArray, Array]:
     """Freedoms (point, 12) that move places (point, 2), and by how much, (point, 3, 12)."""
     element, along = meridian.locate(points)
-    return element_freedoms(meridian)[element], displacement_shapes(meridian, element, along)
+    return element_dofs(meridian)[element], displacement_shapes(meridian, element, along)
 
 
 def _mean_points(middle: float, width: float, count: int) -> tuple[Array, Array]:

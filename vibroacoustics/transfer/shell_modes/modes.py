@@ -12,10 +12,10 @@ from ...machine.shell import Shell
 from ...machine.shell_structure import ShellStructure
 from .elements import (
     CIRCUMFERENTIAL,
-    NODE_FREEDOMS,
+    NODE_DOFS,
     ROTATION,
     displacement_shapes,
-    element_freedoms,
+    element_dofs,
 )
 from .harmonic import Harmonic
 from .meridian import Meridian, closed_meridian
@@ -94,7 +94,7 @@ class ShellMode:
         count = self.meridian.elements
         element, coordinate = np.repeat(np.arange(count), 4), np.tile(_FOUR_PLACES, count)
         weights = displacement_shapes(self.meridian, element, coordinate)
-        amplitudes = self.shape[element_freedoms(self.meridian)[element]]
+        amplitudes = self.shape[element_dofs(self.meridian)[element]]
         values = np.einsum("pia,pa->pi", weights, amplitudes).reshape(count, 4, 3)
         to_powers = np.linalg.inv(np.vander(_FOUR_PLACES, increasing=True))
         return np.asarray(np.einsum("kj,eji->eik", to_powers, values))
@@ -187,7 +187,7 @@ class ElasticShell:
 def _largest_displacement(meridian: Meridian, shapes: Array) -> Array:
     """Largest displacement over the nodes, with the sign of its largest part, shape (mode,)."""
     count, modes = meridian.elements + 1, shapes.shape[1]
-    nodes = shapes[: NODE_FREEDOMS * count].reshape(count, NODE_FREEDOMS, modes)[:, :ROTATION]
+    nodes = shapes[: NODE_DOFS * count].reshape(count, NODE_DOFS, modes)[:, :ROTATION]
     in_plane = np.linalg.norm(nodes[:, :CIRCUMFERENTIAL], axis=1)
     size = np.maximum(in_plane, np.abs(nodes[:, CIRCUMFERENTIAL])).max(axis=0)
     parts = nodes.reshape(ROTATION * count, modes)

@@ -23,7 +23,7 @@ from ...blocks import Block, Bullets, Heading, Pictures, Text
 from ...charts.marks import Chart
 from ...figures.sources import changing_options, option_third_octaves, source_third_octaves
 from ...figures.stacked import stacked_lines, stacked_third_octaves
-from ...remainder import remainder_band
+from ...remainder import unmodelled_level
 from ...tables import DataTable, Table, data_table
 from .. import Section, text
 from .words import certainty_sentences, ranked, source_share, unmodelled_share
@@ -61,7 +61,7 @@ def source_table(results: xr.Dataset) -> Table:
     modelled = band(results, "level_modelled", **coordinates).middle_and_ends(rounding.level)
     rows.append(("All modelled sources", modelled, rounding.NOTHING))
     if overall_noise(results) is not None:
-        unmodelled = remainder_band(results, speed).middle_and_ends(rounding.level)
+        unmodelled = unmodelled_level(results, speed).middle_and_ends(rounding.level)
         share = unmodelled_share(results, speed).in_percent()
         total = band(results, "level_total", **coordinates).middle_and_ends(rounding.level)
         rows += [("Unmodelled noise", unmodelled, share), ("Machine", total, "100 %")]
