@@ -45,8 +45,8 @@ class TwinRing(Parameters):
         Parameters
         ----------
         machine : with a ring
-        revolution : of it
-        moment_n_m : of a spring on the driven piece
+        revolution : revolution of the machine
+        moment_n_m : moment of a spring on the driven piece
         on_ring : force of a spring on the twin
 
         Raises

@@ -26,7 +26,7 @@ def scored(folder: Path, submission: Path) -> Scored:
 
     Parameters
     ----------
-    folder : of the benchmark, with `score.py` and `cases`
+    folder : folder of the benchmark, with `score.py` and `cases`
     submission : CSV file with the columns case, key, unit and value
 
     Raises

@@ -48,8 +48,8 @@ def listen(
 
     Parameters
     ----------
-    results : of a run
-    folder : of the files; it is made where it is missing
+    results : results of a run
+    folder : folder of the files; it is made where it is missing
     options, microphones, speeds : all options, the first microphone and the first speed where
         nothing is given; rpm. Listeners in a room are asked for as microphones
     duration_s : 1 to 600 s; rounded to whole revolutions
@@ -132,7 +132,7 @@ def impulse_analysis(
 
     Parameters
     ----------
-    responses : of `impulse_responses`
+    responses : responses of `impulse_responses`
     listeners : names; all where nothing is given
     full_scale : value at full scale; none for the next of 1, 2, 5, 10, … of all listeners
 

@@ -74,7 +74,7 @@ def absorption_of(
     ----------
     area : number, m², or CSV file with `band_hz` and `absorption_area_m2`
     reverberation : number, s, or CSV file with `band_hz` and `reverberation_time_s`
-    volume_m3 : of the room, with the reverberation time
+    volume_m3 : volume of the room, with the reverberation time
 
     Raises
     ------

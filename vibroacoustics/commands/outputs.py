@@ -187,7 +187,7 @@ def write_data_sheet(sheet: "DataSheet", folder: str | Path) -> Path:
 
     Parameters
     ----------
-    sheet : of `data_sheet`
+    sheet : result of `data_sheet`
     folder : made where it is missing
 
     Returns

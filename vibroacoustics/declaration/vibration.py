@@ -26,7 +26,7 @@ def point_velocity(velocity: ComplexArray, offset_m: Array) -> ComplexArray:
     Parameters
     ----------
     velocity : (dof, order), complex peaks at the centre of mass, m/s and rad/s
-    offset_m : of the point from the centre of mass, (3,)
+    offset_m : offset of the point from the centre of mass, (3,)
     """
     turned = np.cross(velocity[3:], offset_m[:, None], axis=0)
     return np.asarray(velocity[:3] + turned)
@@ -85,7 +85,7 @@ def offsets_m(
 
     Parameters
     ----------
-    results : of a run
+    results : results of a run
     points_m : x, y and height above the floor, as microphones are given
     """
     shell = parameters(results)["machine"]["shell"]

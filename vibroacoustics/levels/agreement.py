@@ -136,7 +136,7 @@ def log_weights(modelled: Array, unmodelled: Array, data: Sequence[Datum], prior
     Parameters
     ----------
     modelled, unmodelled, data : see `log_likelihood`
-    prior : of the level of unmodelled noise
+    prior : prior of the level of unmodelled noise
     """
     return prior.log_density + log_likelihood(modelled, unmodelled, data)
 
@@ -181,7 +181,7 @@ def log_weight_of_points(over_db: Array, deviation_db: float, prior: Prior) -> A
     ----------
     over_db : modelled relative to each measured level, shape (point, sample)
     deviation_db : standard deviation of these levels
-    prior : of the level of unmodelled noise, relative to each measured one
+    prior : prior of the level of unmodelled noise, relative to each measured one
     """
     power = power_of_level(over_db)[..., None] + power_of_level(LEVELS_DB)
     log_likelihood = -0.5 * (level_of_power(power) / deviation_db) ** 2

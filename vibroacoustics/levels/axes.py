@@ -21,7 +21,7 @@ class LevelAxes:
     ----------
     speeds, options, sources, receivers : in the order of the arrays
     bands : third octaves
-    measured_orders : of the baseline at any microphone
+    measured_orders : orders that the baseline has at any microphone
     spreading : mean square of unmodelled noise relative to that at the published microphone, by
         microphone, shape (band of `UNMODELLED_BANDS`,); 1 where a microphone has none
     """

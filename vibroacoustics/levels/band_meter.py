@@ -23,8 +23,8 @@ class BandMeter:
 
     Parameters
     ----------
-    samples : of the channel, all in all
-    sample_rate_hz : of the channel
+    samples : number of all samples of the channel
+    sample_rate_hz : sample rate of the channel
     bands : below half the sample rate
     offset : mean of all samples of the channel, which is no sound
     """

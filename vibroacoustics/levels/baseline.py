@@ -37,10 +37,11 @@ class Changed:
 
     Attributes
     ----------
-    unmodelled : what the model leaves of the measured bands, without orders, shape (option, band)
+    unmodelled : part of the measured bands that the model leaves, without orders, shape (option,
+        band)
     beside : modelled in these bands, without the measured orders, shape (option, band)
     order : measured orders, changed, shape (option, order)
-    modelled_order : of the model alone, shape (option, order)
+    modelled_order : pressure of the modelled orders alone, shape (option, order)
     """
 
     unmodelled: Array
@@ -73,9 +74,9 @@ def with_baseline(
     Parameters
     ----------
     study : its options
-    axes : of the levels
-    points : of `points_of`
-    sound : of every case
+    axes : axes of the levels
+    points : result of `points_of`
+    sound : sound of every case
     remaining : unmodelled noise in `UNMODELLED_BANDS`, shape (speed, option, receiver, band), Pa²
     """
     unmodelled: Array = remaining.sum(axis=3)

@@ -99,9 +99,9 @@ def filtered_energy(
 
     Parameters
     ----------
-    energy : of lines, shape (..., line), any unit
-    frequency_hz : of the lines, shape (line,)
-    sample_rate_hz : of the signal
+    energy : energy of lines, shape (..., line), any unit
+    frequency_hz : frequency of the lines, shape (line,)
+    sample_rate_hz : sample rate of the signal
     bands : below half the sample rate
     """
     passed = np.empty((*energy.shape[:-1], len(bands)))
@@ -118,7 +118,7 @@ def band_signal(signal: Array, sample_rate_hz: float, band: Band) -> Array:
     Parameters
     ----------
     signal : shape (..., time), any unit
-    sample_rate_hz : of the signal
+    sample_rate_hz : sample rate of the signal
     band : below half the sample rate
 
     Returns

@@ -30,8 +30,9 @@ class RoomWays:
     ----------
     listeners : how many; their pressure by waves comes first among what is received, then that of
         the positions on a hemisphere
-    radius_m : of the hemisphere
-    wave_share : of frequencies, shape (frequency,): 1 where waves count, 0 where the power does
+    radius_m : radius of the hemisphere
+    wave_share : function of frequencies, shape (frequency,): 1 where waves count, 0 where the power
+        does
     per_power : mean square of pressure per power by direct sound and diffuse field, of
         frequencies, shape (listener, frequency), Pa²/W
     """
@@ -72,10 +73,10 @@ class RoomSound:
     ----------
     alone : A-weighted, of each source alone, shape (source, listener), Pa²
     total : A-weighted, of all together, shape (listener,), Pa²
-    band : of all together, unweighted, in `BASELINE_BANDS`, shape (listener, band), Pa²
-    power_band : of all together, unweighted, shape (band,), W
-    pressure : of all together at the lines, complex peaks, shape (listener, line), Pa
-    noise_band : of all together without lines, unweighted, shape (listener, band), Pa²
+    band : mean square of all sources, unweighted, in `BASELINE_BANDS`, shape (listener, band), Pa²
+    power_band : power of all sources, unweighted, shape (band,), W
+    pressure : pressure of all sources at the lines, complex peaks, shape (listener, line), Pa
+    noise_band : mean square of all noise without lines, unweighted, shape (listener, band), Pa²
     line : names of the lines
     """
 
@@ -153,9 +154,10 @@ def wave_gains(
 
     Parameters
     ----------
-    pressure_per_velocity : of frequencies, at listeners and positions, (place, motion, frequency)
+    pressure_per_velocity : function of frequencies to the response at listeners and positions,
+        (place, motion, frequency)
     ways : to the listeners
-    highest_hz : of the waves
+    highest_hz : highest frequency of the waves
     """
     gains = np.zeros((ways.listeners, len(BASELINE_BANDS)))
     for number, band in enumerate(BASELINE_BANDS):
@@ -182,7 +184,7 @@ def blended_gains(waves: Array, ways: RoomWays) -> tuple[Array, Array]:
 
     Parameters
     ----------
-    waves : of `wave_gains`
+    waves : result of `wave_gains`
     ways : to the listeners
 
     Returns

@@ -37,8 +37,8 @@ class MeterPlan:
 
     Attributes
     ----------
-    samples : of the recording
-    sample_rate_hz : of the recording
+    samples : number of samples of the recording
+    sample_rate_hz : sample rate of the recording
     """
 
     samples: int
@@ -139,7 +139,7 @@ class LevelMeter:
 
     Parameters
     ----------
-    plan : of the recording
+    plan : plan of the recording
     offset : mean of all samples of the channel, which is no sound
     """
 

@@ -32,8 +32,8 @@ def with_order_levels(lines: xr.Dataset, order_level: xr.DataArray) -> xr.Datase
 
     Parameters
     ----------
-    lines : of `line_pressure`
-    order_level : of the orders, with weightings, dB
+    lines : result of `line_pressure`
+    order_level : level of the orders, with weightings, dB
     """
     pressure = lines["pressure_line"]
     orders = order_level.sizes["order"]

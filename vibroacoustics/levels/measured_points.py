@@ -64,8 +64,8 @@ def measured_points(
 
     Parameters
     ----------
-    baseline : of the study
-    receivers, speeds : of the study, rpm
+    baseline : baseline of the study
+    receivers, speeds : receivers and speeds of the study, rpm
     """
     return {
         (name, speed): _point(baseline, name, speed)

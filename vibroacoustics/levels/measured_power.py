@@ -32,7 +32,7 @@ def reverberant_absorption_area_m2(volume_m3: float, reverberation_time_s: Array
 
     Parameters
     ----------
-    volume_m3 : of the test room
+    volume_m3 : volume of the test room
     reverberation_time_s : by band, of any shape
     """
     return np.asarray(SABINE_S_PER_M * volume_m3 / reverberation_time_s)
@@ -117,9 +117,10 @@ def measured_power(
     Parameters
     ----------
     levels_db : shape (position, band), re 20 µPa; not a number in bands that were not measured
-    background_db : the same without the machine; none where it was not recorded
+    background_db : level of the background without the machine; none where it was not recorded
     surface_m2 : area of the measurement surface
-    absorption_area_m2 : of the room, shape (band,); none for a free field over the floor
+    absorption_area_m2 : absorption area of the room, shape (band,); none for a free field over the
+        floor
     """
     mean = energy_mean(levels_db)
     margin, background = np.full_like(mean, np.nan), np.zeros_like(mean)

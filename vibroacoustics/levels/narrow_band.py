@@ -49,11 +49,11 @@ def taken_apart(
     Parameters
     ----------
     frequency_hz : even and rising, shape (line,)
-    mean_square : of a tone on the line, shape (line,)
+    mean_square : mean square of a tone on the line, shape (line,)
     lobe_lines : half the window's main lobe
-    noise_bandwidth_lines : of the window
+    noise_bandwidth_lines : noise bandwidth of the window, lines
     tone_hz : rising, shape (order,)
-    bands : of the result
+    bands : bands of the result
     """
     step = float(frequency_hz[1] - frequency_hz[0])
     noise = np.array(mean_square, dtype=float)

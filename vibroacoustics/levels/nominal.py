@@ -32,8 +32,8 @@ class NominalSound:
     Attributes
     ----------
     study : with its options and published level
-    axes : of the levels
-    points : of a measured baseline
+    axes : axes of the levels
+    points : points of a measured baseline
     sound : mean squares by source of every case, that of the published level among them
     """
 
@@ -93,7 +93,7 @@ class NominalSound:
 
         Parameters
         ----------
-        levels : of `levels`
+        levels : result of `levels`
         forces : amplitudes by order, with the frequencies of the orders
         """
         return change_variables(self.study.scoring.measurable, levels, forces)

@@ -31,10 +31,10 @@ class PressureLevels:
     Parameters
     ----------
     channel : names of the channels, with the coordinate `channel_unit`
-    samples : of the recording, a channel
+    samples : number of samples of the recording, a channel
     rate_hz : sample rate
     offsets : means of all samples, by position of the channels of sound pressure
-    method : of the third octaves, see `band_levels`
+    method : method of the third octaves, see `band_levels`
     """
 
     def __init__(
@@ -82,7 +82,7 @@ class PressureLevels:
         Parameters
         ----------
         middle_s : centre of each block, shape (block,), s
-        duration_s : of the blocks, shape (block,), s
+        duration_s : duration of the blocks, shape (block,), s
         """
         if not self._meters:
             return xr.Dataset()

@@ -33,7 +33,8 @@ def unmodelled_square(
     ----------
     study : with the published level
     axes : with its receiver
-    sound : of the case without a balancer at its speed and operating point, and of other cases
+    sound : sound of the case without a balancer at its speed and operating point, and of other
+        cases
     may_be_none : whether none is left where the model alone is louder, as in a sample
 
     Raises

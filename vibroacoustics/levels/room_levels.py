@@ -27,12 +27,12 @@ class AirInRoom:
 
     Attributes
     ----------
-    modelled : of all sources, A-weighted, shape (speed, option, listener), Pa²
-    unmodelled : of what no source explains, A-weighted, the same shape, Pa²
-    alone : of each source, A-weighted, shape (speed, option, listener, source), Pa²
-    band : of all of it, shape (speed, option, listener, band), Pa²
-    power_band : of the machine, shape (speed, option, band), W
-    noise_band : of what is no line, shape (speed, option, listener, band), Pa²
+    modelled : mean square of all sources, A-weighted, shape (speed, option, listener), Pa²
+    unmodelled : mean square of unmodelled noise, A-weighted, the same shape, Pa²
+    alone : mean square of each source, A-weighted, shape (speed, option, listener, source), Pa²
+    band : mean square of all of it, shape (speed, option, listener, band), Pa²
+    power_band : power of the machine, shape (speed, option, band), W
+    noise_band : mean square of all that is no line, shape (speed, option, listener, band), Pa²
     coords : along these axes, by name
     """
 
@@ -59,7 +59,7 @@ class AirInRoom:
         ----------
         nominal : sound at the microphones
         listeners : names
-        sound : of every case
+        sound : sound of every case
         results : levels at the microphones
         gains : mean square per power, shape (listener, band), Pa²/W
         """
@@ -101,7 +101,7 @@ def room_variables(
     Parameters
     ----------
     air : mean squares by air
-    sound : of every case
+    sound : sound of every case
     results : nominal levels at the microphones, those of samples, and of the plate
     statistics : `room_level` of the samples; empty without samples
     plate_per_power : see `plate_variables`

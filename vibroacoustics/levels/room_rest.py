@@ -21,7 +21,7 @@ def rest_in_bands(results: xr.Dataset, receiver: str) -> Array:
 
     Parameters
     ----------
-    results : of the levels
+    results : variables of the levels
     receiver : at which the machine's noise is published
     """
     unmodelled = results["unmodelled_band_level"].sel(receiver=receiver)

@@ -29,7 +29,7 @@ def crossover_variables(
     listeners : their names
     shown : numbers of the bands
     waves : mean square per power, shape (listener, shown band), Pa²/W
-    diffuse : the same by direct sound and diffuse field of the power in the open
+    diffuse : gain by direct sound and diffuse field, relative to the power in the open
     gains_db : which the diffuse field takes over, of the bands and of all above; no part of the
         curves, whose mean difference over the listeners they are
     """

@@ -28,10 +28,10 @@ def unmodelled_over_speed(
 
     Parameters
     ----------
-    band_level : of the noise at one speed, (receiver, noise_band), dB
-    growth : of the noise with speed
-    speed_rpm : of that level
-    speeds_rpm : of the run-up
+    band_level : level of the noise at one speed, (receiver, noise_band), dB
+    growth : growth of the noise with speed
+    speed_rpm : speed of `band_level`
+    speeds_rpm : speeds of the run-up
     """
     factor = growth.speed_factor(np.array(speeds_rpm), speed_rpm)
     square = unmodelled_energy(band_level.transpose("receiver", "noise_band")).sum(axis=1)
@@ -45,7 +45,7 @@ def run_up_variables(
 
     Parameters
     ----------
-    axes : of sources and receivers
+    axes : axes of sources and receivers
     sound : without an option at the receivers, by speed
     unmodelled_pa2 : mean square of unmodelled noise, shape (speed, receiver)
     """

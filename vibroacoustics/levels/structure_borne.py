@@ -27,7 +27,7 @@ def mean_square_per_power(distance_m: ArrayLike, absorption_area_m2: float | Non
     Parameters
     ----------
     distance_m : from the middle of the feet, shape (...)
-    absorption_area_m2 : of the room; none for an open half space
+    absorption_area_m2 : absorption area of the room; none for an open half space
     """
     diffuse = 0.0 if absorption_area_m2 is None else 4.0 / absorption_area_m2
     direct = 1.0 / (2.0 * np.pi * np.asarray(distance_m, dtype=float) ** 2)
@@ -42,8 +42,8 @@ def structure_borne_variables(
     Parameters
     ----------
     settings : absorption in front of the plate, and deviation of the method
-    sound : of all cases, shapes (speed, option, line)
-    distance_m : of each receiver from the middle of the feet, shape (receiver,)
+    sound : sound of all cases, shapes (speed, option, line)
+    distance_m : distance of each receiver from the middle of the feet, shape (receiver,)
     results : levels by air, and the frequencies of the lines
     """
     level_total = results["level_total"]
@@ -80,8 +80,8 @@ def spread_of_power(
 
     Parameters
     ----------
-    sound : of all cases
-    frequency_hz : of the lines, shape (speed, line)
+    sound : sound of all cases
+    frequency_hz : frequency of the lines, shape (speed, line)
     deviation_db : standard deviation of the method
 
     Returns

@@ -28,8 +28,9 @@ class Lines:
     frequency_hz : shape (line,)
     order : not a number where it is none, shape (line,)
     pressure : complex peaks, shape (option, receiver, line), Pa
-    modelled : the same without what was measured
-    measured : of the orders of a baseline, (receiver, line), Pa; zero where there is none
+    modelled : complex peaks without what was measured, shape (option, receiver, line), Pa
+    measured : complex peaks of the orders of a baseline, (receiver, line), Pa; zero where there is
+        none
     has_phase : whether its phase is known, of the same shape
     continuous : A-weighted mean square of the total beside these lines, (option, receiver), Pa²
     modelled_continuous : A-weighted mean square of the modelled sound beside them, same shape, Pa²
@@ -57,7 +58,7 @@ def lines_at(results: xr.Dataset, speed: float, bands: Array, always: frozenset[
 
     Parameters
     ----------
-    results : of a run
+    results : results of a run
     speed : one of theirs, rpm
     bands : exact middles of the third octaves, Hz, shape (band,)
     always : orders that are kept, however quiet

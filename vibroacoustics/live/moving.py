@@ -21,9 +21,9 @@ class Moving:
 
     Attributes
     ----------
-    results : of the run
-    machines : of its options
-    transmission : of the loads of the moving parts
+    results : results of the run
+    machines : machines of its options
+    transmission : transmission of the loads of the moving parts
     """
 
     results: xr.Dataset

@@ -32,8 +32,8 @@ class Numbers:
 
         Parameters
         ----------
-        values : of any shape
-        bits : of their fractions
+        values : array of any shape
+        bits : number of bits of their fractions
         """
         array = np.ascontiguousarray(values)
         if np.iscomplexobj(array):

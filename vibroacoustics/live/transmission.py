@@ -22,12 +22,13 @@ class Transmission:
 
     Attributes
     ----------
-    frequency_hz : of the orders, shape (speed, order)
+    frequency_hz : frequency of the orders, shape (speed, order)
     load : force and moment of all moving parts on their body, shape (speed, option, 6, order)
-    velocity : of the body on the feet, of the same shape
+    velocity : velocity of the body on the feet, of the same shape
     vector : pressure per velocity, zero at orders that the run did not take along, shape (speed,
         receiver, 6, order), Pa s/m
-    pressure : of the loads behind the option's insertion loss, (speed, option, receiver, order), Pa
+    pressure : pressure of the loads behind the option's insertion loss, (speed, option, receiver,
+        order), Pa
     """
 
     frequency_hz: Array
@@ -51,7 +52,8 @@ class Transmission:
 
         Parameters
         ----------
-        pressure_line : of all sources, orders first, shape (speed, option, receiver, line), Pa
+        pressure_line : pressure of all sources, orders first, shape (speed, option, receiver,
+            line), Pa
         """
         orders = self.pressure.shape[-1]
         others = pressure_line[..., orders:]

@@ -132,8 +132,8 @@ class GasPort(Port):
 
     Attributes
     ----------
-    components, tables : as of `Port`
-    density_kg_per_m3, sound_speed_m_per_s : of the gas there
+    components, tables : components and tables, see `Port`
+    density_kg_per_m3, sound_speed_m_per_s : density and speed of sound of the gas there
 
     Examples
     --------

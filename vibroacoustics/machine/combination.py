@@ -119,8 +119,8 @@ def together(names: Sequence[str], each: Sequence[Added]) -> Added:
 
     Parameters
     ----------
-    names : of the options
-    each : what each of them adds
+    names : names of the options
+    each : contribution of each of them
 
     Raises
     ------
@@ -184,8 +184,8 @@ def members_by_name(name: str, option: Option) -> dict[str, Option]:
 
     Parameters
     ----------
-    name : of the option in its study
-    option : of this name
+    name : name of the option in its study
+    option : option of this name
     """
     names = option.names if isinstance(option, Combination) else (name,)
     return dict(zip(names, option.members, strict=True))

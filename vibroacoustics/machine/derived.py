@@ -16,7 +16,7 @@ class Derived:
     ----------
     name : dotted, from the machine, in SI
     sources : dotted names of the values that it follows from
-    rule : of the machine, what the value is in proportion to; none where it does not follow
+    rule : rule of the machine: what the value is in proportion to; none where it does not follow
     """
 
     name: str

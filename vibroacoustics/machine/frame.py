@@ -144,8 +144,8 @@ class Part(Port):
 
     Attributes
     ----------
-    tables : of every port in the shell
-    joint : of the shell, to which the part hands its load on in a machine without a frame
+    tables : tables of every port in the shell
+    joint : joint of the shell, to which the part hands its load on in a machine without a frame
     handed_on : components of the load that it hands on so
 
     Examples

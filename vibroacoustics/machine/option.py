@@ -63,7 +63,7 @@ class Option(KindOfParameters):
 
         Parameters
         ----------
-        machine : as the option leaves it, with the values of a sample
+        machine : machine with the option, with the values of a sample
         """
         return NO_BODIES
 
@@ -77,8 +77,8 @@ class Option(KindOfParameters):
 
         Parameters
         ----------
-        machine : as the option leaves it
-        revolution : of it
+        machine : machine with the option
+        revolution : revolution of that machine
 
         Raises
         ------

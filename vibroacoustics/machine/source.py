@@ -39,10 +39,11 @@ class Case:
 
     Attributes
     ----------
-    machine : as the option leaves it, with the values of a sample
+    machine : machine with the option, with the values of a sample
     added : by the option
     revolution : steady, of the machine as given
-    supply_frequency_hz : of the motor, as the study gives it or a source derives it; else none
+    supply_frequency_hz : supply frequency of the motor, from the study or derived by a source; else
+        none
     maximum_frequency_hz : lines and noise up to here
     shared : with the other cases of the sample
 
@@ -149,7 +150,7 @@ class Source(KindOfParameters):
 
         Parameters
         ----------
-        case : of the reference option, without a supply
+        case : case of the reference option, without a supply
         before : see `loads`
 
         Raises

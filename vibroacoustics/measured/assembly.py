@@ -22,10 +22,10 @@ class Bench:
     frequency_hz : shape (frequency,)
     values, error : functions and the RMS of their complex error, shape (function, frequency)
     compliance : function of each pair of points, shape (point, point)
-    transfer : of each microphone by point, shape (receiver, point)
-    response : of each point, shape (point,)
-    pressure : of each microphone, shape (receiver,)
-    sign : of each point's direction, shape (point,)
+    transfer : response of each microphone by point, shape (receiver, point)
+    response : response of each point, shape (point,)
+    pressure : pressure of each microphone, shape (receiver,)
+    sign : sign of each point's direction, shape (point,)
     """
 
     frequency_hz: Array

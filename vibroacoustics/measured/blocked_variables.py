@@ -28,7 +28,7 @@ def force_variables(
     Parameters
     ----------
     force : peak, N, shape (frequency, point)
-    sampled : of measurements drawn again, shape (draw, frequency, point)
+    sampled : samples of the forces by measurements with errors, shape (sample, frequency, point)
     coords : `force_point` and `frequency`
     wrench : force and moment per force, shape (6, point)
     """
@@ -71,7 +71,8 @@ def validation_variables(
     Parameters
     ----------
     predicted, measured : displacement, m, or pressure, Pa, shape (frequency, validation)
-    sampled, sampled_measurement : of measurements drawn again, shape (draw, frequency, validation)
+    sampled, sampled_measurement : samples by measurements with errors, shape (sample, frequency,
+        validation)
     units : `m` or `Pa` of each; displacements become accelerations
     coords : `validation_point` and `frequency`
     """

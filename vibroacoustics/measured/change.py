@@ -80,7 +80,7 @@ def mount_stiffness(
     Parameters
     ----------
     frequency_hz : shape (frequency,)
-    stiffness_n_per_m, loss_factor : of all frequencies, or shape (frequency,)
+    stiffness_n_per_m, loss_factor : stiffness and loss factor, one number or shape (frequency,)
     """
     return np.asarray(
         np.broadcast_to(stiffness_n_per_m * (1.0 + 1j * loss_factor), frequency_hz.shape)
@@ -102,8 +102,9 @@ def absorber_stiffness(
     Parameters
     ----------
     frequency_hz : shape (frequency,)
-    mass_kg : of the absorber
-    stiffness_n_per_m, loss_factor : of its spring, loss above zero where it is excited in tune
+    mass_kg : mass of the absorber
+    stiffness_n_per_m, loss_factor : stiffness and loss factor of its spring, loss above zero where
+        it is excited in tune
     """
     inertia = mass_stiffness(frequency_hz, mass_kg)
     spring = stiffness_n_per_m * (1.0 + 1j * loss_factor)

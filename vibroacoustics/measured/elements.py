@@ -16,7 +16,7 @@ class Elements:
 
     Attributes
     ----------
-    elongation : of each element by the points' displacements, shape (element, point)
+    elongation : elongation of each element by the points' displacements, shape (element, point)
     stiffness : change of its dynamic stiffness, N/m, shape (frequency, element, element)
     """
 

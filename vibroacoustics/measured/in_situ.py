@@ -21,9 +21,9 @@ class Measurement:
 
     Attributes
     ----------
-    compliance : of the responses, m/N, shape (frequency, response, force)
-    operating : of the responses, m, shape (frequency, response)
-    transfer : of the validation, m/N or Pa/N, shape (frequency, validation, force)
+    compliance : compliance of the responses, m/N, shape (frequency, response, force)
+    operating : operating of the responses, m, shape (frequency, response)
+    transfer : transfer of the validation, m/N or Pa/N, shape (frequency, validation, force)
     validation : m or Pa, shape (frequency, validation)
     """
 
@@ -44,7 +44,7 @@ class InSitu:
     compliance, transfer : function of each response and validation by force
     operating, validation : function of each response and validation
     forces, responses, validations : sign of each one's direction
-    sets : of forces that are solved for, shape (force, set)
+    sets : sets of forces that are solved for, shape (force, set)
     """
 
     frequency_hz: Array

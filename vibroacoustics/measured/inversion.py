@@ -91,7 +91,7 @@ def left_out_responses(
 
     Parameters
     ----------
-    response, compliance : as of `inverted_forces`; more responses than forces
+    response, compliance : see `inverted_forces`; more responses than forces
     truncations : to try
     """
     count = response.shape[1]
@@ -109,7 +109,7 @@ def rigid_wrench(position_m: Array, direction: Array) -> Array:
 
     Parameters
     ----------
-    position_m : of the points from the centre of mass, shape (point, 3)
+    position_m : position of the points from the centre of mass, shape (point, 3)
     direction : unit vectors, shape (point, 3)
     """
     return np.asarray(np.concatenate([direction, np.cross(position_m, direction)], axis=1).T)

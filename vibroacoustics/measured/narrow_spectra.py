@@ -32,8 +32,8 @@ class NarrowSpectrum:
     ----------
     microphone, speed_rpm : where and when
     frequency_hz : shape (line,)
-    mean_square : of a tone on the line, shape (line,), Pa²
-    block_rpm : of the block of a run-up that counts to the speed; none where it is the speed
+    mean_square : mean square of a tone on the line, shape (line,), Pa²
+    block_rpm : block of a run-up that counts to the speed; none where it is the speed
     """
 
     microphone: str

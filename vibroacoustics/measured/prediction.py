@@ -132,8 +132,8 @@ def line_variables(
     Parameters
     ----------
     pressure : peak, Pa, shape (option, receiver, frequency)
-    sampled : of measurements drawn again, shape (draw, option, receiver, frequency)
-    coords : of these three
+    sampled : samples by measurements with errors, shape (sample, option, receiver, frequency)
+    coords : coordinates of these three
     """
     low, high = amplitude_band(pressure, sampled)
     return {

@@ -81,7 +81,7 @@ def track_orders(
     ----------
     recording : from `read_recording` or `label_recording`
     speed : where the speed comes from: `SpeedChannel`, `NominalSpeed` or `TacholessSpeed`
-    orders : what to track, multiples of the shaft's speed, whole or not
+    orders : multiples of the shaft's speed that are tracked, whole or not
     bandwidth_hz : full width at -3 dB of what passes around each order; below the distance of
         orders that stay side by side, and up to √s where two cross with s Hz/s
     poles : 1, 2 or 3; each steepens the filter by 40 dB a decade

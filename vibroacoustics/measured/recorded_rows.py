@@ -24,7 +24,7 @@ def order_row(results: xr.Dataset, channel: str, key: tuple[str, float], apart: 
 
     Parameters
     ----------
-    results : of `analyse_orders`
+    results : result of `analyse_orders`
     channel : name
     key : microphone and speed
     apart : orders taken out of the narrow band there; the RMS in an order's band stands for others

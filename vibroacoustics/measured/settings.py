@@ -63,7 +63,7 @@ class NewMount(Parameters):
         Parameters
         ----------
         frequency_hz : above zero, shape (frequency,)
-        direction : of the mount, `+x` to `-z`
+        direction : direction of the mount, `+x` to `-z`
         """
         if self.stiffness is not None:
             axis = "xyz".index(direction[-1:] or "z")

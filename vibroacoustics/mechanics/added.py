@@ -43,8 +43,8 @@ class FurtherRing:
     mass_kg : mass
     stroke_m : amplitude of its stroke
     height_m : from the centre of mass at rest
-    driven_inertia_kg_m2 : of the piece that it keeps from turning, about its centre; that of the
-        orbiting scroll where it is none
+    driven_inertia_kg_m2 : inertia of the piece that it keeps from turning, about its centre; that
+        of the orbiting scroll where it is none
     moment_n_m : turns this piece against the housing: a spring, drag
     on_ring : force along its stroke, towards its own crank pin at crank angle zero
 

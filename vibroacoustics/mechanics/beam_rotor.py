@@ -155,7 +155,7 @@ def with_ring(
     rotor : between the nodes
     node_positions_m : along the shaft, both ends of the ring among them, shape (nodes,)
     ends_m : lower and upper end of the ring
-    mass_kg : of the ring
+    mass_kg : mass of the ring
     diameters_m : inner and outer diameter
     """
     total = RotorMatrices(rotor.mass.copy(), rotor.gyroscopic.copy(), rotor.stiffness.copy())

@@ -63,7 +63,7 @@ class Bilinear:
         ----------
         start : w and w'
         steps : in a revolution
-        count : of steps
+        count : number of steps
         """
         length = 2.0 * pi / steps
         flows = {stiff: expm(self._system(stiff) * length) for stiff in (True, False)}

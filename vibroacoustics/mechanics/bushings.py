@@ -109,8 +109,8 @@ class Bushing(_ByContent):
     damping : viscous, symmetric, positive semidefinite, shape (6, 6), N s/m, N s and N m s
     loss_factor_ratio : structural loss factor of the stiffness
     axes : its own axes as columns, a rotation, shape (3, 3)
-    over_frequency : of frequencies, shape (...), to complex stiffness along the axes of the frame,
-        shape (..., 3), N/m, in place of stiffness and loss but in natural modes
+    over_frequency : function of frequencies, shape (...), to complex stiffness along the axes of
+        the frame, shape (..., 3), N/m, in place of stiffness and loss but in natural modes
 
     Examples
     --------
@@ -229,7 +229,7 @@ def check_joined(names: Sequence[str], bushings: Sequence[Bushing]) -> None:
 
     Parameters
     ----------
-    names : of all bodies
+    names : names of all bodies
     bushings : between them and the ground
 
     Raises

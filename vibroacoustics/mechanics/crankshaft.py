@@ -66,7 +66,7 @@ def acceleration_of(position: Array, rotation: Rotation) -> Array:
     Parameters
     ----------
     position : value, first and second derivative over crank angle, shape (3, samples)
-    rotation : of the crankshaft
+    rotation : rotation of the crankshaft
     """
     speed, acceleration = rotation.speed_rad_per_s, rotation.acceleration_rad_per_s2
     return np.asarray(position[2] * speed**2 + position[1] * acceleration)
@@ -79,7 +79,7 @@ def reduced_inertia(
 
     Parameters
     ----------
-    crankshaft_inertia_kg_m2 : of what turns with the crankshaft
+    crankshaft_inertia_kg_m2 : inertia of all that turns with the crankshaft
     moving : mass or inertia and its position or angle, shape (3, samples) as `acceleration_of`
 
     Returns

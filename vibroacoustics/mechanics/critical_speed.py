@@ -65,9 +65,9 @@ class FreeShaft:
     Attributes
     ----------
     rotor : beam with the motor's rotor, whose mass is spread over its length
-    heights_m : of the nodes above the lower bearing, the first's, shape (node,)
+    heights_m : heights of the nodes above the lower bearing, the first one's, shape (node,)
     main_node, pin_node : at the main bearing and at the crank pin
-    bearing_stiffness_n_per_m : of each bearing
+    bearing_stiffness_n_per_m : bearing stiffness of each bearing
     """
 
     rotor: RotorMatrices

@@ -43,7 +43,7 @@ class Tone(_OnPorts):
 
     Attributes
     ----------
-    name : what makes it
+    name : name of the source
     frequency_hz : above zero
     loads : by port, shape (component,)
     figure : name of the reported figure of the largest force that it makes in a foot; none for none
@@ -130,7 +130,7 @@ class Lines:
 
     Attributes
     ----------
-    names : of the lines
+    names : names of the lines
     frequency_hz : shape (line,)
     loads : by source and port, shape (component, line)
     """

@@ -13,7 +13,7 @@ class RollingCourses(NamedTuple):
 
     Attributes
     ----------
-    speed_rad_per_s : of the shaft
+    speed_rad_per_s : speed of the shaft
     discharge_m3_per_s : flow into the shell, at the density there
     block_torque_n_m : on the cylinder block about the shaft, by gas, vane and films
     motor_torque_n_m : on the shaft
@@ -33,8 +33,8 @@ class RollingPiston(Capability):
 
     Attributes
     ----------
-    courses : of a mean speed in rpm and a least number of samples
-    density_kg_per_m3, sound_speed_m_per_s : of the discharged gas
+    courses : function of a mean speed in rpm and a least number of samples
+    density_kg_per_m3, sound_speed_m_per_s : density and sound speed of the discharged gas
     vane_height_m : mean height of the vanes from the centre of mass at rest
     """
 

@@ -33,8 +33,8 @@ class AngularPlan:
 
     Attributes
     ----------
-    sample_rate_hz : of the recording
-    samples : of the recording, a channel
+    sample_rate_hz : sample rate of the recording
+    samples : number of samples of the recording, a channel
     motion : crank angle over (a part of) that time
     maximum_order : highest order to keep
 

@@ -53,7 +53,7 @@ class AngularStream:
 
     Parameters
     ----------
-    plan : of the recording
+    plan : plan of the recording
     channels : number of its channels
     """
 

@@ -34,11 +34,11 @@ class OrdersOfBlocks:
     phasor : complex peak of the orders wanted, shape (channel, block, order)
     rms : in their bands, shape (channel, block, order)
     mean_spectrum : RMS of each line from the mean power over the blocks, (channel, line)
-    map_order : of the lines
+    map_order : order of the lines
     amplitude : complex peaks, shape (channel, block, line); None where no map is wanted
     time_s : middle of the blocks, shape (block,)
     shaft_frequency_hz : mean over each block, shape (block,)
-    revolutions : of a block, whole; of a fit any
+    revolutions : revolutions of a block, a whole number; any number for a fit
     resolution_order : noise bandwidth of a line, orders
     band_order : width of the bands, orders
     """
@@ -65,7 +65,7 @@ class BlockOrders:
 
     Parameters
     ----------
-    plan : of the recording
+    plan : plan of the recording
     channels : number of its channels
     settings : the orders that are wanted
 

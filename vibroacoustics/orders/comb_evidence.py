@@ -78,9 +78,9 @@ def clear_lines(signal: Array, sample_rate: float, length: int, floor_width: flo
     Parameters
     ----------
     signal : shape (sample,)
-    sample_rate : of the signal, in the unit of the frequencies that are wanted
-    length : of a block, samples
-    floor_width : of the running median that is the noise floor
+    sample_rate : sample rate of the signal, in the unit of the wanted frequencies
+    length : length of a block, samples
+    floor_width : width of the running median that is the noise floor
     """
     starts = np.arange(0, signal.size - length + 1, max(length // 2, 1))
     window = scipy.signal.windows.blackmanharris(length, sym=False)
@@ -119,8 +119,8 @@ def sharpness(lines: Lines, orders: Array) -> float:
 
     Parameters
     ----------
-    lines : of an order spectrum
-    orders : of the comb
+    lines : lines of an order spectrum
+    orders : orders of the comb
     """
     covered = orders[orders < lines.highest]
     reach = tolerance(lines, covered)
@@ -139,8 +139,8 @@ def evidence(lines: Lines, orders: Array, speeds: Array) -> Array:
 
     Parameters
     ----------
-    lines : of a spectrum
-    orders : of the comb, rising
+    lines : lines of a spectrum
+    orders : orders of the comb, rising
     speeds : shape (speed,), in the unit of the lines' frequency
 
     Returns
@@ -196,7 +196,7 @@ def best_speeds(
 
     Parameters
     ----------
-    lines, orders : as in `evidence`
+    lines, orders : see `evidence`
     lowest, highest : limits of the speed
     apart : relative distance
     """
@@ -232,7 +232,7 @@ def are_in_place(lines: Lines, frequency: Array) -> NDArray[np.bool_]:
 
     Parameters
     ----------
-    lines : of a spectrum
+    lines : lines of a spectrum
     frequency : in the unit of the lines' frequency
     """
     if lines.frequency.size == 0:
@@ -245,8 +245,8 @@ def lines_in_place(lines: Lines, orders: Array) -> tuple[int, int, float]:
 
     Parameters
     ----------
-    lines : of an order spectrum
-    orders : of the comb
+    lines : lines of an order spectrum
+    orders : orders of the comb
 
     Returns
     -------

@@ -67,9 +67,9 @@ class FittedOrders:
 
     Parameters
     ----------
-    rate_hz, samples : of the recording
+    rate_hz, samples : sample rate and number of samples of the recording
     channels : number of its channels
-    motion : of the shaft
+    motion : motion of the shaft
     settings : the orders that are wanted; the fit has all multiples of their spacing up to the
         maximum order
 

@@ -30,8 +30,8 @@ def without_mains(signal: Array, sample_rate_hz: float, nominal_hz: float) -> Ar
     Parameters
     ----------
     signal : shape (time,)
-    sample_rate_hz : of the signal
-    nominal_hz : of the mains, 50 or 60
+    sample_rate_hz : sample rate of the signal
+    nominal_hz : nominal frequency of the mains, 50 or 60
     """
     spectrum = fft.rfft(signal)
     line_hz = sample_rate_hz / signal.size
@@ -65,7 +65,7 @@ def mains_frequency_hz(signal: Array, sample_rate_hz: float, nominal_hz: float) 
 
     Parameters
     ----------
-    signal, sample_rate_hz, nominal_hz : as in `without_mains`
+    signal, sample_rate_hz, nominal_hz : see `without_mains`
     """
     window = np.hanning(signal.size)
     level = np.log(np.abs(fft.rfft(window * signal)) + 1e-300)

@@ -54,7 +54,7 @@ def order_cut(
 
     Parameters
     ----------
-    spectra : of the run-up
+    spectra : spectra of the run-up
     orders : to cut out
     bandwidth_order : width of each band, orders; at least, and where it is not given, the main
         lobe's width

@@ -92,7 +92,7 @@ def block_revolutions(window: Window, resolution_order: float, spanned: float) -
 
     Parameters
     ----------
-    window : of the blocks
+    window : window of the blocks
     resolution_order : coarsest noise bandwidth of a line, orders
     spanned : revolutions of the signal
 

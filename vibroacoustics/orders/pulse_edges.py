@@ -94,8 +94,8 @@ def pulses_of(
     ----------
     blocks : starts over with the channel's blocks, each of shape (time,): they are read twice, and
         again where the height of the pulses changes
-    samples : of all blocks
-    sample_rate_hz, edge, threshold, hysteresis : of `pulse_times`
+    samples : number of samples of all blocks
+    sample_rate_hz, edge, threshold, hysteresis : see `pulse_times`
     """
     states = TachoStates(samples)
     for block in blocks():
@@ -166,7 +166,7 @@ def _detected(
 
     Parameters
     ----------
-    blocks, edge, levels : as above
+    blocks, edge, levels : see above
     heights : relative, which the levels follow; None where they are 1
     """
     sign = 1.0 if edge == "rising" else -1.0
@@ -194,7 +194,7 @@ def _crossings(
     first : number of its first sample
     sign : 1 or -1
     middles : threshold of each sample, or one of all
-    halves : of the band about it, likewise
+    halves : halves of the band about it, of the same shape
     state : the sample before, over its threshold, not a number at the start; 1 where the signal has
         been below the lower level since the last crossing; the last crossing of the middle; highest
         and lowest sample since the last pulse; last sample below the lower level. It is changed

@@ -33,7 +33,7 @@ class Heights:
 
     Attributes
     ----------
-    sample : of the pulses
+    sample : sample numbers of the pulses
     height : at each, 0 to 1
     """
 
@@ -66,7 +66,7 @@ def heights_of(pulses: Array, swings: Array) -> Heights | None:
     Parameters
     ----------
     pulses : in samples, shape (pulse,)
-    swings : of the signal before, between and behind the pulses, shape (pulse + 1,)
+    swings : swings of the signal before, between and behind the pulses, shape (pulse + 1,)
     """
     if pulses.size < _NEIGHBOURS:
         return None
@@ -83,7 +83,7 @@ def continued(numbers: Array, pulses: Array, swings: Array, has_lobes: bool) -> 
     Parameters
     ----------
     numbers : pulses of the round before, in samples
-    pulses, swings : of this round, as in `heights_of`
+    pulses, swings : pulses and swings of this round, see `heights_of`
     has_lobes : whether the pulses go to both sides of a rest
     """
     behind = _LEAST_SWING * (_SECOND_LOBE if has_lobes else 1.0)
@@ -103,7 +103,7 @@ def _reach(interval: Array, swings: Array, start: int, behind: float) -> int:
     Parameters
     ----------
     interval : between neighbours, shape (pulse - 1,)
-    swings : as in `heights_of`
+    swings : swings, see `heights_of`
     start : pulse, with some before it
     behind : least swing behind a further pulse, over that of its neighbours
     """
@@ -124,8 +124,8 @@ def silent_parts(time: Array, start: float, end: float) -> list[tuple[float, flo
 
     Parameters
     ----------
-    time : of the pulses, rising, two at least
-    start, end : of the recording, in the unit of the pulses' time
+    time : time of the pulses, rising, two at least
+    start, end : start and end of the recording, in the unit of the pulses' time
     """
     borders = np.concatenate([[start], time, [end]])
     interval = np.diff(borders)

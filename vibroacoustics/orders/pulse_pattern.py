@@ -28,7 +28,7 @@ def pulse_notes(pulses: NumberedPulses, pulses_per_revolution: int) -> tuple[tup
     Parameters
     ----------
     pulses : numbered
-    pulses_per_revolution : as stated
+    pulses_per_revolution : number of pulses that was stated
     """
     gap = _gap_note(pulses, pulses_per_revolution)
     if gap is not None:
@@ -56,7 +56,7 @@ def sampling_note(pulse_times_s: Array, sample_rate_hz: float) -> str | None:
     Parameters
     ----------
     pulse_times_s : rising, shape (pulse,)
-    sample_rate_hz : of the channel
+    sample_rate_hz : sample rate of the channel
     """
     if pulse_times_s.size < 2:
         return None

@@ -48,7 +48,7 @@ def used_speeds(speed_rpm: Array, lowest_rpm: float, highest_rpm: float) -> Inde
     Parameters
     ----------
     speed_rpm : rising, shape (speed,)
-    lowest_rpm, highest_rpm : of the recording
+    lowest_rpm, highest_rpm : lowest and highest speed of the recording
 
     Returns
     -------
@@ -84,7 +84,7 @@ def speeds_to_add(speed_rpm: Array, lowest_rpm: float, highest_rpm: float) -> Ar
     Parameters
     ----------
     speed_rpm : rising, shape (speed,)
-    lowest_rpm, highest_rpm : of the recording
+    lowest_rpm, highest_rpm : lowest and highest speed of the recording
     """
     within_range = speed_rpm[(speed_rpm >= lowest_rpm) & (speed_rpm <= highest_rpm)]
     begins = [speed_rpm[speed_rpm < lowest_rpm][-1:], np.floor([lowest_rpm])]

@@ -38,7 +38,7 @@ def recorded_orders(
     Parameters
     ----------
     channel : names, with `channel_unit` and `calibration_factor`
-    blocks : of the recording
+    blocks : blocks of the recording
     settings : the orders that are wanted
     """
     block_speed = 60.0 * blocks.shaft_frequency_hz

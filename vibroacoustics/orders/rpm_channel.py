@@ -50,7 +50,7 @@ def rpm_motion_of(blocks: Blocks, samples: int, sample_rate_hz: float) -> CrankM
     Parameters
     ----------
     blocks : read twice; thrice where the speed falls to zero
-    samples : of all blocks
+    samples : number of samples of all blocks
     sample_rate_hz : samples per second
     """
     if samples < _LEAST_POINTS:

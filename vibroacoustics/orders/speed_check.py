@@ -54,7 +54,7 @@ class SpeedCheck:
         and for no shaft at all
     rival_hz : mean of the speed that explains the lines next best; None where there is none
     in_place : orders of the comb at which there is a clear line
-    orders : of the comb that lie below half the sample rate
+    orders : orders of the comb that lie below half the sample rate
     width : mean width of those lines, by order, over that of a steady tone's
     followed : share of the recording in which the orders stand out as they mostly do
     mains_hz : where the speed never leaves that of the mains, whose hum has the same lines
@@ -92,7 +92,7 @@ def checked_course(search: Search, courses: list[Course]) -> tuple[Course, Speed
 
     Parameters
     ----------
-    search : what is looked for
+    search : settings of the search
     courses : that explain the signal's short spectra
     """
     first = courses[0]

@@ -38,7 +38,7 @@ def frame_levels(
     ----------
     signal : shape (time,)
     centres : shape (frames,), in samples
-    length : of a frame, samples; the spectrum is of twice that length
+    length : length of a frame, samples; the spectrum has twice that length
     change_per_sample : shape (frames,), relative change of speed at the centre
     floor_bins : width of the running median
 
@@ -107,7 +107,7 @@ def refine(levels: Array, orders: Array, candidates: Array, path: NDArray[np.int
 
     Parameters
     ----------
-    levels, orders, candidates : as in `comb_scores`; the candidates in even ratios
+    levels, orders, candidates : see `comb_scores`; the candidates in even ratios
     path : shape (frames,), position among the candidates
     """
     ratio = candidates[1] / candidates[0]

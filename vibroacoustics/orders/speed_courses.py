@@ -38,7 +38,7 @@ class Course:
     ----------
     curve : speed in Hz over time in s, smooth
     time_s : centres of the frames that it comes from
-    confidence : of each frame, see `TacholessResult`
+    confidence : confidence of each frame, see `TacholessResult`
     """
 
     curve: PPoly
@@ -53,8 +53,8 @@ class Search:
     Attributes
     ----------
     samples : shape (time,), of a rate that holds the orders
-    rate_hz : of the samples
-    orders : of the comb, rising
+    rate_hz : rate of the samples
+    orders : orders of the comb, rising
     minimum_hz, maximum_hz : limits of the speed
     change_per_s : largest relative change of the speed, 1/s
     """

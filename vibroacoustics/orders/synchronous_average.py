@@ -45,7 +45,7 @@ class RevolutionAverage:
 
     Parameters
     ----------
-    samples_per_revolution : of the signal
+    samples_per_revolution : samples per revolution of the signal
     revolutions : after which it repeats
     """
 

@@ -44,7 +44,7 @@ def tacho_motion(
     Parameters
     ----------
     pulse_times_s : shape (pulses,), rising
-    pulses_per_revolution : of the tacho
+    pulses_per_revolution : pulses per revolution of the tacho
     index_times_s : shape (index pulses,), of a second channel with one pulse a revolution. Angle
         zero is its first pulse within the motion; without it, it is the tacho's first pulse.
 

@@ -24,7 +24,7 @@ class TachoStates:
 
     Parameters
     ----------
-    samples : of all blocks
+    samples : number of samples of all blocks
     """
 
     def __init__(self, samples: int) -> None:

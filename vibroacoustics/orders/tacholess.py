@@ -58,8 +58,8 @@ def tacholess_motion(
     ----------
     signal : shape (time,), of one channel, any unit
     sample_rate_hz : samples per second
-    minimum_frequency_hz, maximum_frequency_hz : of the shaft; frames are as long as eight
-        revolutions at the lowest
+    minimum_frequency_hz, maximum_frequency_hz : lowest and highest frequency of the shaft; frames
+        are as long as eight revolutions at the lowest
     orders : rising, of the comb; the better they are those of the machine, the surer is the speed
     maximum_change_per_s : largest relative change of the speed, 1/s
     mains_hz : nominal frequency of the mains, whose multiples are left out; None where there are

@@ -24,9 +24,9 @@ def tracked_orders(
     Parameters
     ----------
     signal : (channel, time)
-    sample_rate_hz : of the signal
-    motion : of the shaft
-    orders, bandwidth_hz, poles : of `vold_kalman`
+    sample_rate_hz : sample rate of the signal
+    motion : motion of the shaft
+    orders, bandwidth_hz, poles : see `vold_kalman`
 
     Raises
     ------

@@ -98,7 +98,7 @@ class Unrolled:
 
         Parameters
         ----------
-        scale : of the speed, over that of the course
+        scale : scale of the speed, relative to that of the time history
         """
         levels, _, bins = self._frames
         score = comb_scores(
@@ -113,7 +113,7 @@ class Unrolled:
 
         Parameters
         ----------
-        scale : of the speed, over that of the course
+        scale : scale of the speed, relative to that of the time history
         """
         levels, _, bins = self._frames
         order = scale * self.search.orders
@@ -130,7 +130,7 @@ class Unrolled:
 
         Parameters
         ----------
-        revolutions : of a frame
+        revolutions : revolutions of a frame
         """
         levels, when, bins = self._frames_of(revolutions)
         trials = bins * np.exp(_SPAN * np.linspace(-1.0, 1.0, _TRIALS))

@@ -53,7 +53,7 @@ class TrackedOrders:
     time_s : shape (time,), from the start of the recording
     envelope : shape (..., track, time), complex peak in the signal's unit; the phase is the one
         against the crank angle of the track's shaft
-    sample_rate_hz : of the envelopes
+    sample_rate_hz : sample rate of the envelopes
     noise_gain : largest factor by which noise within the bandwidth grows because orders are too
         close to be told apart; about 1 or 2 where they are apart
     """
@@ -80,8 +80,8 @@ def vold_kalman(
     Parameters
     ----------
     signal : shape (..., time); sample k at time k / sample_rate_hz, as the motions count it
-    sample_rate_hz : of the signal
-    tracks : what to track; the result spans the time that all motions know
+    sample_rate_hz : sample rate of the signal
+    tracks : orders that are tracked; the result spans the time that all motions cover
     bandwidth_hz : full width at -3 dB of what passes around each order
     poles : 1, 2 or 3; each steepens the filter by 40 dB a decade
 

@@ -41,7 +41,7 @@ class Window:
 
         Parameters
         ----------
-        distance_lines : of the lines from the tone, any shape, lines
+        distance_lines : distance of the lines from the tone, any shape, lines
         """
         parts = (
             size * (np.sinc(distance_lines - number) + np.sinc(distance_lines + number)) / 2.0

@@ -61,7 +61,7 @@ def closed_box(
 
     Parameters
     ----------
-    edges : of the grid
+    edges : edges of the grid
     start, stop : cells
     on_walls : sides that lie on walls
     with_floor : whether that on the floor is there nevertheless

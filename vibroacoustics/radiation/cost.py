@@ -37,7 +37,7 @@ class Cost(NamedTuple):
 
     Attributes
     ----------
-    name : of the work
+    name : name of the work
     low_s, high_s : processor time, s, at least and at most
     how : how that is known
     memory_bytes : at its peak, beside what is loaded before

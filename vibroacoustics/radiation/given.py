@@ -94,7 +94,7 @@ def radiated_by(
     study : with its microphones
     progress : called with the advance
     motions : modes of the shell
-    method : of microphones for which the transfer vectors name none
+    method : method of microphones for which the transfer vectors name none
     """
     radiated, was_known = radiation(study, progress, motions)
     if "radiation_method" not in radiated.coords:

@@ -22,7 +22,7 @@ class Interpolant:
     Parameters
     ----------
     breaks : between the pieces, rising, shape (break,)
-    coefficients : of the powers from the third down, shape (4, piece, ...)
+    coefficients : coefficients of the powers from the third down, shape (4, piece, ...)
     distance_m : broadcasts against (...): motions of a receiver share its distance and trend
     """
 
@@ -96,7 +96,7 @@ def _evaluate(
     Parameters
     ----------
     breaks : between the pieces, rising, shape (break,)
-    coefficients : of the powers from the third down, shape (4, piece, spline)
+    coefficients : coefficients of the powers from the third down, shape (4, piece, spline)
     points : places, shape (place,)
     """
     for row in range(points.size):

@@ -143,10 +143,10 @@ class NearField:
 
         Parameters
         ----------
-        flux : what the pattern pushes into the wall cells, (wall,), m³/s
+        flux : volume velocity of the pattern into the wall cells, (wall,), m³/s
         frequency_hz : (frequency,)
         microphones : points outside the box, (point, 3); a run ends when it is over for them
-        name : of the pattern, for progress and errors
+        name : name of the pattern, for progress and errors
         progress : told of the steps
 
         Raises

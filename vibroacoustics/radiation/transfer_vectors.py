@@ -46,10 +46,10 @@ def transfer_vectors(
 
     Parameters
     ----------
-    shell : of the machine
+    shell : shell of the machine
     receivers : the microphones, by name
-    settings : of the radiation
-    sound_field : what is asked for besides the microphones
+    settings : settings of the radiation
+    sound_field : points that are requested besides the microphones
     motions : surface velocities besides the rigid motions
     kwave_receivers : microphones at which k-Wave computes the room where the settings name it as
         the solver; none for all of them
@@ -230,7 +230,7 @@ def labelled(
     ----------
     vectors : by name of the rigid motions' variable, shape (receiver, pattern, frequency), rigid
         motions first; `green_difference` without patterns
-    positions : of the receivers by name, shape (3,), m
+    positions : positions of the receivers by name, shape (3,), m
     frequency : shape (frequency,), Hz
     patterns : names of those besides the rigid motions
     """

@@ -24,8 +24,8 @@ class Asked:
 
     Attributes
     ----------
-    path : of the file
-    units, calibration, channels, sample_rate_hz, names : as in `read_recording`
+    path : path of the file
+    units, calibration, channels, sample_rate_hz, names : see `read_recording`
     """
 
     path: Path

@@ -178,7 +178,7 @@ def open_recording(
 
     Parameters
     ----------
-    path, units, calibration, channels, sample_rate_hz, from_s, to_s, names : as in
+    path, units, calibration, channels, sample_rate_hz, from_s, to_s, names : see
         `read_recording`
 
     Raises
@@ -222,7 +222,7 @@ def recording_blocks(path: str | Path, **reading: Any) -> FileBlocks:
 
     Parameters
     ----------
-    path, reading : as in `read_recording`
+    path, reading : see `read_recording`
 
     Raises
     ------
@@ -245,7 +245,7 @@ def hold_recording(
 
     Parameters
     ----------
-    path, from_s, to_s, reading : as in `read_recording`
+    path, from_s, to_s, reading : see `read_recording`
 
     Raises
     ------

@@ -41,7 +41,7 @@ def answer(
 
     Parameters
     ----------
-    request : what to read
+    request : part of the file to read
     plugin : file of the user that brings the reader
     hashed : whether the file's hash is wanted
     """

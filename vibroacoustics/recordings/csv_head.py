@@ -76,8 +76,8 @@ class Head:
 
     Attributes
     ----------
-    names, units : of the columns
-    separator : of the columns
+    names, units : names and units of the columns
+    separator : separator of the columns
     lines : above the numbers
     stamps : column of time stamps; None without one
     sample : first rows of numbers

@@ -33,7 +33,7 @@ class Node:
 
     Attributes
     ----------
-    number : of the node
+    number : number of the node
     direction : `+x` to `-z`, about an axis `+rx`; empty for a scalar, such as sound pressure
 
     Examples

@@ -21,8 +21,8 @@ class MeasuredModes:
     Attributes
     ----------
     frequency_hz : natural frequencies, shape (mode,)
-    modal_mass_kg : of the shapes as they are scaled, shape (mode,)
-    viscous_damping_ratio : as the file states it, 0 where it states none, shape (mode,)
+    modal_mass_kg : modal mass of the shapes as they are scaled, shape (mode,)
+    viscous_damping_ratio : damping ratio in the file, 0 where it states none, shape (mode,)
     nodes_m : places in the file's coordinate system, shape (node, 3)
     shape : displacements, shape (mode, node, 3)
     source_sha256 : hash of the file

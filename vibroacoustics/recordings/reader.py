@@ -17,9 +17,9 @@ class Reader:
 
     Attributes
     ----------
-    name : of the format, short
-    suffixes : of the files' names, small letters with the dot
-    words : what the format is called
+    name : name of the format, short
+    suffixes : suffixes of the files' names, small letters with the dot
+    words : name of the format in words
     read : channels of a file; runs in a process of its own, of limited memory and time
     package : further package that `read` imports, as pip calls it; empty where none
 

@@ -37,7 +37,7 @@ class Request:
 
     Attributes
     ----------
-    path : of the file
+    path : path of the file
     channels : wanted; None for all
     sample_rate_hz : that overrides the file's; None where the file's holds
     modes : whether modes are read, no recording
@@ -116,8 +116,8 @@ class Recorded:
 
     Attributes
     ----------
-    names : of the channels
-    units : as the file states them; empty where it states none
+    names : names of the channels
+    units : units in the file; empty where it states none
     samples : one array a channel, shape (time,)
     sample_rate_hz : actual sample rate
     start_time : ISO 8601; empty where it is unknown
@@ -129,7 +129,7 @@ class Recorded:
         a sample at a limit is an overload. Empty where the format has none
     calibration : factor that the file states of each channel, its unit per unit of the samples;
         one that the user gives counts instead. Empty or None where the file states none
-    remarks : what the user must know of the file, a line each
+    remarks : remarks on the file for the user, a line each
 
     Examples
     --------

@@ -32,10 +32,10 @@ class Wave:
 
     Attributes
     ----------
-    order : of bytes, `<` or `>`
-    kind : of the samples, PCM or FLOAT, or another number of the format
-    channels, sample_rate_hz : of the samples
-    sample_bytes : of one channel
+    order : order of bytes, `<` or `>`
+    kind : kind of the samples, PCM or FLOAT, or another number of the format
+    channels, sample_rate_hz : channels and sample rate of the samples
+    sample_bytes : bytes of one channel
     start : place of the first sample in the file
     frames : samples of a channel
     comment : text beside the samples; empty without one
@@ -106,7 +106,7 @@ def with_comment(wave: bytes, comment: str) -> bytes:
     Parameters
     ----------
     wave : the file, RIFF
-    comment : of letters of Latin-1
+    comment : comment in letters of Latin-1
     """
     if wave[:4] != b"RIFF":
         return wave

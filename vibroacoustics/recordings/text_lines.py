@@ -79,7 +79,7 @@ def reached(
     ----------
     file : to look at, by halving
     begin, end : places of the first line, and behind the last
-    value : of a line
+    value : value of a line
     wanted : least value
     """
     low, high = begin, end

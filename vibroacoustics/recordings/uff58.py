@@ -38,14 +38,14 @@ class Header:
     function_type : 1 for a time response
     name : id line 1, else response entity, else label of the ordinate; may be empty
     start_time : id line 3
-    unit : of the ordinate
+    unit : unit of the ordinate
     ordinate_type : 2 and 4 real, 5 and 6 complex, single and double precision
-    points : of the abscissa
+    points : number of points of the abscissa
     is_even : whether the abscissa has even spacing
-    increment : of the abscissa, where it has
+    increment : increment of the abscissa, where it has one
     byte_order : `<` or `>`; empty for text
     start : place of the first value in the file
-    abscissa_bytes : of each abscissa of binary values; 0 where there is none
+    abscissa_bytes : bytes of each abscissa of binary values; 0 where there is none
     records : the eleven lines as they are
     """
 

@@ -21,9 +21,9 @@ class Analysis:
 
     Attributes
     ----------
-    name : of its page, without ending
+    name : name of its page, without ending
     title : heading of the page
-    kind : what was analysed, a machine or a recording
+    kind : analysed thing, a machine or a recording
     created : time of the results, UTC; empty where it is not recorded
     about : sentence below the heading
     parts : sections of the page

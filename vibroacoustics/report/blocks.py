@@ -86,7 +86,7 @@ class Live:
     Attributes
     ----------
     data : JSON for the script
-    panel : what it consists of; a page has one
+    panel : content of the panel; a page has one
     block : kind of block
     """
 
@@ -101,8 +101,8 @@ class Light:
 
     Attributes
     ----------
-    word : of the sign
-    change : as text
+    word : word of the sign
+    change : change as text
     band : lowest and highest, of -1 to 1, the ends of the cell's scale
     zone : up to which a change could not be measured, of the same scale
     """
@@ -129,7 +129,7 @@ class Lights:
     Attributes
     ----------
     caption : above it
-    head : what the columns are, the options first
+    head : names of the columns, the options first
     rows : the options
     note : how to read it
     block : kind of block
@@ -153,10 +153,10 @@ class Interval:
 
     Attributes
     ----------
-    name : of what
+    name : name of the machine, option or source
     text : value and interval
     low, value, high : ends and value, in the unit of the chart
-    word : what it is; of changes what the option does
+    word : description; of changes what the option does
     """
 
     name: str
@@ -174,7 +174,7 @@ class Intervals:
     Attributes
     ----------
     caption : above it
-    head : what names and texts are
+    head : headings of names and texts
     rows : values
     scale : lowest and highest value of the axis
     zone : values that are no different from zero; none for all
@@ -197,7 +197,7 @@ class Sound:
 
     Attributes
     ----------
-    name : of what
+    name : name of the source
     file : beside the page
     """
 

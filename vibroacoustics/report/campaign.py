@@ -61,7 +61,7 @@ def analysis_of_campaign(mean: xr.Dataset) -> Analysis:
 
     Parameters
     ----------
-    mean : of `mean_of_runs`
+    mean : result of `mean_of_runs`
     """
     levels = [_levels_table(mean)] if "equivalent_level" in mean else []
     orders = _orders_table(mean)
@@ -241,7 +241,7 @@ def _levels(
 
     Parameters
     ----------
-    mean : of `mean_of_runs`
+    mean : result of `mean_of_runs`
     dim : machine or run; empty for the mean
     labels : further columns
     values : column by name of the variable, `{}` for the kind of level

@@ -24,7 +24,7 @@ def analysis_of_blocked_forces(
 
     Parameters
     ----------
-    blocked : of `blocked_forces`
+    blocked : result of `blocked_forces`
     further : content of further files by name
     """
     tables = (_validation(blocked), _bands(blocked), _truncation(blocked))

@@ -70,9 +70,9 @@ def analysis_of_orders(
 
     Parameters
     ----------
-    results : of `analyse_orders`
+    results : result of `analyse_orders`
     listen : channel of the interactive map of a run-up; default: the first of sound pressure
-    sound : of that channel; None for none
+    sound : sound of that channel; None for none
 
     Raises
     ------

@@ -40,7 +40,7 @@ def analysis_of_replay(summary: xr.Dataset, sounds: Mapping[str, Mapping[str, st
 
     Parameters
     ----------
-    summary : of `replay`
+    summary : result of `replay`
     sounds : files beside the page, by channel and by `before` and `after`
     """
     totals, lines = _totals(summary), _lines(summary)

@@ -20,7 +20,7 @@ def every_loudest(results: xr.Dataset) -> list[LoudestOrders]:
 
     Parameters
     ----------
-    results : of `analyse_orders`
+    results : result of `analyse_orders`
     """
     if "order_map" not in results or results.sizes["speed"] < 2:
         return []

@@ -33,7 +33,7 @@ class Shift:
     quantity : which
     before, after : values, shape (speed,)
     gain_db : change at every speed, shape (speed,), dB
-    bands : of the change at every speed: dB of levels, % of forces
+    bands : intervals of the change at every speed: dB of levels, % of forces
     grown, fallen : probability of a change by what could be measured, at the speed where it is
         largest
     least : smallest changes that could be measured

@@ -20,10 +20,10 @@ class FigureLimit(Refusing):
     Attributes
     ----------
     limit : in `unit`
-    unit : of a total `dB`, `dB(A)` or `dB(C)`, of a band `dB`, of an order `dB` or one of the
+    unit : unit of a total `dB`, `dB(A)` or `dB(C)`, of a band `dB`, of an order `dB` or one of the
         channel's quantity, of a criterion its own
     channel : its name, or `*`; empty for a criterion
-    order : of the shaft; none for other figures
+    order : order of the shaft; none for other figures
     band_hz : nominal midband frequency of a third of an octave; none for other figures
     criterion : name of a criterion of a study; empty for other figures
     side : `highest` or `lowest` value that is allowed

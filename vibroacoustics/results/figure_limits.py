@@ -57,8 +57,8 @@ class Compared(NamedTuple):
 
     Attributes
     ----------
-    orders : of `compare`
-    first, second : of `run`, `analyse_orders` or `mean_of_runs`
+    orders : result of `compare`
+    first, second : results of `run`, `analyse_orders` or `mean_of_runs`
     """
 
     orders: xr.Dataset

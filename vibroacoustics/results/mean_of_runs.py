@@ -38,7 +38,7 @@ def mean_of_runs(
 
     Parameters
     ----------
-    runs : of `analyse_orders`, at speeds that all have within 2 %
+    runs : results of `analyse_orders`, at speeds that all have within 2 %
     specimens : name of the machine of each run; without, all are of one
     labels : name of each run, each once; default: its file, with a number where several have one
 

@@ -35,9 +35,9 @@ def check_limits(
 
     Parameters
     ----------
-    results : of `analyse_orders`, `run` or `compare`; of the latter both results are checked,
-        against limits of either one's channel, at the speeds of the first
-    limits : of `read_limits`, or made as `Limit`
+    results : result of `analyse_orders`, `run` or `compare`; of the latter both results are
+        checked, against limits of either one's channel, at the speeds of the first
+    limits : limits from `read_limits`, or made as `Limit`
     option : the balancing option of a study
 
     Returns

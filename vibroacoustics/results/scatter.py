@@ -44,7 +44,7 @@ def scatter(level_db: Array, specimens: Sequence[str]) -> Scatter:
     Parameters
     ----------
     level_db : shape (run, ...)
-    specimens : of each run
+    specimens : specimen of each run
     """
     groups = _groups(level_db, specimens)
     count = np.array([len(group) for group in groups])
@@ -68,7 +68,7 @@ def by_specimen(level_db: Array, specimens: Sequence[str]) -> tuple[Array, Array
     Parameters
     ----------
     level_db : shape (run, ...)
-    specimens : of each run
+    specimens : specimen of each run
 
     Returns
     -------

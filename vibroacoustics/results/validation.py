@@ -31,10 +31,10 @@ class Validation:
     Attributes
     ----------
     quantity : in words
-    unit : of all numbers
+    unit : unit of all numbers
     simulation, data : S and D
     numerical, inputs, published : uncertainties of numerics, of inputs and of the data
-    source : of the data
+    source : source of the data
     """
 
     quantity: str

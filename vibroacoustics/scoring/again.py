@@ -18,7 +18,7 @@ def scored_again(results: xr.Dataset, settings: Scoring | None) -> xr.Dataset:
     Parameters
     ----------
     results : dataset of a run
-    settings : as of `score`
+    settings : settings, see `score`
 
     Raises
     ------

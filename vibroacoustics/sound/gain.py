@@ -25,7 +25,7 @@ def full_scale_of(results: xr.Dataset, calibration_db: float | None = None) -> f
 
     Parameters
     ----------
-    results : of a run, with its noise by third octave
+    results : results of a run, with its noise by third octave
     calibration_db : level of a tone that has to fit, too
     """
     highest = _highest(results)

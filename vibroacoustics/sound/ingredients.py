@@ -53,7 +53,7 @@ class SoundLines:
     ----------
     frequency_hz : shape (line,)
     pressure_pa : complex peaks at the same crank angle, x(t) = Re{P exp(+jωt)}, shape (line,)
-    name : of each, such as `order 2`
+    name : name of each, such as `order 2`
     """
 
     frequency_hz: Array
@@ -131,7 +131,7 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
 
     Parameters
     ----------
-    results : of a run
+    results : results of a run
     option, microphone : names in the results; also a listener's, where no microphone has it
     speed : one of theirs, rpm
 

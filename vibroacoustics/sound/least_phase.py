@@ -21,7 +21,7 @@ def least_phase(size: Array, length: int) -> ComplexArray:
     Parameters
     ----------
     size : from the first line of the transform on, zero beyond, shape (..., frequency)
-    length : of the transform
+    length : length of the transform
     """
     lines = size.shape[-1]
     sizes = np.zeros((*size.shape[:-1], length // 2 + 1))

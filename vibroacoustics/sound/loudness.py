@@ -55,7 +55,7 @@ def loudness_of(parts: Sequence[Ingredients], field: SoundField = "free") -> lis
 
     Parameters
     ----------
-    parts : of `ingredients`
+    parts : result of `ingredients`
     field : `free`, from the front, or `diffuse`, as at a listener in a room
 
     Raises
@@ -71,7 +71,7 @@ def recorded_loudness(bands: NarrowBands) -> Loudness:
 
     Parameters
     ----------
-    bands : of `narrow_bands`
+    bands : result of `narrow_bands`
 
     Raises
     ------
@@ -90,7 +90,7 @@ def loudness_of_thirds(mean_square: Array, field: SoundField = "free") -> list[L
     Parameters
     ----------
     mean_square : in the bands `CENTRES_HZ`, shape (sound, band), Pa²
-    field : as of `loudness_of`
+    field : sound field, see `loudness_of`
 
     Raises
     ------

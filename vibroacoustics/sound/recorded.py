@@ -50,7 +50,7 @@ class NarrowBands:
     ----------
     frequency_hz : shape (line,)
     segments : mean square, shape (segment, line), Pa²; of the samples within the recording
-    share : of each segment's squared window that is within the recording, shape (segment,)
+    share : share of each segment's squared window that is within the recording, shape (segment,)
     """
 
     frequency_hz: Array
@@ -82,7 +82,7 @@ def narrow_bands(pressure_pa: Array, sample_rate_hz: float) -> NarrowBands:
     Parameters
     ----------
     pressure_pa : shape (sample,)
-    sample_rate_hz : of the recording
+    sample_rate_hz : sample rate of the recording
 
     Raises
     ------
@@ -120,7 +120,7 @@ def recorded_spectrum(bands: NarrowBands) -> TonalSpectrum:
 
     Parameters
     ----------
-    bands : of `narrow_bands`
+    bands : result of `narrow_bands`
     """
     hertz, square = bands.frequency_hz, bands.mean_square
     peaks, first, last = _tone_lines(hertz, square)

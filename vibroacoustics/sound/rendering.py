@@ -54,9 +54,9 @@ def rendered(
     Parameters
     ----------
     parts : lines and noise; what lies above 0.45 of the sample rate is left out
-    samples : of the sound, see `whole_revolutions`
-    sample_rate_hz : of the sound
-    seed : of the phases of the noise
+    samples : number of samples of the sound, see `whole_revolutions`
+    sample_rate_hz : sample rate of the sound
+    seed : seed of the phases of the noise
     """
     tones = rendered_lines(parts.lines, samples, sample_rate_hz)
     apart_hz = parts.lines.frequency_hz
@@ -92,8 +92,8 @@ def rendered_noise(
     Parameters
     ----------
     bands : third octaves
-    samples, sample_rate_hz : of the sound
-    seed : of the phases; those of a frequency do not hang on the bands
+    samples, sample_rate_hz : number of samples and sample rate of the sound
+    seed : seed of the phases; those of a frequency do not depend on the bands
     apart_hz : frequencies of tones, which the noise leaves free
     """
     hertz = fft.rfftfreq(samples, 1.0 / sample_rate_hz)

@@ -46,10 +46,10 @@ class WaysOfRoom:
     direct_per_power : mean square of direct sound per power, of frequencies, (listener, frequency),
         Pa²/W
     distance_m : from the machine, shape (listener,)
-    nearest_m : of the positions on the hemisphere from the machine's wall, or less
+    nearest_m : distance of the nearest position on the hemisphere from the machine's wall, or less
     decay_s : reverberation time, of frequencies
     record_s : duration of the waves
-    highest_hz : of the radiation
+    highest_hz : highest frequency of the radiation
     """
 
     pressure: Callable[[Array], ComplexArray]
@@ -76,7 +76,7 @@ def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Ar
     Parameters
     ----------
     room : ways of the machine's sound
-    sample_rate_hz : of acceleration and pressure
+    sample_rate_hz : sample rate of acceleration and pressure
     """
     decaying, fading = (round(time * sample_rate_hz) for time in (room.record_s, FADING_S))
     samples = decaying + fading
@@ -257,10 +257,10 @@ def _gate(arrival_s: Array, samples: int, length: int, sample_rate_hz: int) -> A
 
     Parameters
     ----------
-    arrival_s : of the direct sound, shape (listener,)
-    samples : of a response
-    length : of the transform
-    sample_rate_hz : of the samples
+    arrival_s : arrival time of the direct sound, shape (listener,)
+    samples : number of samples of a response
+    length : length of the transform
+    sample_rate_hz : sample rate of the samples
     """
     number = np.arange(length)
     time_s = np.where(number < (length + samples) // 2, number, number - length) / sample_rate_hz

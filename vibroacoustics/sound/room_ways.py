@@ -26,11 +26,11 @@ class BothMethods(NamedTuple):
     Attributes
     ----------
     ways : with the gain of the place
-    gain : of the power at the machine's place, of frequencies
+    gain : gain of the power at the machine's position, a function of frequencies
     waves : mean square per power, shape (listener, band), Pa²/W
     shown : numbers of the bands around the seam
     transfers : waves and diffuse field in these, without the gain
-    gains_db : of the place, in these and above
+    gains_db : gains of the position, in these bands and above
     """
 
     ways: RoomWays
@@ -48,9 +48,9 @@ def ways_of(
 
     Parameters
     ----------
-    settings : of the room
-    shell : of the machine
-    vectors, pressure : of `vectors_of` and `pressure_at_places`
+    settings : settings of the room
+    shell : shell of the machine
+    vectors, pressure : results of `vectors_of` and `pressure_at_places`
     """
     highest_hz, middle_m = settings.maximum_frequency_hz, rooms.machine_middle_m(settings, shell)
     share, radius_m = rooms.wave_share(highest_hz), float(vectors.attrs["hemisphere_radius_m"])

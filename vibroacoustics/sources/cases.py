@@ -80,7 +80,7 @@ def added_by(option: Option, machine: Machine, revolution: Revolution) -> Added:
     ----------
     option : whose shapes are checked
     machine : with the option built into it
-    revolution : of the machine
+    revolution : revolution of the machine
 
     Raises
     ------

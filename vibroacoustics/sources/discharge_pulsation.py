@@ -80,9 +80,9 @@ def muffler_pressure_pa(
     Parameters
     ----------
     flow_m3_per_s : through the valve by line, Q
-    angular_frequency : of the lines, rad/s
+    angular_frequency : angular frequency of the lines, rad/s
     gas : volume, density, speed of sound
-    area_m2 : of the tube
+    area_m2 : area of the tube
     """
     impedance = gas.density_kg_per_m3 * gas.speed_of_sound_m_per_s
     stored = 1j * angular_frequency * gas.muffler_volume_m3

@@ -201,7 +201,7 @@ def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> dict[Port,
     Parameters
     ----------
     machine : with wraps and gas
-    speed_rpm : of the steady running
+    speed_rpm : speed of the steady running
     angle : shape (times,), rad
 
     Raises

@@ -198,7 +198,7 @@ def _spectra(
     ----------
     case : for the highest frequency
     ring : that made the forces
-    forces : of all four keys
+    forces : forces of all four keys
     on_parts : load on each part per unit of each resultant
     """
     highest = case.maximum_order

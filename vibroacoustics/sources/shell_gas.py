@@ -79,7 +79,7 @@ def wall_force_per_flow(
     ----------
     gas : size, speed of sound, density, place of the source
     angular_frequency : ω, shape (line,), rad/s
-    modes : of the sum
+    modes : number of modes of the sum
     """
     numbers = mode_numbers(modes)[:, None]
     at_wall = scipy.special.j1(numbers)

@@ -53,12 +53,13 @@ class RunDown:
 
     Attributes
     ----------
-    time_s, crank_angle_rad, speed_rad_per_s, acceleration_rad_per_s2 : of the shaft, shape (T,)
-    shift : of the set against it, shape (T,) each
+    time_s, crank_angle_rad, speed_rad_per_s, acceleration_rad_per_s2 : time and motion of the
+        shaft, shape (T,)
+    shift : shift of the set against it, shape (T,) each
     sources : who makes force and moment
     force_n, moment_n_m : on the housing, shape (sources, 3, T)
     stop_time_s : when the shaft comes to rest, after the last sample
-    gas_share : of the gas's forces of steady running, shape (T,)
+    gas_share : share of the gas's forces of steady running, shape (T,)
     brake_force_n : around the shaft between brake and wall, shape (T,)
     """
 
@@ -108,9 +109,9 @@ def run_down(
     shifted : sources of the set that turns against the others; the Oldham ring goes with its scroll
     gas_torque_n_m : against the rotation at steady running, shape (samples,), from crank angle zero
     speed_rad_per_s : before switch-off
-    sample_rate_hz : of the result
+    sample_rate_hz : sample rate of the result
     steady_revolutions : before switch-off, at constant speed
-    after : what follows the first rest; none for a stop that ends there
+    after : stretch after the first rest; none for a stop that ends there
 
     Raises
     ------

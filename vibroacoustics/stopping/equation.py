@@ -53,7 +53,7 @@ def brake_shift(time_s: Array, shift_rad: float, duration_s: float) -> Shift:
     ----------
     time_s : from switch-off, any shape
     shift_rad : δ reached at the end
-    duration_s : of the turn
+    duration_s : duration of the turn
     """
     u = np.minimum(np.maximum(time_s / duration_s, 0.0), 1.0)
     return Shift(
@@ -80,9 +80,9 @@ def acceleration(
 
     Parameters
     ----------
-    time, angle, speed : of the shaft
-    constants : of the equation
-    share : of the gas's torque that is left
+    time, angle, speed : time, angle and speed of the shaft
+    constants : constants of the equation
+    share : share of the gas's torque that remains
     turning : sense in which friction is overcome; 0 leaves it out
     push : torque forwards, N m
     """
@@ -147,7 +147,7 @@ class Coasting:
 
         Parameters
         ----------
-        time, angle : of the shaft, s and rad
+        time, angle : time and angle of the shaft, s and rad
         """
         ahead = angle + self.shift(np.asarray(time)).angle
         return float(self.fixed_inertia(angle) + self.shifted_inertia(ahead))
@@ -200,7 +200,8 @@ def wrench_along(
     Parameters
     ----------
     part : its path over one revolution
-    angle, rate, acceleration : of the part's own angle in time, shape (times,), rad, rad/s, rad/s²
+    angle, rate, acceleration : angle, rate and acceleration of the part's own angle in time, shape
+        (times,), rad, rad/s, rad/s²
 
     Returns
     -------

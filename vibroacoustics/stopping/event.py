@@ -81,7 +81,7 @@ def stopping_event(
     run : with steady running for the clock's lead at least, LOAD_SAMPLES per sample of the clock
     clock : times of the result
     body : the machine on its mounts
-    pressure_per_velocity : of frequencies to shape (receiver, dof, frequency)
+    pressure_per_velocity : function of frequencies to shape (receiver, dof, frequency)
     shell : that bends too; none for a rigid one
 
     Raises

@@ -30,7 +30,7 @@ def stopping_order_map(stops: Stops, speed_rpm: float) -> xr.Dataset:
 
     Parameters
     ----------
-    stops : of the machine
+    stops : stops of the machine
     speed_rpm : before switch-off
     """
     no_gas = stops.stopping.model_copy(update={"gas_share_ratio": 0.0})

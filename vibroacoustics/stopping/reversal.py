@@ -34,8 +34,8 @@ class TrappedGas:
     ----------
     volume_m3 : that is trapped
     per_turn_m3 : that a turn back gives to it, the pockets at their opening
-    pressures_pa : of suction and discharge
-    index : of the expansion
+    pressures_pa : pressures of suction and discharge
+    index : index of the expansion
     """
 
     volume_m3: float
@@ -123,7 +123,7 @@ def turn_back(
     coasting : equation of motion
     table : brake
     gas : trapped
-    rest_s, rest_angle : of the first rest
+    rest_s, rest_angle : time and angle of the first rest
 
     Raises
     ------

@@ -33,7 +33,7 @@ class Stops:
     stopping : inertia, drag, shift
     parts : moving parts over a revolution
     machine : with its gas, whose torque is that of steady running at the speed before the stop
-    after : what follows the first rest; none for stops that end there
+    after : stretch after the first rest; none for stops that end there
     """
 
     stopping: Stopping

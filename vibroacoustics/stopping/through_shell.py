@@ -48,11 +48,11 @@ class StopThroughShell:
 
         Parameters
         ----------
-        run : of the machine
+        run : run of the machine
         first : sample of the run with which the result begins
         fade : factor of the load, from that sample to the run's end
-        samples : of the result
-        rate_hz : of the result
+        samples : number of samples of the result
+        rate_hz : sample rate of the result
         """
         loads = {port: fade * load for port, load in self.loads(run, first).items()}
         out = round(LOAD_SAMPLES * FADE_OUT_S * rate_hz)
@@ -98,8 +98,8 @@ def brake_on_parts(
     ----------
     table : brake and wall
     force_n : F around the shaft, shape (times,)
-    angle : of crank pin and brake, rad
-    height_m : of the brake
+    angle : angle of crank pin and brake, rad
+    height_m : height of the brake
 
     Returns
     -------

@@ -20,8 +20,8 @@ class BaselineFile:
 
     Attributes
     ----------
-    path : of the file
-    settings : of the baseline
+    path : path of the file
+    settings : settings of the baseline
     receivers : names of the study's microphones
     stated_speed : gives the speed of a file that states none, rpm
     """
@@ -52,9 +52,9 @@ class BaselineReader:
 
     Attributes
     ----------
-    name : of the format, short
-    suffixes : of the files' names, small letters with the dot
-    read : what a file holds
+    name : name of the format, short
+    suffixes : suffixes of the files' names, small letters with the dot
+    read : function that reads the content of a file
     """
 
     name: str

@@ -91,7 +91,7 @@ def label_and_unit(name: str, label: str = "", unit: str = "") -> tuple[str, str
     Parameters
     ----------
     name : key in study files
-    label, unit : of the criterion
+    label, unit : label and unit of the criterion
     """
     stem, suffix = split_key(name)
     words = label or stem.replace("_", " ").capitalize()

@@ -91,7 +91,7 @@ def _failing(fault: FaultError, options: _Kinds, sources: _Kinds) -> list[str]:
 
     Parameters
     ----------
-    fault : of a plug-in
+    fault : fault of a plug-in
     options, sources : kinds by name
     """
     failing = _of_kind(fault, OPTIONS.noun, options)

@@ -166,7 +166,7 @@ def _redesigns(
 
     Parameters
     ----------
-    content : of the study
+    content : content of the study
     reader : gets what is refused
     read : the machine with further tables of changes, by their keys
     joined : names that each combination joins

@@ -24,13 +24,13 @@ class SpeedChannel:
 
     Attributes
     ----------
-    channel : of the tacho, or of the speed with the unit rpm
-    pulses_per_revolution : of the tacho
+    channel : channel of the tacho, or of the speed with the unit rpm
+    pulses_per_revolution : pulses per revolution of the tacho
     index_channel : with one pulse a revolution, at which the crank angle is zero
     threshold : level of the tacho that marks the angle, in its unit; None: from its pulses, whose
         height it follows
-    edge : of the tacho's pulses, `rising` or `falling`; None: the rising one, but of pulses to both
-        sides of a rest the steeper one
+    edge : edge of the tacho's pulses, `rising` or `falling`; None: the rising one, but of pulses to
+        both sides of a rest the steeper one
 
     Raises
     ------
@@ -136,7 +136,7 @@ class SpeedLine:
     ----------
     channel : name, or None for the recording's only channel
     points : time, s from the first sample, and speed, rpm, of at least two points; times rise
-    comb, mains_hz : as of `TacholessSpeed`
+    comb, mains_hz : see `TacholessSpeed`
 
     Raises
     ------
@@ -183,9 +183,9 @@ class OrderAnalysis:
     ----------
     speed : where the speed comes from
     orders : wanted, rising
-    maximum_order : of spectra and map
+    maximum_order : maximum order of spectra and map
     resolution_order : coarsest noise bandwidth of a line, orders
-    speed_step_rpm : of the operating points of a run-up
+    speed_step_rpm : speed step of the operating points of a run-up
     with_map : whether the order map of every block is kept; None: of a run-up where it takes at
         most 128 MiB
     bands : third octaves of sound pressure as "sums" of the lines within a band, or through the

@@ -76,7 +76,7 @@ class Reader:
 
         Parameters
         ----------
-        keys : of the leaf
+        keys : keys of the leaf
         value : number, or table with value, source and range
         unit : where the key's suffix tells none
         """

@@ -28,7 +28,7 @@ class SampleSet:
 
     Attributes
     ----------
-    samples : as many as the study asks for
+    samples : number of samples that the study wants
     refused : why others were not taken, one line each
     """
 
@@ -125,8 +125,8 @@ def with_sample(machine: Machine, nominal: Machine, sample: Sample) -> Machine:
 
     Parameters
     ----------
-    machine : as an option leaves it
-    nominal : of the study
+    machine : machine with an option
+    nominal : nominal machine of the study
     sample : values by table and field
 
     Raises

@@ -20,7 +20,7 @@ def at_speeds(study: Study, speeds_rpm: Sequence[float], options: Mapping[str, O
 
     Parameters
     ----------
-    study : of all speeds
+    study : study of all speeds
     speeds_rpm : among those of the study, where that gives supply frequencies
     options : by name
     """

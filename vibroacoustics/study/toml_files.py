@@ -33,7 +33,7 @@ class Written(NamedTuple):
 
     Attributes
     ----------
-    path : of the file
+    path : path of the file
     content : its tables
     origin : file that each value comes from, by its keys
     """

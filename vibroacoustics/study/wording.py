@@ -39,7 +39,7 @@ def validated(
     ----------
     model : class of the parameters
     content : values in SI by field
-    reader : of the file
+    reader : reader of the file
     table : keys of the table in the file that holds the content
 
     Raises

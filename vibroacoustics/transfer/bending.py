@@ -45,9 +45,9 @@ class BendingShell:
     Attributes
     ----------
     path : modes and joints
-    loss_factor_ratio : of the shell
+    loss_factor_ratio : loss factor of the shell
     variation : how the real shell differs
-    frame : what the parts do to the shell; none where they hand their loads on as they are
+    frame : forces of the parts on the shell; none where they hand their loads on unchanged
     gas : spaces of gas in the shell, by the name of their table
     yoke : the stator's, as a ring in the shell; none where the machine has none
     """
@@ -197,7 +197,7 @@ def pressure_over_time(
     shell : with one set of values
     observers : microphones
     loads : by port, shape (component, times); the number of times is a multiple of LOAD_SAMPLES
-    load_rate_hz : as of `transient`
+    load_rate_hz : see `transient`
     """
     times = next(iter(loads.values())).shape[-1]
     highest_hz = load_rate_hz / (LOAD_SAMPLES * RESULT_SAMPLES)

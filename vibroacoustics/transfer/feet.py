@@ -20,7 +20,7 @@ class Stand:
     Attributes
     ----------
     mounts : stiffness of one mount, pitch of the square, loss factor
-    height_m : of the mounts, but of feet that give their own, from the centre of mass
+    height_m : height of the mounts from the centre of mass, except of feet that give their own
     feet : anywhere; four in a square where there are none
     stiffness : over frequency, of every mount without one of its own
     floor : that gives way; rigid where there is none

@@ -152,7 +152,7 @@ class Isolation:
 
         Parameters
         ----------
-        displacement : of each body, shape (..., body, 6), m and rad, complex peak
+        displacement : displacement of each body, shape (..., body, 6), m and rad, complex peak
         frequency_hz : at least zero, broadcasts against displacement[..., 0, 0]
         """
         omega = 2.0 * np.pi * np.asarray(frequency_hz, dtype=float)[..., None, None]

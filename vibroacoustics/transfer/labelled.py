@@ -170,10 +170,10 @@ def spring_displacement(
 
     Parameters
     ----------
-    suspension : of the block
+    suspension : suspension of the block
     shell, block : velocity of the centre of mass, complex peaks from order 0, shape (speed, order,
         6), m/s and rad/s
-    frequency_hz : of the orders, shape (speed, order)
+    frequency_hz : frequency of the orders, shape (speed, order)
     """
     low = suspension.springs_height_m
     motion = [

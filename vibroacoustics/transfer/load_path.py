@@ -40,7 +40,7 @@ class LoadPath:
 
         Parameters
         ----------
-        observers : of the machine
+        observers : observers of the machine
         ports : where it is loaded
         frequency_hz : shape (frequency,)
         lines : indices of frequencies that are loaded; all where they are not given
@@ -88,7 +88,7 @@ class LoadPath:
 
         Parameters
         ----------
-        observers : of the machine
+        observers : observers of the machine
         loads : by port, shape (component, line)
         frequency_hz : shape (line,)
         """

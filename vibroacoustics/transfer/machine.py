@@ -38,10 +38,11 @@ class Response:
 
     Attributes
     ----------
-    velocity : of the centre of mass of the body on the feet, which radiates; shape (..., 6), m/s
-        and rad/s
-    block_velocity : of the body with the mechanism, as `velocity`; the same without a suspension
-    foot_force : of the machine on the floor at each foot, shape (..., foot, axis), N
+    velocity : velocity of the centre of mass of the body on the feet, which radiates; shape (...,
+        6), m/s and rad/s
+    block_velocity : velocity of the body with the mechanism, shape of `velocity`; equal without a
+        suspension
+    foot_force : force of the machine on the floor at each foot, shape (..., foot, axis), N
     """
 
     velocity: ComplexArray
@@ -68,7 +69,7 @@ class MachineOnMounts:
     foot_height_m : height of the mounts relative to that body's centre of mass
     suspension : block, springs and tube
     feet : anywhere, in place of four in a square
-    mount_stiffness : of the mounts over frequency
+    mount_stiffness : stiffness of the mounts over frequency
     floor : that gives way under the feet; rigid where there is none
     attached : further bodies, of an option
     """
@@ -160,7 +161,7 @@ class MachineOnMounts:
         ----------
         load : force and moment about the body's centre of mass, shape (..., 6), N and N m
         frequency_hz : at least zero, broadcasts against load[..., 0]
-        port : of the body; that with the mechanism where none is given
+        port : port of the body; that with the mechanism where none is given
         """
         isolation, mechanism = self.isolation, self.mechanism_port
         loads = np.zeros((*np.shape(load)[:-1], len(isolation.bodies), 6), dtype=complex)

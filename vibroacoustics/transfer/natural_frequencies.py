@@ -30,10 +30,10 @@ def natural_variables(
 
     Parameters
     ----------
-    machine : as given
+    machine : nominal machine
     path : modes of its shell
-    loads : of all sources in one case; their ports say how fast sound is in the spaces of gas
-    highest_hz : of the sound
+    loads : loads of all sources in one case; their ports say how fast sound is in the spaces of gas
+    highest_hz : highest frequency of the sound
     """
     named = {
         "shell": shell_frequencies(machine, path),

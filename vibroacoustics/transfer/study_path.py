@@ -68,7 +68,7 @@ def measured_shell_path(
     Parameters
     ----------
     study : with the shell's joints
-    frequency_hz, modal_mass_kg : of the modes, shape (mode,)
+    frequency_hz, modal_mass_kg : frequency and modal mass of the modes, shape (mode,)
     nodes_m : about the centre of mass, shape (node, 3)
     shape : displacements, shape (mode, node, 3)
     """

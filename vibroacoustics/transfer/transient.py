@@ -51,7 +51,8 @@ def transient(
         times is a multiple of LOAD_SAMPLES
     load_rate_hz : LOAD_SAMPLES times that of the result; RESULT_SAMPLES times the highest
         frequency are the result's
-    pressure_per_velocity : of frequencies up to the highest to shape (receiver, dof, frequency)
+    pressure_per_velocity : function of frequencies up to the highest to shape (receiver, dof,
+        frequency)
     """
     times = load.shape[-1]
     highest_hz = load_rate_hz / (LOAD_SAMPLES * RESULT_SAMPLES)

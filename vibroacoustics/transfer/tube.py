@@ -25,7 +25,7 @@ def tube_stiffness(
     Parameters
     ----------
     path_m : points of the centre line, from one body to the other, shape (points, 3), points >= 2
-    outer_diameter_m, inner_diameter_m : of the tube; inner zero for a rod
+    outer_diameter_m, inner_diameter_m : diameters of the tube; inner zero for a rod
     youngs_modulus_pa : Young's modulus
     poisson_ratio : Poisson's ratio
 
@@ -104,8 +104,8 @@ def tube_end_reactions(
     ----------
     path_m : points of the centre line, shape (points, 3)
     force_n : at each point, shape (points, 3, line)
-    stiffness : of the far end, of `tube_stiffness`
-    outer_diameter_m, inner_diameter_m, youngs_modulus_pa, poisson_ratio : as there
+    stiffness : stiffness of the far end, see `tube_stiffness`
+    outer_diameter_m, inner_diameter_m, youngs_modulus_pa, poisson_ratio : see `tube_stiffness`
 
     Returns
     -------

@@ -25,7 +25,7 @@ def wall_points(angle_rad: Array, height_m: Array, radius_m: float) -> tuple[Arr
     ----------
     angle_rad : from x towards y, shape (point,)
     height_m : shape (point,)
-    radius_m : of the wall
+    radius_m : radius of the wall
     """
     normal = np.stack([np.cos(angle_rad), np.sin(angle_rad), np.zeros_like(angle_rad)], axis=1)
     return radius_m * normal + np.outer(height_m, [0.0, 0.0, 1.0]), normal

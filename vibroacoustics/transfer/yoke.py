@@ -48,7 +48,7 @@ class YokeOnWall:
     ----------
     yoke : ring
     path : modes of the shell, the band of the stator
-    frequency_factor : of the shell's modes beside that of the path
+    frequency_factor : frequency factor of the shell's modes, beside that of the path
     """
 
     yoke: StatorYoke

@@ -213,7 +213,7 @@ WRONG = [
     ({"a.csv": HEAD + "front_1m,930,1,60"}, {"microphones": {"side_1m": {"node": 1}}},
      "microphone side_1m: the files hold nothing of it"),
     ({"a.csv": "frequency [Hz],5 real [Pa],5 imaginary [Pa]\n1,1,1\n2,1,1\n3,1,1"}, {},
-     "measured.baseline.microphones.front_1m = { node = 1 }; there are spectrum 5"),
+     "measured.baseline.microphones.front_1m = { node = 1 }; the file has spectrum 5"),
     ({"a.csv": "frequency [Hz],5 real [Pa]\n1,1\n2,1\n3,1"},
      {"microphones": {"front_1m": {"node": 5}}}, "states no speed: recorded_speed_rpm is missing"),
     ({"a.csv": "microphone,speed_rpm,frequency_hz,level_db\nfront_1m,930,1,6\nfront_1m,930,2,6\n"

@@ -29,8 +29,8 @@ class Solved(NamedTuple):
 
     Attributes
     ----------
-    words : what it is
-    equations : of its shaft
+    words : description of the curve
+    equations : equations of its shaft
     angle, states : rad, shape (STEPS,), and shape (STEPS, 2n + 1)
     """
 

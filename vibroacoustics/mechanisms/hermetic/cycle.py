@@ -118,7 +118,7 @@ def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Arr
 
     Parameters
     ----------
-    solution : of `steady_cycle` with the same number of steps
+    solution : result of `steady_cycle` with the same number of steps
     steps : samples per revolution
 
     Returns

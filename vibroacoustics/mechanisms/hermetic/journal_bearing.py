@@ -147,7 +147,7 @@ def positive_film_force(
     ----------
     bearing : radius, width and clearance in m, viscosity in Pa s
     displacement_m : journal centre from the bearing's, shape (..., 2)
-    velocity : of the journal centre, m/s, shape (..., 2)
+    velocity : velocity of the journal centre, m/s, shape (..., 2)
     spin : Ω, rad/s
 
     Returns

@@ -96,7 +96,7 @@ class RodMotion:
 
     Attributes
     ----------
-    sine, cosine : of the rod's angle α to the cylinder axis
+    sine, cosine : sine and cosine of the rod's angle α to the cylinder axis
     piston_position_m : x_B
     piston_velocity : ẋ_B, m/s
     angular_velocity : α̇, rad/s
@@ -196,7 +196,7 @@ def joint_forces(machine: HermeticTables, motion: RodMotion, gas_force_n: Values
     Parameters
     ----------
     machine : masses in kg, lengths in m
-    motion : of rod and piston
+    motion : motion of rod and piston
     gas_force_n : towards the crankshaft, N
     """
     rod, piston = machine.rod, machine.piston

@@ -21,9 +21,9 @@ class BearingCycle:
     Attributes
     ----------
     orbit_m : journal centre from the bearing's, shape (angles, 2)
-    force_n : of the film on the journal, shape (angles, 2)
+    force_n : force of the film on the journal, shape (angles, 2)
     thinnest_film_m : shape (angles,)
-    highest_pressure_pa : of the short film, shape (angles,)
+    highest_pressure_pa : highest pressure of the short film, shape (angles,)
     """
 
     orbit_m: Array

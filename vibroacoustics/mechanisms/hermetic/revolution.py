@@ -88,9 +88,9 @@ def housing_wrenches(equations: ShaftEquations, angle: Array, states: Array) -> 
 
     Parameters
     ----------
-    equations : of the case
+    equations : equations of the case
     angle : crank angle, rad, shape (angles,)
-    states : of the periodic solution there, shape (angles, 2n + 1)
+    states : states of the periodic solution there, shape (angles, 2n + 1)
 
     Returns
     -------

@@ -33,7 +33,7 @@ class Crankshaft:
 
     Attributes
     ----------
-    matrices : of the rotor's n freedoms; the first are those of the crank
+    matrices : matrices of the rotor's n degrees of freedom; the first are those of the crank
     bearing_dofs : index of x of each bearing; y follows it
     free : which of the crank's x, y, β, Γ, θ move, in this order; the others are held
     """

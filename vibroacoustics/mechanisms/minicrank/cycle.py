@@ -118,7 +118,7 @@ class MiniCrankCycle:
     masses : with all mini-cranks as one
     load : on the scroll
     input_torque_n_m : at constant speed by source, equation (17)
-    rotation : of the crankshaft with its own inertia and motor
+    rotation : rotation of the crankshaft with its own inertia and motor
     """
 
     links: Links

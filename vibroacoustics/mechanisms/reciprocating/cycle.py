@@ -220,7 +220,7 @@ def efficiency_map(
     ----------
     machine : masses in kg, lengths in m, pressures in Pa
     speed_rpm : mean over time
-    bore_m : of the designs
+    bore_m : bore of the designs
     samples : crank angles of a revolution
 
     Returns

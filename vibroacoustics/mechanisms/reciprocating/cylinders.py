@@ -19,7 +19,7 @@ class Cylinder(NamedTuple):
 
     Attributes
     ----------
-    bank_rad : of its axis from the crank frame's stroke, in the sense of rotation
+    bank_rad : angle of its axis from the crank frame's stroke, in the sense of rotation
     throw : index of its crank throw
     throw_rad : by which its crank pin runs ahead of the crank angle
     position_m : along the shaft

@@ -33,7 +33,7 @@ class RollingPistonCycle:
     Attributes
     ----------
     rotation : speed, acceleration and all of the motor's torque
-    gas : of each cylinder, over its own angle
+    gas : gas of each cylinder, over its own angle
     contacts : vane and roller of each cylinder, over its own angle
     load_n_m : torque against the rotation, shape (samples,)
     """

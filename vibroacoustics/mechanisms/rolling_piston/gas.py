@@ -28,7 +28,7 @@ class GasTurn(NamedTuple):
     ----------
     compression_pa : p_c, shape (samples,)
     flow_kg_per_s : through the discharge valve, shape (samples,)
-    lift_m : of the reed, shape (samples,)
+    lift_m : lift of the reed, shape (samples,)
     mass_kg : in the compression chamber with its clearance, shape (samples,)
     delivered_kg : through the valve from the closing of the suction port to the end of the turn,
         less what flows back
@@ -65,7 +65,7 @@ def gas_turn(
 
     Parameters
     ----------
-    cylinder, gas, valve, leakage : of the machine
+    cylinder, gas, valve, leakage : cylinder, gas, valve and leakage of the machine
     speed_rpm : mean over time
     samples : uniform angles of the turn
 

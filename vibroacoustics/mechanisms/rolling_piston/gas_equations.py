@@ -61,7 +61,7 @@ def valve_flow(pressure: float, density: float, lift: float, c: Chamber) -> floa
     Parameters
     ----------
     pressure, density : in the chamber
-    lift : of the reed, m
+    lift : lift of the reed, m
     c : constants
     """
     if lift <= 0.0:
@@ -161,7 +161,7 @@ def chamber_turn(lift: float, speed: float, c: Chamber) -> Array:
 
     Parameters
     ----------
-    lift, speed : of the reed at the start, m and m/s
+    lift, speed : lift and speed of the reed at the start, m and m/s
     c : constants
     """
     states = np.empty((4, c.steps + 1))

@@ -58,7 +58,7 @@ def housing_wrenches(machine: RollingPistonTables, cycle: RollingPistonCycle) ->
     Parameters
     ----------
     machine : masses in kg, lengths in m
-    cycle : of the machine
+    cycle : cycle of the machine
     """
     rotation = cycle.rotation
     wrenches = wrenches_of_parts(turning_parts(machine, rotation.crank_angle), rotation)
@@ -86,7 +86,7 @@ def facts(
 
     Parameters
     ----------
-    machine : of the cycle
+    machine : machine of the cycle
     cycle : steady
     speed_rpm : mean over time
     """
@@ -118,7 +118,7 @@ def friction_w(machine: RollingPistonTables, cycle: RollingPistonCycle) -> float
 
     Parameters
     ----------
-    machine : of the cycle
+    machine : machine of the cycle
     cycle : steady
     """
     speed = cycle.rotation.speed_rad_per_s

@@ -168,7 +168,7 @@ def crank_acceleration(
     ----------
     machine : masses in kg, lengths in m
     state : motion of the crank; its acceleration has shaped the forces
-    forces : of that motion
+    forces : forces of that motion
     motor_torque_n_m : M_v
     """
     fourth, fifth, sixth, passed = crank_coefficients(machine, state.angle, forces.contacts)
@@ -194,7 +194,7 @@ def settled(
     Parameters
     ----------
     machine : masses in kg, lengths in m
-    angle, velocity : of the crank, rad and rad/s, shape (samples,)
+    angle, velocity : angle and velocity of the crank, rad and rad/s, shape (samples,)
     motor_torque_n_m : M_v, shape (samples,)
 
     Raises

@@ -80,7 +80,7 @@ class SliderLinkCycle:
     forces : inside the machine
     motor_torque_n_m : M_v
     time_s : from crank angle zero
-    work_j : of one revolution: put in by the motor, taken by the gas and by each friction
+    work_j : work of one revolution: put in by the motor, taken by the gas and by each friction
     """
 
     state: CrankState
@@ -105,7 +105,7 @@ def steady_motion(
     ----------
     machine : masses in kg, lengths in m, pressures in Pa
     mean_velocity : one revolution per its time, rad/s
-    samples : of the result, a multiple of four; also the number of panels of the quadrature
+    samples : number of samples of the result, a multiple of four; also the panels of the quadrature
 
     Raises
     ------

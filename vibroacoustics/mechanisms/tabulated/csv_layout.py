@@ -146,7 +146,7 @@ def forces_csv(results: xr.Dataset, option: str = REFERENCE_OPTION) -> bytes:
 
     Parameters
     ----------
-    results : of `run`
+    results : results of `run`
     option : by name
     """
     dims = ("speed", "source", "order", "axis")

@@ -48,7 +48,7 @@ def axes_lines(frame: Mapping[str, Any], source: str) -> list[str]:
     Parameters
     ----------
     frame : `CrankFrame` by its names
-    source : of the position of the shaft
+    source : source of the position of the shaft
 
     Returns
     -------

@@ -18,7 +18,7 @@ class Outdoors:
     Attributes
     ----------
     ground_z_m : height of the ground
-    flow_resistivity_pa_s_per_m2 : of the ground; none where it is hard
+    flow_resistivity_pa_s_per_m2 : flow resistivity of the ground; none where it is hard
     barrier : none where there is none
     """
 
@@ -113,7 +113,7 @@ def reflection_coefficient(
     wavenumber : k, rad/m
     admittance : β = ρc/Z
     distance_m : r2 from the image source, shape (...)
-    cosine : of the angle of incidence from the vertical, cos θ = (z + h)/r2, shape (...)
+    cosine : cosine of the angle of incidence from the vertical, cos θ = (z + h)/r2, shape (...)
     """
     if admittance == 0.0:
         return np.ones(np.shape(distance_m), dtype=complex)

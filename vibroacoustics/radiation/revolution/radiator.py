@@ -101,7 +101,7 @@ def wall_pressure(
 
     Parameters
     ----------
-    mesh : of the meridian
+    mesh : mesh of the meridian
     null : points in the body where the field vanishes, (point, 2), m
     wavenumber : rad/m
     velocity : normal velocity at the nodes, (node, column) of each order, m/s

@@ -170,10 +170,10 @@ class RevolutionSide:
 
         Parameters
         ----------
-        pressure : of `spectrum`
+        pressure : result of `spectrum`
         addition : to them
         points, table_hz : those of the pressures
-        name, progress : of the advance
+        name, progress : name and progress of the computation
         """
         indices = first_solved(table_hz)
         progress(name, 0, indices.size)

@@ -79,7 +79,7 @@ def random_absorption_slopes(admittance: ComplexArray) -> tuple[Array, Array]:
 
     Parameters
     ----------
-    admittance : of rho c, (frequency,)
+    admittance : admittance times rho c, (frequency,)
     """
     node, weight = _quadrature()
     cosine = (node + 1.0) / 2.0

@@ -23,7 +23,7 @@ class JoinBox:
     Parameters
     ----------
     lower, upper : corners (3,), m
-    maximum_frequency_hz : of the waves
+    maximum_frequency_hz : maximum frequency of the waves
     clearance_m : between the sides and the body in the box: the closer, the more nodes
     on_floor : whether the box stands on something hard: its lowest side is left out, where neither
         the field nor the Green's function has a slope

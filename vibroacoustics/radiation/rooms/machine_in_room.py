@@ -62,13 +62,13 @@ def room_vectors(
 
     Parameters
     ----------
-    shell, settings : of the machine; the settings' surroundings are not asked, the room stands
-        for them
+    shell, settings : shell and settings of the machine; the room replaces the settings'
+        surroundings for them
     room : without the machine
-    foot_m : of the axis of the shell on what it stands on, in the room's coordinates, (3,); the
-        axes of machine and room are parallel
+    foot_m : foot of the axis of the shell on what it stands on, in the room's coordinates, (3,);
+        the axes of machine and room are parallel
     listeners : (3,) by name, in the room's coordinates, m
-    maximum_frequency_hz : of the waves
+    maximum_frequency_hz : maximum frequency of the waves
     motions : surface velocities besides the rigid motions
     progress : told of the advance
 

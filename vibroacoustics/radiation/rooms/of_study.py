@@ -201,9 +201,9 @@ def diffuse_per_power(
 
     Parameters
     ----------
-    settings : of the room
+    settings : settings of the room
     source_m : where the sound comes from, shape (3,)
-    gain : of the power at its place, of frequencies
+    gain : gain of the power at its position, a function of frequencies
 
     Returns
     -------
@@ -295,7 +295,7 @@ def arrivals(settings: StudyRoom, source_m: Array) -> Arrivals:
 
     Parameters
     ----------
-    settings : of the room
+    settings : settings of the room
     source_m : where the sound comes from, shape (3,)
     """
     room, ears_m = room_of(settings), list(listeners_m(settings).values())

@@ -47,9 +47,9 @@ class Runs:
 
     Parameters
     ----------
-    boxes, faces : of the air
+    boxes, faces : boxes and faces of the air
     lattices : where is recorded
-    quantities : of each lattice, pressure (-1) and derivatives by axis
+    quantities : quantities of each lattice, pressure (-1) and derivatives by axis
     settings : spacing and duration
     longest_s : duration after the pulse, at most
     """
@@ -201,7 +201,7 @@ def room_transfer(
     Parameters
     ----------
     room : its origin is the origin of all coordinates
-    lattices : of points, such as those of `join_lattices`
+    lattices : lattices of points, such as those of `join_lattices`
     microphones : (3,) by name, m
     frequency_hz : (frequency,), up to the settings' highest
     settings : spacing and duration

@@ -87,8 +87,9 @@ def fields(name: str, struct: Any, depth: int = 0) -> list[NamedArray]:
 
     Parameters
     ----------
-    name : of the struct
-    struct : as SciPy reads it: an array of objects with fields; of several each has its number
+    name : name of the struct
+    struct : struct that SciPy reads: an array of objects with fields; of several each has its
+        number
     depth : structs around it
     """
     if depth == _MAXIMUM_DEPTH:

@@ -20,11 +20,11 @@ class Column:
 
     Attributes
     ----------
-    label : what it is
-    unit : of its values; empty for a number or a choice
+    label : label of the variable
+    unit : unit of its values; empty for a number or a choice
     values : shape (design,); of a choice the number among its words; not a number where a design
         has no such value
-    words : of a choice
+    words : words of a choice
     """
 
     label: str
@@ -53,7 +53,7 @@ class Evaluated:
     ----------
     variables, objectives : columns
     met : which designs meet every constraint, shape (design,)
-    front : of these, those of which none is better in every objective, shape (design,)
+    front : designs of these of which none is better in every objective, shape (design,)
     best : numbers of the best few, the first one first
     """
 

@@ -44,7 +44,7 @@ def campbell(
 
     Parameters
     ----------
-    results : of `run` at two speeds at least; needs `natural_frequency` (mode), Hz, and
+    results : results of `run` at two speeds at least; needs `natural_frequency` (mode), Hz, and
         `pressure_line`; with `shell_frequency` and `gas_frequency` these modes
     receiver : one of the microphones; default: that of the catalogue's noise
     option : one of the results

@@ -37,8 +37,8 @@ def curves(dataset: xr.Dataset, name: str | None = None) -> Chart:
 
     Parameters
     ----------
-    dataset : of `vibroacoustics.curves`, also as read from its file; needs `name`
-    name : of the variable; default: the first
+    dataset : dataset of `vibroacoustics.curves`, also as read from its file; needs `name`
+    name : name of the variable; default: the first
     """
     name = str(next(iter(dataset), "")) if name is None else name
     if name not in dataset.data_vars or "read_in" not in dataset[name].attrs:

@@ -52,11 +52,11 @@ def levels_over_speed(
 
     Parameters
     ----------
-    results : of `run`, needs `level_total` (speed, option, receiver), dB; or of
+    results : results of `run`, needs `level_total` (speed, option, receiver), dB; or of
         `speed_frequency_map`, needs `block_level` (channel, block, weighting), dB
     receiver : microphone or channel of sound pressure; default: that of the catalogue's noise, or
         the first
-    options : of a study, the first with its band; default: the first eight
+    options : options of a study, the first with its band; default: the first eight
     beside : other results, whose lines are dashed
     beside_options : options of these
     """
@@ -112,7 +112,7 @@ def source_levels_over_speed(
 
     Parameters
     ----------
-    results : of `run`; needs `source_level` (speed, option, sound_source, receiver), dB
+    results : results of `run`; needs `source_level` (speed, option, sound_source, receiver), dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     option : one of the results
     """

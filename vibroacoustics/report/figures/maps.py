@@ -70,7 +70,7 @@ def unit_level_map(radiated: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    radiated : of `radiate`; needs `map_transfer_vector`
+    radiated : result of `radiate`; needs `map_transfer_vector`
         (map_row, map_column, dof, line_frequency), Pa s/m
     """
     field = radiated["map_transfer_vector"].isel(line_frequency=-1)
@@ -101,7 +101,7 @@ def line_map(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `map_level` (speed, option, map_row, map_column), dB
+    results : results of `run`; needs `map_level` (speed, option, map_row, map_column), dB
     """
     level = few_speeds(results)["map_level"].sel(option=REFERENCE_OPTION)
     level = level.transpose("speed", "map_row", "map_column")
@@ -164,7 +164,8 @@ def transfer_vectors(radiated: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    radiated : of `radiate` or `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
+    radiated : result of `radiate` or `run`; needs `transfer_vector` (receiver, dof, frequency), Pa
+        s/m
     """
     dims = ("dof", "receiver", "frequency")
     field, error = radiated["transfer_vector"].transpose(*dims), None

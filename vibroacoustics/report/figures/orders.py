@@ -24,7 +24,7 @@ def force_over_revolution(results: xr.Dataset, speed_rpm: float | None = None) -
 
     Parameters
     ----------
-    results : of `run`; needs `force` (speed, option, source, axis, crank_angle), N
+    results : results of `run`; needs `force` (speed, option, source, axis, crank_angle), N
     speed_rpm : one of the results' speeds; default: the highest
     """
     speed = max(speeds(results)) if speed_rpm is None else chosen(results, "speed", speed_rpm)
@@ -67,7 +67,7 @@ def force_orders(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `force_amplitude` (speed, option, order), N
+    results : results of `run`; needs `force_amplitude` (speed, option, order), N
     """
     force = few_speeds(results)["force_amplitude"]
     return _of_force("force_orders", "Resultant force", force, "Force, N")
@@ -79,7 +79,7 @@ def foot_force_orders(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `foot_force_amplitude` (speed, option, foot, order), N
+    results : results of `run`; needs `foot_force_amplitude` (speed, option, foot, order), N
     """
     feet = few_speeds(results)["foot_force_amplitude"].max("foot")
     return _of_force("foot_force_orders", "Largest foot force", feet, "Force into a foot, N")
@@ -91,7 +91,7 @@ def level_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `order_level` (speed, option, receiver, order, weighting), dB
+    results : results of `run`; needs `order_level` (speed, option, receiver, order, weighting), dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))

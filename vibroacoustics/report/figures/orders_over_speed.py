@@ -36,11 +36,11 @@ def orders_over_speed(
 
     Parameters
     ----------
-    orders : of `analyse_orders`, needs `block_order_rms` (channel, block, order); of `compare`,
-        needs `compared_order_rms`; or of `run`, needs `pressure_line`
+    orders : result of `analyse_orders`, needs `block_order_rms` (channel, block, order); of
+        `compare`, needs `compared_order_rms`; or of `run`, needs `pressure_line`
     channel : named as in `compare`; default: of a study the microphone of the catalogue's noise,
         else the first
-    option : of a study
+    option : option of a study
     """
     cuts = order_cuts(orders, channel, option)
     words, by, title = "", ".", shortened(cuts.channel, 60)
@@ -103,10 +103,10 @@ def speed_frequency_map(
 
     Parameters
     ----------
-    results : of `speed_frequency_map`, needs `speed_frequency_map` (channel, block,
+    results : results of `speed_frequency_map`, needs `speed_frequency_map` (channel, block,
         map_frequency); or of `run`, needs `pressure_line`
     channel : channel or microphone; default: the first, or that of the catalogue's noise
-    option : of a study
+    option : option of a study
     """
     plane = plane_of(results, channel, option)
     colours = level_image(plane.frequency_hz, plane.along, plane.level_db, plane.unit)

@@ -74,7 +74,7 @@ def path_shares(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `path_share` (path_speed, option, path, receiver)
+    results : results of `run`; needs `path_share` (path_speed, option, path, receiver)
     receiver : a microphone; default: the catalogue's
     """
     name = chosen(results, "receiver", receiver or catalogue_receiver(results))

@@ -36,7 +36,7 @@ def mount_transmissibility(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `mount_transmissibility` (axis, mount_frequency), 1
+    results : results of `run`; needs `mount_transmissibility` (axis, mount_frequency), 1
     """
     nominal, attaching, curves = abs(results["mount_transmissibility"]), [], []
     if "option_mount_transmissibility" in results:
@@ -89,8 +89,8 @@ def levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `level_total`, `level_modelled` (speed, option, receiver, …) and
-        `order_level`, dB
+    results : results of `run`; needs `level_total`, `level_modelled` (speed, option, receiver, …)
+        and `order_level`, dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
@@ -134,7 +134,7 @@ def transfer(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
+    results : results of `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
@@ -186,7 +186,7 @@ def green_difference(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `green_difference` (receiver, frequency), dB
+    results : results of `run`; needs `green_difference` (receiver, frequency), dB
     """
     gap = computed_by_kwave(results)
     names = [wrapped(str(name), 24) for name in gap["receiver"].values]

@@ -28,7 +28,7 @@ class Section:
 
     Attributes
     ----------
-    name : of its address within the page
+    name : name in its address within the page
     title : heading, and entry in the contents
     blocks : makes what stands in it from the results, its pictures too
     applies : whether results have such a section

@@ -50,9 +50,9 @@ class Avoided(NamedTuple):
 
     Attributes
     ----------
-    option : of the study
+    option : option of the study
     quantity : LEVEL or FOOT_FORCE
-    range : of speeds
+    range : range of speeds
     line : name of the strongest line at the maximum
     line_hz : its frequency
     mode : nearest to it; none where none is near
@@ -115,7 +115,7 @@ def recorded_speeds_to_avoid(speed_rpm: Array, level_db: Array, bins: int = BINS
 
     Parameters
     ----------
-    speed_rpm, level_db : of the blocks, shape (block,)
+    speed_rpm, level_db : speed and level of the blocks, shape (block,)
     bins : steps
     """
     edges = np.linspace(speed_rpm.min(), speed_rpm.max(), bins + 1)

@@ -21,7 +21,7 @@ class Mode(NamedTuple):
 
     Attributes
     ----------
-    kind : of KINDS
+    kind : kind, one of KINDS
     name : within its kind
     frequency_hz : without loss
     """

@@ -27,7 +27,7 @@ class Plane(NamedTuple):
 
     Attributes
     ----------
-    title : of what
+    title : title of the map
     frequency_hz : shape (column,)
     along : rising speed, rpm, or time, s, shape (row,)
     is_speed : whether it is speed

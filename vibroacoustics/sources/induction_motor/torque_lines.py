@@ -71,7 +71,7 @@ class TorqueLine(NamedTuple):
     motor_torque_n_m : on the rotor; the stator, and with it the housing, gets the opposite
     roll_moment_n_m : on the housing about z by change of the rotor's momentum, -J Ω̇: reaction of
         the motor and of the load together
-    speed_swing_rad_per_s : of the rotor
+    speed_swing_rad_per_s : swing of the speed of the rotor
     """
 
     name: str
@@ -87,7 +87,7 @@ class TorqueLines:
 
     Attributes
     ----------
-    operating_point : of the motor at the mean load
+    operating_point : operating point of the motor at the mean load
     speed_rad_per_s : mean speed
     shaft : orders of the load, phases against crank angle zero
     line : twice and four times the line frequency, against the maximum of the line voltage
@@ -107,7 +107,7 @@ class RotorInMotor:
 
     Attributes
     ----------
-    operating_point : of the motor
+    operating_point : operating point of the motor
     motor : its two-axis equations
     twice_line_hz : twice the line frequency
     speed_rad_per_s : mean

@@ -68,7 +68,7 @@ def key_motion(drive: Drive, position: Array, rate: Array, c: Coupling, keys: Ar
 
     Parameters
     ----------
-    drive : of the time
+    drive : drive at the time
     position, rate : coordinates and their rates, shape (4,)
     c : constants
     keys : shape (4, 4); it is changed
@@ -110,7 +110,7 @@ def accelerations(drive: Drive, keys: Array, c: Coupling, result: Array) -> None
 
     Parameters
     ----------
-    drive : of the time
+    drive : drive at the time
     keys : with the forces, shape (4, 4)
     c : constants
     result : shape (4,); it is changed

@@ -54,7 +54,7 @@ class KeyForces:
 
     Attributes
     ----------
-    speed_rpm : of the shaft, constant
+    speed_rpm : speed of the shaft, constant
     revolutions : their number
     normal_n : force on each key across its slot, shape (4, samples); along x for keys 0 and 1,
         along y for 2 and 3
@@ -129,7 +129,7 @@ def steady_key_forces(
     speed_rpm : constant speed of the shaft
     moment_n_m : turns the scroll about its centre, counter-clockwise as the shaft turns, over
         uniform crank angles from zero, shape (samples,), or one value in (1,)
-    ring_force_n : of a balancer on the ring along x, sampled alike
+    ring_force_n : force of a balancer on the ring along x, at the same samples
     revolutions : to be returned, after those in which the motion settles; only one of those that
         repeat exactly
 
@@ -269,7 +269,7 @@ def contact_loss_speed_rpm(
     Parameters
     ----------
     keys : their radius and friction
-    ring_mass_kg : what moves with the ring along its stroke; a pendulum or a sprung mass may
+    ring_mass_kg : mass that moves with the ring along its stroke; a pendulum or a sprung mass may
         multiply it
     stroke_m : r, amplitude
     moment_n_m : M_z over uniform crank angles from zero, shape (samples,), or one value in (1,)
@@ -294,7 +294,7 @@ def oldham_key_curves(forces: KeyForces) -> Iterator[Curve]:
 
     Parameters
     ----------
-    forces : of one revolution or more, of which the first is shown
+    forces : forces of one revolution or more, of which the first is shown
     """
     samples = forces.normal_n.shape[-1] // forces.revolutions
     angle = angle_axis(forces.crank_angle[:samples])

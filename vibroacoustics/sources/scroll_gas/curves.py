@@ -39,7 +39,7 @@ def scroll_gas_curves(
     wraps : geometry, m and rad
     gas : pressures in Pa and polytropic index
     opened : gas after the opening, where it has inertia
-    filling : of the suction pockets, where it has inertia
+    filling : filling of the suction pockets, where it has inertia
     """
     yield from _of_a_pocket(wraps, gas, opened)
     if opened is not None:

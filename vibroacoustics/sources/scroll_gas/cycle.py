@@ -20,7 +20,7 @@ class ScrollGasCycle:
 
     Attributes
     ----------
-    crank_angle : of the crank pin from x, shape (samples,), rad
+    crank_angle : angle of the crank pin from x, shape (samples,), rad
     orbit_radius_m : radius of the orbiting scroll's circle
     tangential_force_n : against the motion of the orbiting scroll, shape (samples,)
     radial_force_n : towards the axis of the fixed scroll, apart from the flanks' contacts, shape

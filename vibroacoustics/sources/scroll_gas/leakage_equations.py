@@ -79,7 +79,7 @@ def leaks_at(
     ----------
     half : half steps since the opening
     ratio : masses of the pairs 1 to `pairs`, over `mass`
-    mass : of a pair without leakage, kg
+    mass : mass of a pair without leakage, kg
     opened : pressure and density of pair 0
     p : pairs
     leak : shape (pairs + 1,); it is changed
@@ -108,8 +108,8 @@ def leaking_turn(
     Parameters
     ----------
     start : masses of the pairs 1 to `pairs` at the opening, over `mass`
-    mass : of a pair without leakage, kg
-    opened_pa, opened_density : of pair 0 at half steps, shape (2 steps + 1,)
+    mass : mass of a pair without leakage, kg
+    opened_pa, opened_density : pressure and density of pair 0 at half steps, shape (2 steps + 1,)
     p : pairs
 
     Returns

@@ -114,9 +114,9 @@ def steady_opening(
     gas : pressures, polytropic index and state at discharge
     opening : passages and volumes
     speed_rpm : constant
-    steps : of a turn, an even number; none for as many as the gas needs
+    steps : number of steps of a turn, even; none for as many as the gas needs
     leakage : gaps between the pockets; none where they are tight
-    filling : of the suction pockets; none where they are at the suction pressure
+    filling : filling of the suction pockets; none where they are at the suction pressure
 
     Raises
     ------

@@ -124,7 +124,7 @@ def one_turn(start: Array, steps: int, leak: Array, c: OpeningConstants) -> Arra
     Parameters
     ----------
     start : shape (5,)
-    steps : of the turn, an even number
+    steps : number of steps of the turn, even
     leak : out of pair and chamber at half steps, shape (2 steps + 1,), kg/s
     c : constants
 

@@ -44,7 +44,7 @@ class OpenedGas:
     gap_flow_kg_per_s : from pair to chamber; zero after half a turn
     port_flow_kg_per_s : from chamber to plenum
     trapped : gas of the closed pockets where they leak or fill with inertia; else none
-    filling : of the suction pockets where their pressure acts; else none
+    filling : filling of the suction pockets where their pressure acts; else none
     """
 
     since_opening: Array

@@ -86,8 +86,8 @@ def suction_flow(
     Parameters
     ----------
     wraps : geometry
-    gap_length_m : of the gap with the gas that moves along
-    discharge_coefficient : of the gap
+    gap_length_m : length of the gap with the gas that moves along
+    discharge_coefficient : discharge coefficient of the gap
     gas : pressure, density and speed of sound outside, Pa, kg/m³, m/s
     speed_rpm : constant
     """

@@ -23,8 +23,8 @@ class OperatingPoint:
 
     Attributes
     ----------
-    speed_rad_per_s : of the shaft
-    electrical_rad_per_s : of the voltages, pole pairs times the speed
+    speed_rad_per_s : speed of the shaft
+    electrical_rad_per_s : angular frequency of the voltages, pole pairs times the speed
     emf_v, current_a : by harmonic
     voltage_v : fundamental at the terminals
     modulation_ratio : its size over half the voltage of the link

@@ -34,7 +34,7 @@ def in_file(schema: Any) -> Any:
 
     Parameters
     ----------
-    schema : as pydantic makes it
+    schema : schema that pydantic makes
     """
     if isinstance(schema, list):
         return [in_file(part) for part in schema]

@@ -18,7 +18,7 @@ def keys_of(field: str, schema: Schema) -> Iterator[tuple[str, Schema]]:
     Parameters
     ----------
     field : such as `stroke_m`
-    schema : of the field's value in SI
+    schema : schema of the field's value in SI
     """
     stem, unit = split_key(field)
     if unit is None or not _is_numeric(schema):

@@ -61,8 +61,8 @@ class GasInShell:
     ----------
     profile : the space
     under_cap : see `WallPressure`
-    meridian : of the wall
-    modes : of the wall
+    meridian : meridian of the wall
+    modes : modes of the wall
     """
 
     profile: Profile

@@ -20,7 +20,7 @@ class Contacts:
     ----------
     joints : their places on the wall
     parts : that the joints hold
-    radius_m : of the wall
+    radius_m : radius of the wall
     stiffness : with loss, shape (contact,), N/m
     """
 
@@ -48,7 +48,7 @@ def contacts_of(frame: Frame, structure: ShellStructure, radius_m: float) -> Con
     ----------
     frame : stiffness, legs of the lower bearing
     structure : joints of the other parts
-    radius_m : of the wall
+    radius_m : radius of the wall
     """
     contact_stiffness = frame.contacts
     every: Sequence[tuple[Port, Joint, float]] = (
@@ -75,7 +75,7 @@ def rigid_rows(joint: Joint, radius_m: float) -> Array:
     Parameters
     ----------
     joint : welds
-    radius_m : of the wall
+    radius_m : radius of the wall
     """
     angle, z = weld_angles(joint), joint.height_m
     mean = np.sinc(joint.spread_rad / (2.0 * np.pi))

@@ -20,7 +20,7 @@ class Elastic:
     Attributes
     ----------
     mass, stiffness : shape (freedom, freedom)
-    loss_factor_ratio : of the stiffness
+    loss_factor_ratio : loss factor of the stiffness
     """
 
     mass: Array

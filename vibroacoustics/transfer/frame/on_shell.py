@@ -39,12 +39,12 @@ class FrameOnShell:
     Attributes
     ----------
     inner : the parts
-    contacts : of the parts with the shell
-    modal_forces : of the shell's modes per force on a contact, shape (mode, contact)
+    contacts : contacts of the parts with the shell
+    modal_forces : forces on the shell's modes per force on a contact, shape (mode, contact)
     residual : steady flexibility that the modes leave out, shape (contact, contact), m/N
-    natural_hz, modal_mass_kg : of the modes, shape (mode,)
-    loss_factor_ratio : of the shell
-    machine_mass : of all, shape (6, 6), kg and kg m²
+    natural_hz, modal_mass_kg : natural frequency and modal mass of the modes, shape (mode,)
+    loss_factor_ratio : loss factor of the shell
+    machine_mass : mass of the machine, shape (6, 6), kg and kg m²
     """
 
     inner: InnerSet
@@ -72,9 +72,9 @@ class FrameOnShell:
         ----------
         modes : pressure per velocity of the shell's modes, shape (receiver, mode, frequency),
             Pa s/m
-        rigid : of its six rigid motions about the centre of mass, alike, Pa s/m and Pa s/rad
+        rigid : pressure of its six rigid motions about the centre of mass, Pa s/m and Pa s/rad
         frequency_hz : shape (frequency,)
-        gain : of the modes' pressure
+        gain : gain of the modes' pressure
         """
         turning = 2j * np.pi * frequency_hz  # velocity per displacement
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)

@@ -84,7 +84,7 @@ def likeness(plate: Plate, frequency_hz: Array, position_m: Array) -> Array:
     ----------
     plate : under the feet
     frequency_hz : shape (frequency,)
-    position_m : of the feet, shape (foot, 2 or 3)
+    position_m : position of the feet, shape (foot, 2 or 3)
     """
     return np.asarray(j0(plate.wavenumber(frequency_hz)[:, None, None] * _distances(position_m)))
 
@@ -105,7 +105,7 @@ def near_power(plate: Plate, frequency_hz: Array, force: ComplexArray, position_
     plate : without end, as far as the near field goes
     frequency_hz : above zero, shape (frequency,)
     force : complex peaks, shape (frequency, foot), N
-    position_m : of the feet, shape (foot, 2 or 3)
+    position_m : position of the feet, shape (foot, 2 or 3)
     """
     u, weight = _rule()
     omega = 2.0 * np.pi * frequency_hz

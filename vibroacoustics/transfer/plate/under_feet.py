@@ -30,7 +30,8 @@ def plate_sound(
     settings : plate under the feet
     cases : with their loads
     options : in the order of the result
-    frequency : of the lines by their names, (speed, line), Hz; not a number where there is none
+    frequency : frequency of the lines by their names, (speed, line), Hz; not a number where there
+        is none
 
     Returns
     -------
@@ -58,8 +59,8 @@ def plate_power(
     ----------
     settings : plate under the feet
     machine : on its mounts
-    force : of each foot at the lines, complex peaks, shape (line, foot, axis), N
-    frequency_hz : of the lines, shape (line,); zero where there is none
+    force : force of each foot at the lines, complex peaks, shape (line, foot, axis), N
+    frequency_hz : frequency of the lines, shape (line,); zero where there is none
     """
     plate = Plate(
         settings.mass_kg_per_m2,

@@ -64,7 +64,7 @@ def shapes(
     Parameters
     ----------
     meridian : nodes
-    element : of each point, shape (point,)
+    element : element of each point, shape (point,)
     coordinate : -1 to 1 along it, shape (point,)
     derivative : order of the derivative in s, 0 to 2
     """
@@ -110,7 +110,7 @@ def strains(meridian: Meridian, element: IndexArray, coordinate: Array, order: i
     Parameters
     ----------
     meridian : nodes
-    element : of each point, shape (point,)
+    element : element of each point, shape (point,)
     coordinate : -1 to 1 along it, shape (point,), off the axis
     order : n
     """
@@ -165,7 +165,7 @@ def squared_strains(meridian: Meridian, order: int, amplitudes: Array) -> Array:
     ----------
     meridian : nodes
     order : circumferential order n
-    amplitudes : of the motions, shape (freedom, motion)
+    amplitudes : amplitudes of the motions, shape (degree of freedom, motion)
     """
     element, coordinate, area = _gauss_points(meridian, order)
     of_element = amplitudes[element_dofs(meridian)][element]

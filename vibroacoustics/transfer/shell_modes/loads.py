@@ -144,7 +144,7 @@ def joint_forces(joint: Joint, radius_m: float) -> tuple[Array, Array]:
     Parameters
     ----------
     joint : welds
-    radius_m : of the wall
+    radius_m : radius of the wall
 
     Returns
     -------

@@ -59,7 +59,7 @@ def velocity_per_force(
 
     Parameters
     ----------
-    natural_hz, modal_mass_kg : of the modes, shape (mode,)
+    natural_hz, modal_mass_kg : natural frequency and modal mass of the modes, shape (mode,)
     loss_factor_ratio : structural
     frequency_hz : shape (frequency,)
     """

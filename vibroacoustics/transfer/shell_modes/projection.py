@@ -25,7 +25,7 @@ class ProjectedModes:
 
     Attributes
     ----------
-    shell : as given; its middle surface stays
+    shell : nominal shell; its middle surface stays
     """
 
     shell: ElasticShell
@@ -88,7 +88,7 @@ def projection_error(
     projected : modes as given
     shell : its outside
     structure : the changed wall
-    maximum_frequency_hz : of the modes that are compared, by name
+    maximum_frequency_hz : highest frequency of the modes that are compared, by name
     """
     anew = _frequencies_hz(shell, structure, maximum_frequency_hz)
     factors = projected.frequency_factor(structure)
@@ -121,7 +121,7 @@ def least_frequency_factor(nominal: ShellStructure, ends: Sequence[ShellStructur
 
     Parameters
     ----------
-    nominal : as the modes are computed for
+    nominal : wall for which the modes are computed
     ends : walls with one value at an end of its range
     """
     return float(np.prod([min(1.0, _least(nominal, end)) for end in ends]))

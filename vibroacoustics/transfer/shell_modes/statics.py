@@ -24,7 +24,7 @@ class WallFlexibility:
 
     Attributes
     ----------
-    shell : as given
+    shell : nominal shell
     """
 
     shell: ElasticShell
