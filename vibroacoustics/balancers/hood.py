@@ -45,7 +45,7 @@ class Hood(Option):
         return Added(figures={"added_mass_kg": self.mass_kg})
 
     def insertion_loss(self) -> InsertionLoss:
-        """As measured."""
+        """Return the measured insertion loss."""
         return InsertionLoss(np.array(self.band_hz), np.array(self.insertion_loss_db))
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:

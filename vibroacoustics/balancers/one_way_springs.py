@@ -33,13 +33,13 @@ class OneWaySprings(Option):
         "one_way_resonance_rpm": "Speed at which a plank resonates on its one-way spring",
     }
     mass_kg: float = Field(gt=0.0, le=10.0)
-    """Of both planks together."""
+    """Mass of both planks together."""
     stiffness_n_per_m: float = Field(gt=0.0, le=1e7)
-    """Of each spring when it pulls its plank inwards."""
+    """Stiffness of each spring when it pulls its plank inwards."""
     pushing_ratio: float = Field(ge=1e-4, le=1.0)
     """Stiffness when it pushes outwards over that when it pulls."""
     damping_ratio: float = Field(ge=1e-4, le=1.0)
-    """Of the plank against the ring, as a fraction of critical on the stiff side."""
+    """Damping of the plank against the ring, as a fraction of critical on the stiff side."""
     height_below_ring_m: float = Field(ge=-1.0, le=1.0)
 
     def oscillator(self, speed_rpm: float) -> Bilinear:

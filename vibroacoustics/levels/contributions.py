@@ -16,7 +16,8 @@ from .by_source import membership, weighting_power
 from .labelled import level
 
 SILENT: Final = 1e-12
-"""Of the largest mean square, 120 dB below it: a smaller sum is near rounding and has no shares."""
+"""Share of the largest mean square, 120 dB below it: a smaller sum is near rounding and has no
+shares."""
 
 
 def energies(split: Contributions, bands: Sequence[Band]) -> tuple[Array, Array]:

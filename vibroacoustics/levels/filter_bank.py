@@ -17,9 +17,9 @@ from ..base.errors import ParameterError
 from .bands import OCTAVE_RATIO, Band, check_measurable
 
 FILTER_ORDER: Final = 4
-"""Of the Butterworth low-pass behind each band-pass. With order 3 the bilinear transform lifts the
-lower skirt out of class 1 from a quarter of the sample rate on; order 4 stays within it up to 1 %
-below half the sample rate, and a higher one would only ring longer."""
+"""Order of the Butterworth low-pass behind each band-pass. With order 3 the bilinear transform
+lifts the lower skirt out of class 1 from a quarter of the sample rate on; order 4 stays within it
+up to 1 % below half the sample rate, and a higher one would only ring longer."""
 
 # Table 1, class 1: powers of G of the breakpoints of an octave filter, on either side, and the
 # relative attenuation in dB that is allowed there.

@@ -19,7 +19,7 @@ LINES_OF_BAND: Final = 24
 LOWEST_HZ: Final = 1.0
 """In place of 0 Hz, where nothing is heard."""
 ROUNDED: Final = 1.01
-"""Of the middle of a band that is called by a round number."""
+"""Factor of the middle of a band that is called by a round number."""
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,7 @@ def wave_gains(
 ) -> Array:
     """Mean square by waves per power in `BASELINE_BANDS`, shape (listener, band), Pa²/W.
 
-    Of a machine that shakes along x, y and z with the same power each; zero above the waves.
+    The machine shakes along x, y and z with the same power each; zero above the waves.
 
     Parameters
     ----------

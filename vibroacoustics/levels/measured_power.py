@@ -24,7 +24,7 @@ SURVEY_MARGIN_DB: Final = 3.0
 SURVEY_ENVIRONMENT_DB: Final = 7.0
 """Largest K2A of ISO 3746."""
 SABINE_S_PER_M: Final = 0.16
-"""Of the absorption area from volume and reverberation time (Annex A)."""
+"""Factor of the absorption area from volume and reverberation time (Annex A)."""
 
 
 def reverberant_absorption_area_m2(volume_m3: float, reverberation_time_s: Array) -> Array:
@@ -65,7 +65,7 @@ class MeasuredPower:
 
     @property
     def margin_dba(self) -> float:
-        """Of the A-weighted sums; not a number where no background was recorded."""
+        """Margin of the A-weighted sums; not a number where no background was recorded."""
         if np.isnan(self.margin_db).all():
             return float("nan")
         return float(a_weighted_sum(self.mean_db) - a_weighted_sum(self.mean_db - self.margin_db))

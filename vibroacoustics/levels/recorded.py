@@ -69,7 +69,8 @@ class PressureLevels:
             sums.add(block[row])
 
     def result(self) -> xr.Dataset:
-        """Of all that has been added; attribute `levels_left_out_s`: see `labelled_levels`."""
+        """Return the levels of all samples added; attribute `levels_left_out_s`: see
+        `labelled_levels`."""
         sums = {row: meter.mean_square() for row, meter in self._sums.items()}
         return labelled_levels(self._channel, self._meters, self._bands, self._method, sums)
 

@@ -85,7 +85,7 @@ class AirInRoom:
 
     @property
     def total(self) -> Array:
-        """Of the whole machine, A-weighted, Pa²."""
+        """Mean square of the machine, A-weighted, Pa²."""
         return self.modelled + self.unmodelled
 
 

@@ -15,7 +15,7 @@ from ..study.structure_borne import StructureBorne
 from .by_source import weighting_power
 
 _CHANCE: Final = 1.6448536269514722
-"""Of a standard normal variable, passed once in 20."""
+"""Quantile of a standard normal variable, passed once in 20."""
 
 
 def mean_square_per_power(distance_m: ArrayLike, absorption_area_m2: float | None) -> Array:

@@ -81,7 +81,7 @@ def _left(lines: Lines, none: int) -> ComplexArray:
 
 
 def _by_line(lines: Lines, values: ComplexArray) -> ComplexArray:
-    """Of values whose last axis is the order, those of the lines, which come first; else zero."""
+    """Values at the lines, of which the orders come first; zero at other lines."""
     by_order = np.moveaxis(values, -1, 0)
     is_kept = np.isfinite(lines.order) & (lines.order < len(by_order))
     chosen = np.where(is_kept, lines.order, 0).astype(int)

@@ -105,7 +105,8 @@ def _pressure(sound: Ingredients, names: list[str]) -> ComplexArray:
 
 
 def _modelled(at_speed: xr.Dataset, names: list[str]) -> ComplexArray:
-    """Of all sources together, zero where a line was measured alone, (option, receiver, line)."""
+    """Peaks of all sources together, zero where a line was measured alone, (option, receiver,
+    line)."""
     pressure = at_speed["pressure_line"].sum("sound_source").transpose("option", "receiver", "line")
     return np.asarray(pressure.reindex(line=names, fill_value=0.0).values)
 

@@ -36,7 +36,7 @@ class Machines:
         return list(dict.fromkeys(map(on_mounts, self.machine.values())))
 
     def number(self, option: str) -> int:
-        """Of the option's machine among the different ones."""
+        """Number of the option's machine among the different ones."""
         return self.different.index(on_mounts(self.machine[option]))
 
     def amplitude_factor(self, option: str, frequency_hz: Array) -> Array:

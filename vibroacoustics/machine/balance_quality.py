@@ -23,7 +23,7 @@ class BalanceQuality(Parameters):
     service_speed_rpm: float = Field(ge=60.0, le=60000.0)
     """Highest speed for which the rotor is balanced."""
     rotor_mass_kg: float = Field(gt=0.0, le=1e3)
-    """Of all that is balanced together."""
+    """Mass of all that is balanced together."""
     used_ratio: float = Field(default=1.0, ge=0.0, le=1.0)
     """Residual unbalance over the permissible one."""
     lower_plane_height_m: float = HEIGHT

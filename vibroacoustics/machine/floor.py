@@ -55,7 +55,7 @@ class FloorMobility(FileTable):
 
     content: ClassVar[str] = "frequency_hz"
     foot: tuple[str, ...] = ()
-    """Of each row; empty where it holds for every foot."""
+    """Foot of each row; empty where it holds for every foot."""
     frequency_hz: tuple[float, ...] = ()
     vertical_m_per_ns: tuple[float, ...] = ()
     vertical_phase_rad: tuple[float, ...] = ()

@@ -48,11 +48,12 @@ class Bolts(Parameters):
     height_m: float = HEIGHT
     first_angle_rad: float = Field(default=0.0, ge=-2.0 * pi, le=2.0 * pi)
     lateral_stiffness_n_per_m: float = STIFFNESS
-    """Of each, with the friction of what it presses together."""
+    """Stiffness of each, with the friction of what it presses together."""
     axial_stiffness_n_per_m: float = STIFFNESS
-    """Of each, with the members."""
+    """Stiffness of each, with the members."""
     guide_stiffness_n_per_m: float = STIFFNESS
-    """Of each along z in place of the axial one where the fixed scroll may slide along it."""
+    """Stiffness of each along z in place of the axial one where the fixed scroll may slide along
+    it."""
 
 
 class Face(Parameters):
@@ -61,7 +62,7 @@ class Face(Parameters):
     radius_m: float = RADIUS
     height_m: float = HEIGHT
     stiffness_n_per_m: float = STIFFNESS
-    """Of the face around."""
+    """Stiffness of the face around."""
 
 
 class PlainBearing(Parameters):
@@ -73,16 +74,16 @@ class PlainBearing(Parameters):
 
 
 class ContactStiffness(Parameters):
-    """Of each contact of the frame with the shell, alike in all directions."""
+    """Stiffness of each contact of the frame with the shell, alike in all directions."""
 
     weld_n_per_m: float = STIFFNESS
-    """Of the bearing housing."""
+    """Stiffness of the bearing housing."""
     leg_n_per_m: float = STIFFNESS
-    """Of the lower bearing's bracket with its weld."""
+    """Stiffness of the lower bearing's bracket with its weld."""
     seal_n_per_m: float = STIFFNESS
-    """Of the fixed scroll."""
+    """Stiffness of the fixed scroll."""
     land_n_per_m: float = STIFFNESS
-    """Of the stator."""
+    """Stiffness of the stator."""
 
 
 class Frame(Parameters):
@@ -108,7 +109,7 @@ class Frame(Parameters):
     tips: Face
     keys_radius_m: float = RADIUS
     keys_stiffness_n_per_m: float = STIFFNESS
-    """Of the keys between orbiting scroll and standing slots, around the shaft."""
+    """Stiffness of the keys between orbiting scroll and standing slots, around the shaft."""
     pin_stiffness_n_per_m: float = STIFFNESS
     """Metal of bushing and pin; the oil film is in series."""
     pin_load_n: float = Field(gt=0.0, le=1e6)
@@ -123,14 +124,14 @@ class Frame(Parameters):
     metal_loss_factor_ratio: float = LOSS
     """Steel of shaft, pin and bearing seats."""
     joint_loss_factor_ratio: float = LOSS
-    """Of bolts, faces, keys and contacts with the shell."""
+    """Loss factor of bolts, faces, keys and contacts with the shell."""
     contacts: ContactStiffness
     legs: Joint
-    """Of the lower bearing's bracket on the wall."""
+    """Joint of the lower bearing's bracket on the wall."""
 
     @property
     def mass_kg(self) -> float:
-        """Of all bodies."""
+        """Mass of all bodies."""
         return float(sum(getattr(self, part.name).mass_kg for part in PARTS))
 
 

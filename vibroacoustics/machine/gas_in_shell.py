@@ -30,12 +30,12 @@ class ShellGas(Parameters):
     radius_m: float = Field(ge=5e-3, le=5.0)
     height_m: float = Field(ge=5e-3, le=5.0)
     middle_height_m: float = Field(ge=-2.0, le=2.0)
-    """Of its middle above the shell's centre of mass."""
+    """Height of its middle above the shell's centre of mass."""
     speed_of_sound_m_per_s: float = SOUND
     density_kg_per_m3: float = DENSITY
     loss_factor_ratio: float = Field(gt=0.0, le=1.0)
-    """Of its modes."""
+    """Loss factor of its modes."""
     intake_ratio: float = Field(ge=0.0, le=1.0)
-    """Of the intake from the axis, over the radius."""
+    """Distance of the intake from the axis, over the radius."""
     intake_angle_rad: float = Field(ge=-2.0 * pi, le=2.0 * pi)
     """From x towards y."""

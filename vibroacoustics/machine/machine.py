@@ -92,9 +92,9 @@ class Machine(KindOfParameters):
     suspension: Suspension | None = None
     """Springs between the block with the mechanism and the shell; none where both are one."""
     discharge_gas: DischargeGas | None = None
-    """Of a reciprocating compressor; a source reads it."""
+    """Gas of a reciprocating compressor; a source reads it."""
     shell_gas: ShellGas | None = None
-    """The same round the block."""
+    """Gas in the shell around the block."""
     balance_quality: BalanceQuality | None = None
     """How well its rotor is balanced; a study that names no residual unbalance leaves it out."""
     errata: tuple[Erratum, ...] = ()

@@ -65,7 +65,7 @@ class UnmodelledNoise(Parameters):
     speed_growth_db: float = Field(default=30.0, ge=-100.0, le=200.0)
     """For ten times the speed; below zero where a resonance makes the slower speed the louder."""
     peak_frequency_hz: Annotated[float, *PEAKS] = Field(default=1600.0, ge=100.0, le=10000.0)
-    """Of the A-weighted spectrum in third octaves."""
+    """Peak of the A-weighted spectrum in third octaves."""
     slope_db: float = Field(default=4.0, ge=0.0, le=30.0)
     """For each octave off the peak."""
     flat_lowest_db: Annotated[float, PRIOR] = Field(default=-26.0, ge=-40.0, le=10.0)

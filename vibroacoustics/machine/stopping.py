@@ -23,7 +23,7 @@ class TurningBack(Parameters):
     """Around the shaft, of brake and wall, as of a Hertz contact."""
     restitution_ratio: Annotated[float, AS_GIVEN] = Field(ge=0.2, le=1.0)
     friction_ratio: Annotated[float, AS_GIVEN] = Field(gt=0.0, le=1.0)
-    """Of brake and wall: the brake is pressed outwards by the tangential force over it."""
+    """Friction of brake and wall: the brake is pressed outwards by the tangential force over it."""
 
 
 class CheckValve(Parameters):
@@ -32,7 +32,7 @@ class CheckValve(Parameters):
     mass_kg: Annotated[float, AS_GIVEN] = Field(gt=0.0, le=10.0)
     lift_m: Annotated[float, AS_GIVEN] = Field(gt=0.0, le=0.1)
     closing_force_n: Annotated[float, AS_GIVEN] = Field(gt=0.0, le=1e5)
-    """Of spring and flow, taken as constant."""
+    """Force of spring and flow, taken as constant."""
     seat_stiffness_n_per_m: Annotated[float, AS_GIVEN] = Field(gt=0.0, le=1e13)
 
 

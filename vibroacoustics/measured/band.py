@@ -72,7 +72,7 @@ def truncation_errors(
 ) -> Array:
     """Mean error of a line's level for each of `TRIED`, dB, shape (truncation,).
 
-    As if the measurements were the truth, and those drawn again were measured.
+    The measurements count as the truth, their samples as measured.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ class MeasuredBench(Measured):
 
 
 class Position(Parameters):
-    """Of a point, from the machine's centre of mass at rest, in its axes."""
+    """Position of a point, from the machine's centre of mass at rest, in its axes."""
 
     x_m: float = Field(ge=-10.0, le=10.0)
     y_m: float = Field(ge=-10.0, le=10.0)

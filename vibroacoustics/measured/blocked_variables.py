@@ -115,7 +115,7 @@ def validation_variables(
 def _band_variables(
     predicted: Array, measured: Array, ratios: Array, coordinates: Mapping[str, Any]
 ) -> Variables:
-    """Of powers re the reference, shape (validation, band); empty bands are no numbers.
+    """Levels of powers re the reference, shape (validation, band); empty bands are no numbers.
 
     `ratios` are those of measurements drawn again, shape (draw, validation, band).
     """
@@ -134,7 +134,8 @@ def _band_variables(
 
 
 def _powers(values: ComplexArray, frequency_hz: Array, bands: Sequence[Band]) -> Array:
-    """Of all lines of each band, shape (..., validation, band); no number where it has none."""
+    """Power of all lines of each band, shape (..., validation, band); no number where it has
+    none."""
     numbers = third_octave_number(np.array([band.middle_hz for band in bands]))
     lines = third_octave_number(frequency_hz)[:, None] == numbers
     powers = np.swapaxes(np.abs(values) ** 2, -1, -2) @ lines.astype(float)

@@ -120,7 +120,7 @@ def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
 
 
 def unit_of(settings: BlockedForces, name: str) -> str:
-    """Of what a point or a microphone measures: m or Pa."""
+    """Unit of what a point or a microphone measures: m or Pa."""
     return "m" if name in settings.measured.points else "Pa"
 
 

@@ -13,7 +13,8 @@ from ..base.vocabulary import NO_ANGLE_ZERO
 from .narrow_spectra import BANDS
 
 LEAST_COHERENCE: Final = 0.8
-"""Of an order whose phase counts; noise in five independent blocks reaches it once in 600 times."""
+"""Coherence of an order whose phase counts; noise in five independent blocks reaches it once in 600
+times."""
 
 Row = dict[str, Any]
 """Values of `BaselineSpectrum` or `BaselineOrders`."""

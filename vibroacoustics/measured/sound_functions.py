@@ -105,7 +105,8 @@ def _by_foot(
 
 
 def _by_wrench(points: Sequence[ForcePoint], pressure: ComplexArray) -> ComplexArray:
-    """Of the least forces at the points that make a wrench, shape (receiver, 6, frequency)."""
+    """Response of the least forces at the points that make a wrench, shape (receiver, 6,
+    frequency)."""
     positions = np.array([(point.x_m, point.y_m, point.z_m) for point in points], dtype=float)
     directions = np.array(
         [[_sign(point) * float(point.direction[1] == axis) for axis in "xyz"] for point in points]

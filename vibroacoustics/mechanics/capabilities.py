@@ -33,7 +33,7 @@ class BalancePlanes(Parameters):
 
     @property
     def counted_down(self) -> "BalancePlanes":
-        """The same planes where heights count down the shaft."""
+        """Planes where heights count down the shaft."""
         return BalancePlanes(
             upper_height_m=-self.lower_height_m,
             lower_height_m=-self.upper_height_m,
@@ -101,7 +101,7 @@ class Slider(Capability):
     mass_kg: float
     amplitude_m: float
     height_m: float
-    """Of the plane in which it slides, along the shaft from the frame's origin."""
+    """Height of the plane in which it slides, along the shaft from the frame's origin."""
     planes: BalancePlanes
     """Where weights can sit on the shaft; heights along the shaft from the frame's origin."""
     frame: CrankFrame

@@ -92,7 +92,7 @@ class CylinderGas(Parameters):
 
     @property
     def valve_cycle(self) -> IdealValveCycle:
-        """The same cycle over volumes."""
+        """Cycle over volumes."""
         return IdealValveCycle(
             self.suction_pressure_pa,
             self.discharge_pressure_pa,

@@ -15,9 +15,9 @@ from ..base.errors import SolverError
 
 SETTLING_REVOLUTIONS = 300
 SETTLING_ROUNDS = 4
-"""Of so many revolutions each, until Newton's method leads to a stable motion."""
+"""Rounds of so many revolutions each, until Newton's method leads to a stable motion."""
 SETTLING_STEPS = 32
-"""Of order eight, in a revolution."""
+"""Steps in a revolution, of order eight."""
 REVOLUTION_STEPS = 96
 """The error of a revolution is below 1e-12 rad."""
 NEWTON_STEPS = 30

@@ -32,7 +32,7 @@ class ScrollShaft(Parameters):
 
     @property
     def mass_kg(self) -> float:
-        """Of shaft and rotor."""
+        """Mass of shaft and rotor."""
         volume = 0.25 * pi * self.diameter_m**2 * self.length_m
         return self.density_kg_per_m3 * volume + self.rotor_mass_kg
 

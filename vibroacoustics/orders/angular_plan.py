@@ -20,9 +20,11 @@ from .crank_motion import CrankMotion
 from .low_pass import LowPass, kaiser_low_pass
 
 ATTENUATION_DB: Final = 100.0
-"""Of everything that could alias; the gain up to the maximum order is as near to 1: 1e-5."""
+"""Attenuation of everything that could alias; the gain up to the maximum order is as near to 1:
+1e-5."""
 HIGHEST_PASS_BAND_RATIO: Final = 0.9
-"""Of half the sample rate at the highest speed: what is left is the kernel's transition."""
+"""Largest part of half the sample rate at the highest speed; above it is the kernel's
+transition."""
 _PIECE: Final = 2**18
 """Samples of which the motion is worked out at a time: a spline takes memory."""
 
@@ -82,7 +84,7 @@ class AngularPlan:
 
     @cached_property
     def samples_per_revolution(self) -> int:
-        """Of the angular grid: at least four times the maximum order."""
+        """Samples per revolution of the angular grid: at least four times the maximum order."""
         return 2 * int(scipy.fft.next_fast_len(int(np.ceil(2.0 * self.maximum_order))))
 
     @cached_property

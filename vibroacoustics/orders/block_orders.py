@@ -18,7 +18,7 @@ from .windows import window_by_name
 WINDOW: Final = "hann"
 OVERLAP_RATIO: Final = 0.5
 MOST_MAP_BYTES: Final = 2**30
-"""Of an order map that is kept: 16 a line, block and channel."""
+"""Largest size of an order map that is kept: 16 bytes a line, block and channel."""
 MOST_UNASKED_MAP_BYTES: Final = 2**27
 """Largest order map of a run-up that is kept where the settings leave the choice."""
 STEADY_RATIO: Final = 0.02
@@ -130,7 +130,7 @@ class BlockOrders:
         self._pending = signal.behind(int(spectra.starts[-1]) + hop)
 
     def result(self) -> OrdersOfBlocks:
-        """Of all that has been added."""
+        """Return the orders of all blocks added."""
         last = self._spectra[-1]
         time_s = np.concatenate([spectra.time_s for spectra in self._spectra])
         shaft_frequency_hz = np.concatenate(

@@ -16,7 +16,7 @@ _PADDING: Final = 4
 _MAIN_LOBE: Final = 4
 """Half of the window's, Blackman-Harris, in lines of a block: its side lobes are 92 dB down."""
 STEADY_WIDTH: Final = 1.9
-"""Of a steady tone at half of its power, in lines of a block."""
+"""Width of a steady tone at half of its power, in lines of a block."""
 _NOISE_LEVEL: Final = 0.7
 """Mean of ln(1 + p / m) for the power p of white noise with the median m of its mean."""
 _CLEAR: Final = 2.3
@@ -27,7 +27,7 @@ _LIKELY: Final = 0.78
 _LESS_LIKELY: Final = 0.02
 """Less with each order: of speeds that explain the same lines as lowest orders is the shaft's."""
 _LEAST_CHANCE: Final = 5e-3
-"""Of a line where a tooth is: the background is never known better."""
+"""Least chance of a line where a tooth is: the background is never known better."""
 _NEIGHBOURHOOD: Final = 0.3
 """Relative distance over which strange lines are counted."""
 _TOLERANCE: Final = 1.5e-3
@@ -62,7 +62,7 @@ class Lines:
     step: float
 
     def density(self) -> Array:
-        """Of lines at least as strong as each one, near it, per unit of frequency."""
+        """Density of lines at least as strong as each one, near it, per unit of frequency."""
         ratio = self.frequency[:, None] / self.frequency
         near = np.abs(np.log(ratio)) < _NEIGHBOURHOOD
         strong = self.level >= self.level[:, None]

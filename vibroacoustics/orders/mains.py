@@ -12,12 +12,12 @@ _DEVIATION: Final = 0.004
 _NOMINAL_HZ: Final = (50.0, 60.0, 100.0, 120.0)
 """Lowest lines of hum: of the mains themselves, and of what hums twice in a period."""
 _AS_EVEN: Final = 0.002
-"""As near as the mains keep to their frequency, relative."""
+"""Deviation of the mains from their nominal frequency, relative."""
 _TRIALS: Final = 401
 _HALF_WIDTH_LINES: Final = 2.5
 """Lines of the transform that a steady line fills to each side, with a Hann window."""
 _DRIFT: Final = 2e-4
-"""Of the mains frequency within a recording, relative."""
+"""Drift of the mains frequency within a recording, relative."""
 
 
 def without_mains(signal: Array, sample_rate_hz: float, nominal_hz: float) -> Array:

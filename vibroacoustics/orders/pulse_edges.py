@@ -16,8 +16,8 @@ from .tacho_states import TachoStates
 Blocks = Callable[[], Iterator[Array]]
 
 _HYSTERESIS: Final = 0.4
-"""Of the swing: noise has to cross the middle 40 % to make a pulse, and a pulse of two or three
-samples, which a converter's filter rounds, still reaches 70 % of the swing."""
+"""Share of the swing: noise has to cross the middle 40 % to make a pulse, and a pulse of two or
+three samples, which a converter's filter rounds, still reaches 70 % of the swing."""
 _STEEPER: Final = 0.5
 """Time of the falling edge over that of the rising one, below which the falling one is taken."""
 _ROUNDS: Final = 5

@@ -27,7 +27,7 @@ _LOOK_BACK: Final = 64
 _MOST_FAULTS: Final = 0.25
 """Share of the pulses above which they are no train of pulses."""
 _COINCIDENT: Final = 1e-12
-"""Of the whole time: pulses closer than that differ by rounding only."""
+"""Share of the whole time: pulses closer than that differ by rounding only."""
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,10 @@ _BEYOND: Final = 0.5
 _LEAST_SWING: Final = 0.6
 """Before and behind a further pulse, over that of its neighbours."""
 _SECOND_LOBE: Final = 0.6
-"""Of that behind the last pulse of an inductive pickup, which has half its swing there."""
+"""Height of the lobe behind the last pulse of an inductive pickup, which has half its swing
+there."""
 _INTERVALS: Final = (0.6, 3.6)
-"""Of a further pulse over that of its neighbours: a tooth or two may be left out."""
+"""Interval of a further pulse over that of its neighbours: a tooth or two may be missing."""
 _SILENT: Final = 2.5
 """Longest interval, over the longest of its neighbours, in which no pulse is missed."""
 _LONGEST_OF: Final = 150

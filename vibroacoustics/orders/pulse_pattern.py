@@ -12,7 +12,8 @@ LEAST_SAMPLES: Final = 4.0
 _QUICKEST: Final = 0.01
 """Share of the pulses that come so close, as where an aliasing encoder's speed seems to turn."""
 _UNEQUAL: Final = 0.02
-"""Of a pitch, from which marks are unequally spaced; speed varies less from tooth to tooth."""
+"""Share of a pitch, from which marks are unequally spaced; speed varies less from tooth to
+tooth."""
 _CLEAR: Final = 5.0
 """Standard errors by which the pitches of a revolution differ."""
 _REPEATED: Final = 0.8

@@ -32,10 +32,10 @@ from .tacho import tacho_motion
 from .tacholess import tacholess_motion
 
 LEAST_CONFIDENCE: Final = 0.8
-"""Of a speed without a tacho that is not warned of (`SpeedCheck`)."""
+"""Least confidence of a speed without a tacho that causes no warning (`SpeedCheck`)."""
 
 MOST_SPEED_SAMPLES: Final = 2**26
-"""Of a channel in which the speed is looked for: half a GiB, 22 min at 51.2 kHz."""
+"""Most samples of a channel in which the speed is sought: half a GiB, 22 min at 51.2 kHz."""
 
 _PARTS: Final = 3
 """Parts without pulses that are listed."""

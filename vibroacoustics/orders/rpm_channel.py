@@ -10,7 +10,8 @@ from ..base.errors import ParameterError
 from .crank_motion import CrankMotion, from_angle
 
 _POINTS_PER_S: Final = 20
-"""Of a recorded speed: it holds nothing faster than the 10 Hz that drives are controlled at."""
+"""Points of a recorded speed: it holds nothing faster than the 10 Hz that drives are controlled
+at."""
 _LEAST_POINTS: Final = 4
 _STANDSTILL: Final = 0.01
 """Share of the highest speed up to which a shaft that starts or stops counts as standing."""

@@ -17,7 +17,7 @@ MOSTLY: Final = 0.95
 WIDE_LINE: Final = 1.2
 """Width of lines over that of a steady tone's that says that the speed was not followed."""
 _SHARP_LINE: Final = 1.08
-"""The same of a speed that was followed."""
+"""Width of a line of a speed that was followed."""
 _LEAST_IN_PLACE: Final = 0.6
 """Share of the comb's orders that have a clear line where the speed is sure."""
 _APART: Final = 0.004

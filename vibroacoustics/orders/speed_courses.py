@@ -23,9 +23,10 @@ _GRID: Final = 0.002
 """Ratio between neighbouring candidates, less one. The peak of the tenth order is 1 % wide or more
 up to six times the lowest speed."""
 _BOUND_COST: Final = 4.0
-"""Of a change of speed at the bound, in units of ln likelihood: a line 17 dB above the noise."""
+"""Cost of a change of speed at the bound, in units of ln likelihood: a line 17 dB above the
+noise."""
 MOST_LEVEL: Final = 3.0
-"""Of a line where no line shall outweigh several, in ln of power over floor: 14 dB."""
+"""Level of a line where no line shall outweigh several, in ln of power over floor: 14 dB."""
 _OFF_PATH: Final = 0.05
 """Relative distance from which a speed counts as another one."""
 
@@ -72,7 +73,7 @@ class Search:
         return int(next_fast_len(int(REVOLUTIONS * self.rate_hz / self.minimum_hz), real=True))
 
     def centres(self) -> Array:
-        """Of the frames, in samples.
+        """Centres of the frames, in samples.
 
         Raises
         ------

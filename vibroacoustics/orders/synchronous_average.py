@@ -16,7 +16,7 @@ class SynchronousAverage:
     mean: Array
     """Shape (..., angle), from crank angle zero."""
     standard_error: Array
-    """Of the mean, from what is left after subtracting it, shape (..., angle)."""
+    """Standard error of the mean, from the residual after subtracting it, shape (..., angle)."""
     averages: int
 
 

@@ -14,7 +14,7 @@ from .pulse_pattern import pulse_notes
 from .smoothing import smooth_curve
 
 MOST_JITTER: Final = 0.05
-"""Of the pulses in periods, without a note."""
+"""Jitter of the pulses in periods, without a note."""
 
 
 @dataclass(frozen=True)

@@ -37,12 +37,12 @@ class TachoStates:
 
     @property
     def lowest(self) -> float:
-        """Of all samples."""
+        """Lowest sample."""
         return float(self._bottom.min())
 
     @property
     def highest(self) -> float:
-        """Of all samples."""
+        """Highest sample."""
         return float(self._top.max())
 
     def add(self, block: Array) -> None:

@@ -29,11 +29,11 @@ class TacholessResult:
     time_s: Array
     """Centres of the frames."""
     confidence: Array
-    """Of each frame, 0 to 1: likelihood of its speed over the sum of it and of that of the best
-    speed more than 5 % away. Above 0.5 the speed explains the frame better than every other one
-    within the limits; in noise its mean is 0.3 to 0.5."""
+    """Confidence of each frame, 0 to 1: likelihood of its speed over the sum of it and that of the
+    best speed more than 5 % away. Above 0.5 the speed explains the frame better than every other
+    one within the limits; in noise its mean is 0.3 to 0.5."""
     check: SpeedCheck
-    """Of all frames together, in the order spectrum that the speed makes."""
+    """Check of all frames together, in the order spectrum that the speed makes."""
 
 
 def tacholess_motion(

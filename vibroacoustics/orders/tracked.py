@@ -31,7 +31,7 @@ def tracked_orders(
     Raises
     ------
     ParameterError, SolverError
-        As `vold_kalman`; or an order is named twice or is not above 0.
+        See `vold_kalman`; or an order is named twice or is not above 0.
     """
     numbers = [float(order) for order in orders]
     if not numbers or min(numbers) <= 0.0 or len(set(numbers)) < len(numbers):

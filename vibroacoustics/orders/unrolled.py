@@ -18,7 +18,7 @@ from .speed_courses import MOST_LEVEL, Course, Search
 _BLOCKS: Final = 4.0
 """Lengths of a block in the recording; fewer average nothing, more resolve less."""
 _MOST_REVOLUTIONS: Final = 128
-"""Of a block, at the middle of the limits."""
+"""Revolutions of a block, at the middle of the limits."""
 _LEAST_REVOLUTIONS: Final = 8
 _FLOOR_ORDERS: Final = 4.0
 """Width of the running median under the lines of an order spectrum."""
@@ -32,7 +32,8 @@ _TRIALS: Final = 25
 _LOW_ORDERS: Final = 3
 _BEST_ORDERS: Final = 2
 _CLEAR_LEVEL: Final = 1.9
-"""Of a line in a frame, ln of power over floor less its mean in noise: 10 dB over the floor."""
+"""Level of a line in a frame, ln of power over floor less its mean in noise: 10 dB over the
+floor."""
 _STANDS_OUT: Final = 0.5
 """Share of their usual score, in ln of power over floor, that orders have when followed."""
 
@@ -72,7 +73,7 @@ class Unrolled:
         """Clear lines of its spectrum, over the orders of the course."""
         search = self.search
         middle_hz = float(np.sqrt(search.minimum_hz * search.maximum_hz))
-        # As long for all courses: only then can their lines be held against each other.
+        # Equal for all time histories: only then can their lines be compared with each other.
         most = min(self._signal.size / _BLOCKS, _MOST_REVOLUTIONS * search.rate_hz / middle_hz)
         orders = middle_hz * (self._time_s[-1] - self._time_s[0]) / self._turned[-1]
         floor = _FLOOR_ORDERS * orders
@@ -109,7 +110,7 @@ class Unrolled:
     def low_lines(self, scale: float = 1.0) -> NDArray[np.bool_]:
         """Whether the lowest orders that have a clear line stand out, shape (order, frame).
 
-        Of the three lowest the two that stand out most often: a weak one may be lost in noise.
+        Two of the three lowest that stand out most often: a weak one may be lost in noise.
 
         Parameters
         ----------

@@ -41,7 +41,8 @@ LEAST_SAMPLES_PER_KNOT: Final = 4
 LARGEST_NOISE_GAIN: Final = 100.0
 """Noise within the bandwidth 40 dB below the orders would come out as large as they are."""
 _PROP: Final = 1e-8
-"""Of an eigenvalue that is 1 for an order on its own: above rounding, below what is accepted."""
+"""Threshold of an eigenvalue that is 1 for an order on its own: above rounding, below what is
+accepted."""
 
 
 @dataclass(frozen=True)

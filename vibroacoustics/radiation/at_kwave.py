@@ -62,5 +62,6 @@ def with_kwave(
 
 
 def differences_db(greens: Sequence[BoxField], expected: Iterator[BoxField]) -> Array:
-    """Of k-Wave's Green's functions from the closed form, where it is largest on the box."""
+    """Difference of k-Wave's Green's functions from the closed form, where it is largest on the
+    box."""
     return np.array(list(map(green_difference_db, greens, expected)))

@@ -29,7 +29,7 @@ _STEPS: Final = 4
 _MORE_FREQUENCIES: Final = (2, 6)
 """Times as many as at first are solved: 2.0 to 6.2 in the package's studies."""
 _PASSAGES: Final = (10, 60)
-"""Of sound through the box, in which runs die down; between walls they take longer."""
+"""Passages of sound through the box, in which runs die down; between walls they take longer."""
 
 
 class Cost(NamedTuple):

@@ -17,7 +17,8 @@ _KEPT: Final = 16
 
 
 class Interpolant:
-    """Of frequencies in Hz, (m,), to Pa per unit velocity, (..., m); what `interpolant` makes.
+    """Function of frequencies in Hz, (m,), to Pa per unit velocity, (..., m); what `interpolant`
+    makes.
 
     Parameters
     ----------
@@ -73,7 +74,7 @@ def interpolant(tabulated_hz: Array, transfer: ComplexArray, distance_m: Array) 
 def _values(
     breaks: Array, coefficients: ComplexArray, distance_m: Array, frequency: bytes
 ) -> ComplexArray:
-    """Of frequencies as bytes, shape (..., m)."""
+    """Values at frequencies as bytes, shape (..., m)."""
     frequency_hz = np.frombuffer(frequency)
     _check_range(frequency_hz, float(breaks[-1]))
     columns = coefficients.reshape(*coefficients.shape[:2], -1)
@@ -91,7 +92,8 @@ def _evaluate(
 ) -> None:  # pragma: no cover
     """Values of many splines with the same pieces, (place, spline), into the result.
 
-    As scipy does, but without the interpreter's lock and all splines of a place in a row.
+    Works like scipy, but without the interpreter's lock and with all splines of a position in a
+    row.
 
     Parameters
     ----------

@@ -17,7 +17,8 @@ from .exact import Mirror
 from .symmetry import symmetric_axes
 
 COURANT_NUMBER: Final = 0.3
-"""Of a cell that no plane shapes, unless planes squeeze cells to less than 0.38 of that."""
+"""Courant number of a cell that no plane shapes, unless planes squeeze cells to below 0.38 of
+it."""
 MOST_OPEN: Final = 18.0
 """Largest stiffness of a cell's open faces over its volume (see `NearGrid.stiffness`).
 
@@ -49,7 +50,7 @@ class NearGrid:
     """
 
     spacing_m: float
-    """Of cells that no plane shapes."""
+    """Spacing of cells that no plane shapes."""
     edges: tuple[Array, Array, Array]
     """Coordinates of the planes of faces across each axis, m."""
     box_start: tuple[int, int, int]
@@ -113,7 +114,8 @@ class NearGrid:
 
     @cached_property
     def courant_number(self) -> float:
-        """Of a cell that no plane shapes; `COURANT_NUMBER` where no cell is too narrow for it."""
+        """Courant number of a cell that no plane shapes; `COURANT_NUMBER` where no cell is too
+        narrow."""
         stiffest = 2.0 * sum(float(self.stiffness(axis).max()) for axis in range(3))
         return COURANT_NUMBER * min(1.0, float(np.sqrt(MOST_OPEN / stiffest)))
 

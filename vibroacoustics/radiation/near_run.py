@@ -53,7 +53,7 @@ class Run:
     """What a run takes besides the grid's geometry."""
 
     name: str
-    """Of the pattern, for progress and errors."""
+    """Name of the pattern, for progress and errors."""
     flux: Array
     """Into the wall cells of the upper half of the grid, (cell,), m³/s."""
     odd: Sequence[int]
@@ -142,7 +142,7 @@ class _Peaks:
         self._envelope = float(np.maximum(peak, self._decay * self._envelope))
 
     def share(self) -> float:
-        """Of the latest time in the largest; not a number if a pressure is none."""
+        """Share of the latest time in the largest; not a number if a pressure is none."""
         return self._envelope / self._largest if self._largest else 0.0
 
     def reason(self) -> str:

@@ -38,7 +38,7 @@ def neglected_echo(
 ) -> Array:
     """Estimate the neglected echo at points, over the largest pressure at any of them.
 
-    Of a cabinet it is that of a block of its size, the largest of the three translations.
+    For a cabinet it is that of a block of its size, the largest of the three translations.
 
     Parameters
     ----------

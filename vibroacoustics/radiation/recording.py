@@ -40,7 +40,7 @@ class Recording:
     across: NDArray[np.bool_]
     """Whether those lie across the middle of each mirrored axis, (axis, 2, pair)."""
     weights: Array
-    """Of the box, (pair,)."""
+    """Weights of the box, (pair,)."""
 
     def join_matrix(self, parity: Parity) -> Any:
         """Sparse matrix (cell, 2 pairs): from a Green's function to what joins a part with it.

@@ -39,7 +39,7 @@ CLEAR_NODES: Final = STENCIL_NODES // 2
 _LARGEST_DIFFERENCE_DB: Final = 6.0
 _DEEPEST_NULL: Final = amplitude_of_level(-30.0)
 _LARGEST_ALIAS: Final = 1e-8
-"""Of the pulse's spectrum at any frequency, what decimation may fold onto it."""
+"""Largest share of the pulse's spectrum at any frequency that decimation may fold onto it."""
 _COPIES_OF_SPECTRA: Final = 4
 """Spectra that exist at once: sums and their update, result and its parts."""
 _BUFFERED_SAMPLES: Final = 64

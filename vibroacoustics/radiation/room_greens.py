@@ -13,7 +13,7 @@ from .task import Task
 
 _SHARE_OF_MEMORY: Final = 0.7
 _SMALLEST_SPACING_M: Final = 0.005
-"""Of an automatic grid, as of one that a study may give."""
+"""Smallest spacing of an automatic grid, and of one that a study may give."""
 
 
 def room_greens(box: Box, task: Task, progress: Progress) -> list[BoxField]:

@@ -71,7 +71,7 @@ class FieldPart:
     """(..., 3), m."""
     coordinates: dict[str, Any]
     dimension: str
-    """Of the frequencies."""
+    """Dimension of the frequencies."""
     frequencies: slice
     clear: IndexArray
     """Those of the points, in one row, at which there are pressures."""

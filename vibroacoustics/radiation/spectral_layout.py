@@ -45,7 +45,7 @@ class ScipySlab:
 
 
 class FftwSlab:
-    """The same on FFTW, two to three times as fast.
+    """Slab on FFTW, two to three times as fast.
 
     Plans are estimated, never measured: measuring would choose another algorithm from run to run
     and change the last bits. The transforms release Python's lock.

@@ -64,7 +64,7 @@ class AxisOperators:
     damping: Array
     """Absorbing layer's factor at the pressures."""
     damping_staggered: Array
-    """The same at the velocities."""
+    """Damping at the velocities."""
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,10 @@ from .patterns import Pattern
 from .scene import Scene
 
 _NODES_PER_WAVE: Final = 4.0
-"""Of an automatic k-Wave grid at its highest frequency; a study may take 3.5."""
+"""Nodes per wave of an automatic k-Wave grid at its highest frequency; a study may take 3.5."""
 _LARGEST_SPACING_M: Final = 0.06
-"""Of an automatic grid: a coarser one saves little, as most of its nodes are absorbing layers."""
+"""Spacing of an automatic grid: a coarser one saves little, as most of its nodes are absorbing
+layers."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Task:
     scene: Scene
     patterns: Sequence[Pattern]
     positions: Mapping[str, Array]
-    """Of the microphones by name, (3,), m."""
+    """Positions of the microphones by name, (3,), m."""
     settings: RadiationSettings
     frequency_hz: Array
     """Those of the table and, after them, those of the lines."""

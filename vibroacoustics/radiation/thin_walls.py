@@ -84,7 +84,7 @@ def solid_parts(body: Body, grid: NearGrid) -> tuple[Solid, IndexArray, int]:
 def leaking_cells(solid: Solid, parts: int) -> tuple[IndexArray, int]:
     """Cells (leak, 3) that hold air of two sides that do not meet near by; number with wall.
 
-    Of more than a few hundred such cells every so many is looked at.
+    With more than a few hundred such cells, only some of them are tested, evenly chosen.
     """
     divided, walls = _divided_cells(solid, parts)
     step = -(-divided.shape[0] // _MOST_LOOKED_AT) if divided.size else 1

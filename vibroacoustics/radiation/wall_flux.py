@@ -71,7 +71,7 @@ class _Wall:
         return np.asarray(share[:, None] * self.areas)
 
     def volume(self) -> float:
-        """Of what moves: three ways to it by the divergence theorem.
+        """Volume of what moves: three ways to it by the divergence theorem.
 
         A face on a wall of the room is missing in one of them, which is smaller by that.
         """

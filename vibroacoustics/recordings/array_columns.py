@@ -26,7 +26,7 @@ class Column:
 
     @property
     def samples(self) -> int:
-        """Of the whole recording."""
+        """Samples of the whole recording."""
         return self.array.shape[self.time_axis]
 
 

@@ -123,7 +123,7 @@ class LabelledBlocks:
 
     @property
     def samples(self) -> int:
-        """Of a channel."""
+        """Samples of a channel."""
         return int(self.recording.sizes["time"])
 
     @property
@@ -184,12 +184,12 @@ def open_recording(
     Raises
     ------
     ParameterError, StorageError
-        As `read_recording`; samples are checked when they are read.
+        See `read_recording`; samples are checked when they are read.
 
     Warns
     -----
     RecordingWarning
-        As `read_recording`; of overloads when they are read, once a channel.
+        See `read_recording`; overloads are reported when they are read, once a channel.
 
     Examples
     --------

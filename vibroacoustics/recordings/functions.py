@@ -12,7 +12,7 @@ from .quantities import QUANTITIES, quantity
 from .uff_functions import read_uff
 
 MAXIMUM_BYTES: Final = 2**28
-"""Of a file, which is read as a whole."""
+"""Size of a file, which is read as a whole."""
 
 
 def read_functions(

@@ -59,7 +59,7 @@ class Node:
 
     @property
     def opposite(self) -> "Node":
-        """The same node along the opposite direction; a scalar is its own."""
+        """Node with the opposite direction; a scalar is its own."""
         signs = str.maketrans("+-", "-+")
         return Node(self.number, self.direction.translate(signs))
 

@@ -32,7 +32,7 @@ _NEAR_VALUES: Final = 6
 _PARTS: Final = (1, 2, 3)
 """Steps that may make the smallest difference of these values."""
 _UNEVEN: Final = 0.05
-"""Of steps, share of the smallest."""
+"""Unevenness of steps, share of the smallest."""
 _MANY_VALUES: Final = 5
 """A channel of fewer, such as an idle one, is overloaded at both extremes or not at all."""
 

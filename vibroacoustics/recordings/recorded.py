@@ -139,7 +139,7 @@ class Recorded:
 
     names: Sequence[str]
     units: Sequence[str]
-    """As the file states them; empty where it states none."""
+    """Units in the file; empty where it states none."""
     samples: Sequence[Samples]
     """One array a channel."""
     sample_rate_hz: float

@@ -74,12 +74,12 @@ class Header:
 
     @property
     def ordinate_bytes(self) -> int:
-        """Of each number of a binary ordinate."""
+        """Bytes of each number of a binary ordinate."""
         return 4 if self.ordinate_type in (SINGLE, SINGLE_COMPLEX) else 8
 
     @property
     def binary_bytes(self) -> int:
-        """Of all binary values."""
+        """Bytes of all binary values."""
         return self.points * (self.abscissa_bytes + self.parts * self.ordinate_bytes)
 
     @property

@@ -34,7 +34,7 @@ def ordinates(file: BinaryIO, header: Header) -> tuple[Samples, Samples | None]:
     Raises
     ------
     StorageError
-        As `values`.
+        Return ordinates and abscissae; see `values`.
     """
     if header.byte_order:
         numbers_of_points, abscissa = _binary(file, header, 0, header.points)

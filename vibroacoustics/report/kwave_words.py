@@ -12,7 +12,7 @@ from ..base.decibel import level_of_amplitude
 _LOUD: Final = 0.1
 """Share of the loudest microphone's pressure above which a difference of levels counts."""
 _STRONG: Final = 1e-3
-"""Of the strongest translation or rotation."""
+"""Share of the strongest translation or rotation."""
 
 
 def kwave_sentence(results: xr.Dataset) -> str:

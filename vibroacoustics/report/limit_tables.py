@@ -118,7 +118,7 @@ def _worst(checked: xr.Dataset) -> list[_Checked]:
 
 
 def _rows(checked: xr.Dataset) -> Iterator[_Checked]:
-    """Of each channel, speed and order with a limit, a row of each result that has a value."""
+    """Rows of each channel, speed and order with a limit, one for each result that has a value."""
     names = _OF_TWO if "compared_limit_margin" in checked else _OF_ONE
     shared = {"unit": "channel_unit", "order": "order", "limit": "order_limit"}
     tables = []

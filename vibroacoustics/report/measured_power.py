@@ -28,7 +28,7 @@ _COLUMNS: Final = {
     "measured_power_level": "sound_power_level_db",
 }
 _NONE: Final = np.array(np.nan)
-"""Of the mean level of the positions there is no A-weighted sum."""
+"""Sum of the mean level of the positions, which has no A-weighted one."""
 
 
 def analysis_of_sound_power(measured: xr.Dataset) -> Analysis:

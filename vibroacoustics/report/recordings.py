@@ -46,8 +46,8 @@ _MOST_SPEEDS: Final = 6
 _MOST_FAULTS: Final = 5
 """Faults of the tacho that are listed; all are counted."""
 _LEAST_COHERENCE: Final = 0.8
-"""Of an order whose phase is told; noise in five independent blocks reaches it once in 600 times,
-0.2^(5 - 1)."""
+"""Coherence of an order whose phase is shown; noise in five independent blocks reaches it once in
+600, 0.2^(5 - 1)."""
 _LEVELS: Final = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
 _DIMENSIONS: Final = ("channel", "speed", "order")
 _COLUMNS: Final[Columns] = (

@@ -84,7 +84,7 @@ def _at_speeds(results: xr.Dataset, growth: float, ends: tuple[float, float]) ->
 
 
 def _range(results: xr.Dataset) -> tuple[float, float] | None:
-    """Of the growth, as the machine's file gives it."""
+    """Range of the growth in the machine's file."""
     for record in parameters(results)["records"]:
         if record["field"].endswith(_GROWTH) and record["lowest"] is not None:
             return record["lowest"], record["highest"]

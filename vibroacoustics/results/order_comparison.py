@@ -17,8 +17,8 @@ from .provenance import software_attributes
 SPEED_TOLERANCE: Final = 0.02
 """Speeds of the two results that differ by less than this share are the same operating point."""
 NEGLIGIBLE: Final = 1e-9
-"""Of the largest order of the same unit in a result: below, a simulated order is rounding (spectra
-of accelerations are good to about 1e-11), and no recorder has a range of 180 dB."""
+"""Share of the largest order of the same unit in a result: a smaller simulated order is rounding
+(spectra of accelerations are good to about 1e-11), and no recorder has a range of 180 dB."""
 ORDER_TOLERANCE: Final = 1e-6
 Orders: TypeAlias = xr.DataArray | xr.Dataset
 

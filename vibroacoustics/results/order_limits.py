@@ -30,7 +30,7 @@ def check_limits(
 ) -> xr.Dataset:
     """Hold the RMS of every order against its limit.
 
-    Of a recording that is the RMS in the order's band, of a study the peak over √2. Where several
+    For a recording that is the RMS in the order's band, for a study the peak over √2. Where several
     limits hold for an order, the lowest counts.
 
     Parameters

@@ -14,7 +14,7 @@ COVERAGE: Final = 0.95
 
 
 class Scatter(NamedTuple):
-    """Of levels over several runs; not a number where the runs do not tell.
+    """Scatter of levels over several runs; not a number where the runs do not show it.
 
     Attributes
     ----------

@@ -23,7 +23,7 @@ def scored_again(results: xr.Dataset, settings: Scoring | None) -> xr.Dataset:
     Raises
     ------
     ParameterError
-        As `score`.
+        See `score`.
     """
     with collected() as lines:
         scores = score(results, settings)

@@ -42,7 +42,7 @@ _ALONG: Final = (
 _Case = dict[str, Any]
 """Values of an option at a position and speed, by name of variable or coordinate."""
 ROUNDING_SHARE: Final = 1e-9
-"""Of a band's mean square: less is what rounding leaves where lines are taken out."""
+"""Share of a band's mean square: less is what rounding leaves where lines are taken out."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class Ingredients:
 
     @property
     def mean_square(self) -> float:
-        """Of the sound, Pa²."""
+        """Mean square of the sound, Pa²."""
         return float(
             0.5 * np.sum(np.abs(self.lines.pressure_pa) ** 2) + np.sum(self.bands.pressure_pa**2)
         )
@@ -107,7 +107,7 @@ class Ingredients:
         return float(mean_square_level(square, REFERENCE_PRESSURE_PA))
 
     def louder(self, by_db: float) -> "Ingredients":
-        """The same sound at a level higher by some dB."""
+        """Return this sound at a level higher by some dB."""
         factor = amplitude_of_level(by_db)
         return Ingredients(
             replace(self.lines, pressure_pa=factor * self.lines.pressure_pa),

@@ -9,7 +9,7 @@ from ..base.arrays import Array, ComplexArray
 
 Numbers = TypeVar("Numbers", Array, ComplexArray)
 _FLOOR: Final = 1e-4
-"""Of the largest size, below which it changes no phase."""
+"""Share of the largest size below which the phase does not change."""
 _TINY: Final = 1e-300
 
 

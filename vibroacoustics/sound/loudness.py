@@ -76,7 +76,7 @@ def recorded_loudness(bands: NarrowBands) -> Loudness:
     Raises
     ------
     ParameterError
-        As `loudness_of`.
+        See `loudness_of`.
     """
     audible = bands.frequency_hz > 0.0
     square = bands.even_mean_square[audible] @ filter_gain(bands.frequency_hz[audible])
@@ -95,7 +95,7 @@ def loudness_of_thirds(mean_square: Array, field: SoundField = "free") -> list[L
     Raises
     ------
     ParameterError
-        As `loudness_of`.
+        See `loudness_of`.
     """
     core = core_loudness(thirds_db(mean_square), field)
     total = total_loudness(core)

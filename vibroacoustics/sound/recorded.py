@@ -17,10 +17,11 @@ from .tonality import TonalSpectrum
 SEGMENT_S: Final = 4.0
 """Lines of 0.25 Hz, less than 1 % of the lowest tone."""
 SEGMENTS: Final = 3
-"""Of a short recording: fewer would leave single lines of noise that stand out like tones."""
+"""Segments of a short recording: fewer would leave single lines of noise that stand out like
+tones."""
 SHORTEST_S: Final = 3.0
 STANDS_OUT: Final = 4.0
-"""Of a tone's lines over the median of its critical band, as powers: 6 dB."""
+"""Power of a tone's lines over the median of its critical band: 6 dB."""
 WIDEST: Final = 0.15
 """Width of a discrete tone over that of its critical band."""
 OUTSIDE: Final = 0.01

@@ -13,7 +13,7 @@ from .ingredients import HALF_BAND, Ingredients, SoundBands, SoundLines
 
 SAMPLE_RATE_HZ: Final = 48000
 SEED: Final = 1
-"""Of the noise: the same for all options, so that what differs is the option."""
+"""Seed of the noise: the same for all options, so that what differs is the option."""
 SHORTEST_S: Final = 1.0
 LONGEST_S: Final = 600.0
 _NEAR: Final = 20

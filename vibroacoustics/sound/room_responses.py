@@ -26,7 +26,7 @@ the square of the frequency is rounding."""
 RISE_S: Final = 1e-3
 """Ahead of the direct sound, within which noise and pulse may begin."""
 _DECAY: Final = 3.0 * np.log(10.0)
-"""Of the pressure within a reverberation time."""
+"""Decay of the pressure within a reverberation time."""
 _DECAYS_FROM_HZ: Final = 125.0
 _BLOCK: Final = 4096
 _ROUNDS: Final = 8
@@ -65,13 +65,13 @@ class WaysOfRoom:
 def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Array:
     """Pressure at listeners per acceleration, (listener, motion, sample), Pa/(m/s²) or Pa/(rad/s²).
 
-    Of samples, so that the convolution of a sampled acceleration with it is the pressure. Below the
-    crossover the waves; in it and above direct sound, a pulse at its time of travel, and noise that
-    decays with the reverberation time from then on. The noise is a sum of those of all positions on
-    the hemisphere, so that motions together have the power that they have there. Both are changed
-    until the response has in each third octave the mean square of both methods. The square roots of
-    the methods' shares are filters of least phase, so that nothing sounds before it can: they turn
-    the phase of the waves, alike at all listeners and for all motions.
+    They are samples, so that the convolution of a sampled acceleration with it is the pressure.
+    Below the crossover the waves; in it and above direct sound, a pulse at its time of travel, and
+    noise that decays with the reverberation time from then on. The noise is a sum of those of all
+    positions on the hemisphere, so that motions together have the power that they have there. Both
+    are changed until the response has in each third octave the mean square of both methods. The
+    square roots of the methods' shares are filters of least phase, so that nothing sounds before it
+    can: they turn the phase of the waves, alike at all listeners and for all motions.
 
     Parameters
     ----------

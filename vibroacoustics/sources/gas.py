@@ -182,7 +182,7 @@ def gas_cycle(machine: Machine, shared: Shared, speed_rpm: float) -> ScrollGasCy
     Raises
     ------
     ParameterError, SolverError
-        As `steady_opening`.
+        See `steady_opening`.
     """
     wraps, gas = machine.table(ScrollWraps), machine.table(ScrollGas)
     tables = (machine.table(table) for table in gas_tables(machine).values())
@@ -207,7 +207,7 @@ def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> dict[Port,
     Raises
     ------
     ParameterError, SolverError
-        As `steady_opening`.
+        See `steady_opening`.
     """
     cycle = gas_cycle(machine, Shared(), speed_rpm)
     samples = cycle.crank_angle.size

@@ -149,7 +149,7 @@ def run_down(
 def _further(
     stopping: Stopping, course: Course, valve: CheckValve | None, since_rest_s: Array
 ) -> list[tuple[str, tuple[Array, Array]]]:
-    """Of the rotor a moment about z, of the valve a force along z."""
+    """Wrenches: of the rotor a moment about z, of the valve a force along z."""
     still: Array = np.zeros((3, since_rest_s.size))
     spin = still.copy()
     spin[2] = -stopping.shaft_inertia_kg_m2 * course.acceleration

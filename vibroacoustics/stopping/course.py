@@ -10,7 +10,8 @@ from .reversal import Reversal
 
 
 class Course(NamedTuple):
-    """Of the shaft over time, shape (times,) each: rad, rad/s, rad/s²; share of the gas; N."""
+    """Motion of the shaft over time, shape (times,) each: rad, rad/s, rad/s²; share of the gas;
+    N."""
 
     angle: Array
     speed: Array

@@ -139,7 +139,7 @@ class Coasting:
         )
 
     def shift(self, time: Array) -> Shift:
-        """Of the set against the crank pin."""
+        """Shift of the set against the crank pin."""
         return brake_shift(time, self.stopping.shift_rad, self.stopping.shift_duration_s)
 
     def inertia_kg_m2(self, time: float, angle: float) -> float:

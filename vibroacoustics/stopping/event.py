@@ -23,7 +23,7 @@ STEADY_S: Final = 1.5
 REST_S: Final = (8.0, 16.0, 32.0, 64.0)
 """After the stop, until the mounts have rung out; tried in this order."""
 RESIDUE: Final = 1e-4
-"""Of the largest force into a foot, in the last second: rung out."""
+"""Share of the largest force into a foot, in the last second: the vibration has decayed."""
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ def stopping_event(
 
 
 def _fade(samples: int, rate_hz: float) -> Array:
-    """Of a load from its first sample to its last."""
+    """Fade of a load from its first sample to its last."""
     fade = np.ones(samples)
     rising = np.linspace(0.0, np.pi, round(FADE_S * LOAD_SAMPLES * rate_hz))
     fade[: rising.size] = 0.5 - 0.5 * np.cos(rising)

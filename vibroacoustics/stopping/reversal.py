@@ -20,7 +20,8 @@ MOST_TURNS: Final = 2000
 CREEP_RAD_PER_S: Final = 1e-4
 """A shaft that slows to this in a contact that damps more than it swings stands."""
 STUCK_RATIO: Final = 0.01
-"""Of the gas's torque, that a standing shaft may lack: what the damping carries as it creeps."""
+"""Share of the gas's torque that a standing shaft may lack: what the damping carries as it
+creeps."""
 
 CLOSED_RAD: Final = 1e-11
 """A gap as small is rounding of the angle at which the contact closed."""
@@ -44,9 +45,9 @@ class TrappedGas:
     index: float
 
     def share(self, turned_back: Array | float) -> Array:
-        """Of the torque that is left when the shaft has turned back by an angle, rad.
+        """Share of the torque that remains when the shaft has turned back by an angle, rad.
 
-        As the difference of pressure with p V^κ constant; none below the suction's.
+        It follows the difference of pressure with p V^κ constant; none below the suction's.
         """
         suction, discharge = self.pressures_pa
         grown = np.maximum(turned_back, 0.0) * self.per_turn_m3 / (2.0 * np.pi * self.volume_m3)

@@ -21,7 +21,7 @@ from .reversal import TrappedGas
 SHIFTED: Final = ("orbiting_scroll", "brake", "oldham")
 """The set that the brake lets turn against pin and counterweights (thesis 6.4)."""
 PATH_SAMPLES: Final = 256
-"""Of the moving parts' paths, which are circles and a line."""
+"""Samples of the moving parts' paths, which are circles and a line."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Stops:
 
     @classmethod
     def of(cls, machine: Machine, turns_back: bool = False) -> "Stops":
-        """Of a machine with gas and a table of stopping.
+        """Return the stops of a machine with gas and a table of stopping.
 
         Parameters
         ----------

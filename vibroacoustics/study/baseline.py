@@ -73,9 +73,9 @@ class BaselineMicrophone(Parameters):
     """What a microphone is called in the files."""
 
     channel: str | None = None
-    """Of a recording."""
+    """Channel of a recording."""
     node: int | None = Field(default=None, ge=0, le=999_999_999)
-    """Of a function of frequency."""
+    """Node of a function of frequency."""
 
 
 class BaselineSettings(Parameters):
@@ -88,9 +88,9 @@ class BaselineSettings(Parameters):
     tacho_angle_rad: float | None = Field(default=None, ge=-7.0, le=7.0)
     """Crank angle of the study at which the tacho gives its pulse; none for energies."""
     recorded_speed_rpm: tuple[float, ...] = ()
-    """Of each file that states none, in their order."""
+    """Speed of each file that states none, in their order."""
     window: Literal["hann", "rectangular", "flat_top"] = "hann"
-    """Of narrow-band spectra."""
+    """Window of narrow-band spectra."""
     spectra: Literal["peak", "rms"] = "peak"
     """What spectra of phasors are in."""
     tolerance_db: float = Field(default=1.5, ge=0.1, le=10.0)

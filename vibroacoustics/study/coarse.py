@@ -17,7 +17,7 @@ _HIGHEST_IN_ROOM_HZ: Final = 710.0
 _END: Final = 0.05
 """Share of the samples beyond each end of a band of 90 %."""
 _DENSITY: Final = 0.1031
-"""Of the normal distribution at its 5 % quantile."""
+"""Density of the normal distribution at its 5 % quantile."""
 
 
 def coarse(study: Study) -> Study:

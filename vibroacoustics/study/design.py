@@ -22,7 +22,7 @@ class DesignVariable(Parameters):
     list: tuple[Number | str, ...] | None = Field(default=None, min_length=1, max_length=10_000)
     """Numbers or words in place of a range."""
     points: int | None = Field(default=None, ge=2, le=100_000)
-    """Of a range in a grid."""
+    """Number of points of a range in a grid."""
 
     def contradictions(self) -> Contradictions:
         if (self.range is None) == (self.list is None):
@@ -40,7 +40,7 @@ class Tolerance(Parameters):
     """How far a value lies from what is meant, evenly spread, in the unit of its key."""
 
     ratio: float | None = Field(default=None, gt=0.0, lt=1.0)
-    """Of the value, to both sides."""
+    """Share of the value, to both sides."""
     plus_minus: float | None = Field(default=None, gt=0.0)
     range: tuple[float, float] | None = None
     """The value itself, whatever is meant: the angle of a residual unbalance."""
@@ -99,11 +99,11 @@ class Search(Parameters):
     """Designs a generation."""
     generations: int = Field(default=100, ge=1, le=100_000)
     seed: int = Field(default=1, ge=0, le=2**31 - 1)
-    """Of the random numbers; the same seed asks for the same designs."""
+    """Seed of the random numbers; the same seed gives the same designs."""
     best: int = Field(default=5, ge=1, le=20)
     """Designs that are told one by one."""
     fresh_samples: int = Field(default=10_000, ge=100, le=1_000_000)
-    """Of the tolerances, that the search has not seen, behind what a design promises."""
+    """Samples of the tolerances that the search has not used; a design's promise rests on them."""
 
 
 class Design(Parameters):
@@ -117,7 +117,7 @@ class Design(Parameters):
     constraints: dict[str, Constraint] = Field(default_factory=dict, max_length=32)
     tolerances: dict[str, Tolerance] = Field(default_factory=dict, max_length=64)
     tolerance_samples: int = Field(default=64, ge=1, le=1_000_000)
-    """Of the tolerances, the same for all designs."""
+    """Samples of the tolerances, the same for all designs."""
     sampling: Literal["grid", "latin-hypercube", "sobol"] = "grid"
     samples: int = Field(default=1000, ge=1, le=100_000_000)
     """Designs of a sample."""

@@ -73,7 +73,7 @@ def study_of(written: Written) -> Study:
     Raises
     ------
     ParameterError
-        As `load_study`.
+        See `load_study`.
     FaultError
         The code of a machine or source failed.
     """
@@ -208,7 +208,7 @@ def load_machine(path: str | Path) -> Machine:
     Raises
     ------
     ParameterError
-        As `load_study`; also where a value has no source.
+        See `load_study`; also where a value has no source.
 
     Parameters
     ----------
@@ -334,7 +334,7 @@ def _resolve(content: Mapping[str, Any], keys: tuple[str, ...], reader: Reader) 
 
 
 def _resolve_list(content: Mapping[str, Any], keys: tuple[str, ...], reader: Reader) -> None:
-    """Of a list of names."""
+    """Resolve a list of names."""
     table = _table_at(content, keys[:-1])
     if table is not None and isinstance(table.get(keys[-1]), list):
         file = reader.file(keys)
@@ -355,7 +355,7 @@ def load_study_or_machine(path: str | Path) -> Study | Machine:
     Raises
     ------
     ParameterError
-        As `load_study` and `load_machine`.
+        See `load_study` and `load_machine`.
     """
     is_machine = "kind" in read_toml(Path(path))
     return load_machine(path) if is_machine else load_study(path)

@@ -15,7 +15,7 @@ _SHOWN_SUPPLY = WithJsonSchema({"type": "number", "minimum": 1.0, "maximum": 100
 MOST_SPEEDS: Final = 1000
 KEYS: Final = ("start", "stop", "step")
 DECIMALS: Final = 9
-"""Of a speed in rpm; and a speed that misses `stop` by 1e-9 of a step counts as it."""
+"""Decimals of a speed in rpm; a speed that misses `stop` by 1e-9 of a step counts as it."""
 
 
 class Operation(Parameters):
@@ -29,7 +29,7 @@ class Operation(Parameters):
     keep_time_series: bool | None = None
     """Forces and moments over crank angle in the results; none for up to 100 speeds only."""
     supply_frequency_hz: tuple[Annotated[float, _SHOWN_SUPPLY], ...] | None = None
-    """Of the motor's supply, one for each speed; where a source needs it."""
+    """Frequency of the motor's supply, one for each speed; where a source needs it."""
     point: str | None = None
     """Operating point of the machine's file, whose values hold; none for the machine's as given."""
     stopping: bool = False

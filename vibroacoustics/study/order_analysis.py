@@ -208,11 +208,11 @@ class OrderAnalysis:
     orders: tuple[float, ...] = (1.0, 2.0, 3.0, 4.0)
     """Rising."""
     maximum_order: float = 20.0
-    """Of spectra and map."""
+    """Maximum order of spectra and map."""
     resolution_order: float = 0.25
     """Coarsest noise bandwidth of a line, orders."""
     speed_step_rpm: float = 100.0
-    """Of the operating points of a run-up."""
+    """Step of the operating points of a run-up."""
     with_map: bool | None = False
     """Keep the order map of every block; None: that of a run-up, up to 128 MiB."""
     bands: BandMethod = "sums"

@@ -79,7 +79,7 @@ class StudyRoom(Parameters):
 
     size_m: tuple[Length, Length, Length]
     foot_m: tuple[Coordinate, Coordinate]
-    """Of the shell's axis: x and y."""
+    """Foot of the shell's axis: x and y."""
     standing_height_m: float = Field(default=0.0, ge=0.0, le=LONGEST_M)
     """Top of what the machine stands on, above the floor."""
     maximum_frequency_hz: float = Field(default=1000.0, ge=250.0, le=1000.0)

@@ -17,7 +17,7 @@ from .sampling import Sample, latin_hypercubes, narrowed
 from .study import Study
 
 MOST_ROUNDS: Final = 20
-"""Of sampling anew for samples that contradict themselves."""
+"""Most rounds of sampling anew for samples that contradict themselves."""
 
 Table = TypeVar("Table", bound=Parameters)
 

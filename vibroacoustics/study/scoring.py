@@ -54,7 +54,7 @@ class Measurable(Parameters):
 
     level_db: float = Field(default=0.5, gt=0.0, le=20.0)
     force_ratio: float = Field(default=0.05, gt=0.0, lt=1.0)
-    """Of the force or moment without the option."""
+    """Share of the force or moment without the option."""
     quietest_line_db: float = Field(default=0.0, ge=-40.0, le=60.0)
     """A line that is quieter counts as this."""
     samples_ratio: float = Field(default=0.5, ge=0.0, lt=1.0)

@@ -11,7 +11,7 @@ HEMISPHERES: Final = ("iso3744-hemisphere-10", "iso3744-hemisphere-20")
 MINIMUM_BACKGROUND_MARGIN_DB: Final = 6.0
 """Below, a measurement does not qualify (ISO 3744:2010, 8.2.3)."""
 MAXIMUM_POINTS: Final = 20_000
-"""Of a map or a directivity; each is one point of the Green's function."""
+"""Most points of a map or a directivity; each is one point of the Green's function."""
 
 Coordinate = Annotated[float, Field(ge=-20.0, le=20.0)]
 
@@ -90,7 +90,7 @@ class DirectivitySettings(Parameters):
 
     radius_m: float = Field(default=10.0, ge=0.5, le=100.0)
     step_rad: float = Field(default=pi / 18.0, ge=pi / 180.0, le=pi / 4.0)
-    """Of both angles; a quarter turn is a whole number of it."""
+    """Step of both angles; a quarter turn is a whole number of it."""
 
     def contradictions(self) -> Contradictions:
         steps = pi / 2.0 / self.step_rad

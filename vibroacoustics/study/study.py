@@ -93,7 +93,7 @@ class Study(StudyTables):
         Raises
         ------
         ParameterError
-            As `load_study`; or the study was not read from a file, or changed by `model_copy`.
+            See `load_study`; or the study was not read from a file, or changed by `model_copy`.
 
         Examples
         --------

@@ -36,7 +36,7 @@ class StudyTables(Parameters):
     options: dict[str, AnyOption]
     receivers: dict[str, Receiver] = Field(min_length=1)
     catalogue_receiver: str = ""
-    """Of the machine's overall noise; the first where the machine's file gives none."""
+    """Receiver of the machine's published level; the first where the machine's file gives none."""
     catalogue_point: str | None = None
     """Operating point of the machine's file at which its overall noise holds; none for the values
     of the study."""
@@ -71,9 +71,9 @@ class StudyTables(Parameters):
     shell_modes: MeasuredModes | None = None
     """Measured modes of the shell, in place of the computed ones."""
     ranges: tuple[Range, ...] = ()
-    """Of the machine's values that are sampled at random."""
+    """Ranges of the machine's values that are sampled at random."""
     held_ranges: tuple[HeldRange, ...] = ()
-    """Of those that are not, with the reason."""
+    """Ranges of the values that are not sampled, with the reason."""
     design: Design | None = None
     """What a sweep or a search varies; a run takes the options as they are given."""
     measured: MeasuredSound | None = None

@@ -60,7 +60,7 @@ def validated(
 def checked(
     model: type[Model], content: dict[str, Any], reader: FileKeys, table: tuple[str, ...] = ()
 ) -> Model:
-    """As `validated`, without the problems of the reader."""
+    """Return what `validated` does, without the problems of the reader."""
     try:
         return model.model_validate(content)
     except ValidationError as error:
@@ -152,7 +152,7 @@ def _is_table(model: type[BaseModel], inner: tuple[str, ...]) -> bool:
 
 
 def _apart(details: ErrorDetails) -> list[ErrorDetails]:
-    """Of a refusal with several arguments one for each."""
+    """Split a refusal with several arguments into one for each."""
     problems = details["ctx"]["error"].args if details["type"] == "value_error" else ()
     if len(problems) < 2:
         return [details]

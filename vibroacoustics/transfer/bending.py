@@ -189,8 +189,8 @@ def pressure_over_time(
 ) -> Array:
     """Pressure of loads in the shell by Fourier transform of the event, Pa, (receiver, times).
 
-    As `transient` does for the rigid machine: the event counts as one period, ends with rest that
-    lasts until the shell has rung out, and has no lines above the highest frequency.
+    The rigid machine is treated so by `transient`: the event counts as one period, ends with rest
+    that lasts until the shell has rung out, and has no lines above the highest frequency.
 
     Parameters
     ----------

@@ -34,12 +34,12 @@ class Stand:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the feet, in their order."""
+        """Names of the feet, in their order."""
         return FOOT_NAMES if self.feet is None else tuple(self.feet.by_name)
 
     @property
     def position(self) -> Array:
-        """Of the feet, shape (foot, 3), m from the centre of mass."""
+        """Position of the feet, shape (foot, 3), m from the centre of mass."""
         if self.feet is None:
             return corners(self.mounts.pitch_m, self.height_m)
         return np.array([self._position(foot) for foot in self.feet.by_name.values()])
@@ -110,7 +110,7 @@ def _matrix(stiffness: Array) -> Array:
 
 
 def _constant(stiffness: Array, loss: float) -> Callable[[Array], ComplexArray]:
-    """Of frequencies to a stiffness that is the same at all of them, lossless at zero."""
+    """Function of frequencies to a stiffness that is the same at all of them, lossless at zero."""
 
     def stiffness_at(frequency_hz: Array) -> ComplexArray:
         moving = np.asarray(frequency_hz, dtype=float)[..., None] > 0.0

@@ -11,7 +11,8 @@ from ..mechanics.ports import HOUSING
 from .machine import MachineOnMounts
 
 PressurePerVelocity = Callable[[Array], ComplexArray]
-"""Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
+"""Function of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa
+s/m."""
 
 
 @runtime_checkable
@@ -45,7 +46,7 @@ class ForceSound:
     per_foot: ComplexArray | None
 
     def __call__(self, frequency_hz: Array) -> ComplexArray:
-        """As `of` the machine as given."""
+        """Return `of` the nominal machine."""
         return self.of(self.body)(frequency_hz)
 
     def of(self, body: MachineOnMounts) -> PressurePerVelocity:

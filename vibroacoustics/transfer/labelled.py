@@ -87,7 +87,7 @@ def _at_springs(
 
 
 def _responses(machines: list[MachineOnMounts], results: xr.Dataset) -> list[Response]:
-    """Of each option's machine, shapes (speed, source, order, ...).
+    """Responses of each option's machine, shapes (speed, source, order, ...).
 
     Options on equal mounts are solved at once.
     """

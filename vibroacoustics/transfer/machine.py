@@ -50,7 +50,7 @@ class Response:
     foot_force: ComplexArray
 
     def unstacked(self) -> "list[Response]":
-        """Of each of the loads along the first axis."""
+        """Return the response to each of the loads along the first axis."""
         parts = (self.velocity, self.block_velocity, self.foot_force)
         return [Response(*each) for each in zip(*parts, strict=True)]
 
@@ -118,7 +118,7 @@ class MachineOnMounts:
 
     @property
     def mechanism_port(self) -> BodyPort:
-        """As of `Machine`."""
+        """Port of the mechanism, see `Machine`."""
         return HOUSING if self.suspension is None else BLOCK
 
     def row(self, port: BodyPort) -> int:
@@ -135,7 +135,8 @@ class MachineOnMounts:
         return names.index(port.name)
 
     def natural_modes(self) -> tuple[Array, Array]:
-        """As `Isolation.natural_modes`, on a rigid floor, with the mounts' stiffness there."""
+        """Natural modes on a rigid floor, with the mounts' stiffness there, see
+        `Isolation.natural_modes`."""
         if not self.stand.is_over_frequency:
             return self.isolation.natural_modes()
         isolation = self._isolation(with_floor=False)

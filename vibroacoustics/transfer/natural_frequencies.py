@@ -49,7 +49,8 @@ def natural_variables(
 
 
 def shell_frequencies(machine: Machine, path: ShellPath) -> Named:
-    """Of the shell, with the parts in it where the machine has a frame, by name, Hz, rising."""
+    """Frequencies of the shell, with the parts in it where the machine has a frame, by name, Hz,
+    rising."""
     shell = path.with_structure(machine.table(ShellStructure))
     frame = frame_on_shell(machine, shell)
     if frame is not None:
@@ -64,7 +65,8 @@ def shell_frequencies(machine: Machine, path: ShellPath) -> Named:
 
 
 def framed_hz(frame: FrameOnShell) -> Array:
-    """Of shell and parts joined at their contacts, without loss, free in space, Hz, rising.
+    """Frequencies of shell and parts joined at their contacts, without loss, free in space, Hz,
+    rising.
 
     Coordinates are the shell's modes, its six rigid motions and the freedoms of the parts; the
     gaps at the contacts are held by their springs in series with what the modes leave out, those
@@ -89,7 +91,7 @@ def framed_hz(frame: FrameOnShell) -> Array:
 
 
 def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str, float]) -> Named:
-    """Of the spaces of gas in rigid walls that a source feeds, by name, Hz, rising.
+    """Frequencies of the gas in rigid walls that a source feeds, by name, Hz, rising.
 
     Parameters
     ----------
@@ -108,6 +110,6 @@ def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str,
 
 
 def sound_speeds(loads: Mapping[str, Loads]) -> dict[str, float]:
-    """Of the spaces of gas that the loads feed, by the name of their table, m/s."""
+    """Speeds of sound in the spaces of gas that the loads feed, by the name of their table, m/s."""
     ports = (port for load in loads.values() for port in load.ports)
     return {port.name: port.sound_speed_m_per_s for port in ports if isinstance(port, GasPort)}

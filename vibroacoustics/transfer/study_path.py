@@ -11,7 +11,7 @@ from .shell_modes.projection import projection_error
 from .shell_modes.sampled import SampledMode
 
 _FACTOR: Final = "frequency_factor_ratio"
-"""Of the shell's variation: how natural frequencies differ in a sample."""
+"""Factor of the shell's variation: how natural frequencies differ in a sample."""
 
 
 def computed_shell_path(study: Study) -> ShellPath:

@@ -17,9 +17,9 @@ from ..narrow_spectra import NarrowSpectrum, of_spectra
 from ..recorded_rows import band_row, order_row
 
 SPEED_STEP_RPM: Final = 100.0
-"""Of the operating points of a map, as `orders` has them."""
+"""Step of the operating points of a map, as `orders` has them."""
 _WINDOW: Final = "hann"
-"""Of every analysis of this package."""
+"""Window of every analysis of this package."""
 
 
 def read(file: BaselineFile) -> BaselineContent:
@@ -119,7 +119,8 @@ def _of_orders(results: xr.Dataset, channels: dict[str, str]) -> BaselineContent
 
 
 def _spectra(results: xr.Dataset, channels: dict[str, str]) -> list[NarrowSpectrum]:
-    """Of the blocks of a map, or the mean at a steady speed; none of a run-up without a map."""
+    """Spectra of the blocks of a map, or the mean at a steady speed; none of a run-up without a
+    map."""
     if "map_order" not in results:  # mean of several recordings
         return []
     speeds, order = results["speed"].values, results["map_order"].values

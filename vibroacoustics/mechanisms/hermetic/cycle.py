@@ -23,7 +23,7 @@ SUPPLIES: Final = 10
 THICKER_OILS: Final = (8.0, 4.0, 2.0, 1.4)
 """Viscosities over the machine's, on the way to it where it is not reached at once."""
 SPEED_TOLERANCE: Final = 1e-6
-"""Of the mean speed, relative."""
+"""Tolerance of the mean speed, relative."""
 KEPT_CYCLES: Final = 16
 """A search asks for those of a design twice, at each speed: for its forces and its criteria."""
 

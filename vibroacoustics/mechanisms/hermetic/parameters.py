@@ -29,7 +29,7 @@ class Piston(Parameters):
     diameter_m: float = LENGTH
     mass_kg: float = MASS
     cylinder_offset_m: float = Field(ge=-0.1, le=0.1)
-    """Of the cylinder's axis from the shaft's, towards the crank pin at a quarter turn."""
+    """Offset of the cylinder's axis from the shaft's, towards the crank pin at a quarter turn."""
 
 
 class Rod(Parameters):
@@ -98,7 +98,7 @@ class HermeticTables(Machine):
 
     case: Case
     crank_height_m: float = HEIGHT
-    """Of the crank's centre, where the upper bearing is, from the centre of mass at rest."""
+    """Height of the crank's centre, where the upper bearing is, from the centre of mass at rest."""
     counterweights: BalancePlanes
     """Where weights can sit on the shaft; heights from the crank's centre."""
     piston: Piston

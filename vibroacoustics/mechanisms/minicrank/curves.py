@@ -25,7 +25,7 @@ SOURCE: Final = "Zhao et al. 2013, "
 CRANK_ANGLES: Final = 3600
 """Samples: errors of 10 µm make a peak some 1° wide."""
 ERRORS_M: Final = (0.0, -10e-6, -50e-6, -100e-6)
-"""Of the crank, beside which figure 8 shows no numbers."""
+"""Errors of the crank, beside which figure 8 shows no numbers."""
 TORQUES: Final = {
     "load": "gas and friction",
     "scroll_inertia": "inertia of the scroll",

@@ -208,7 +208,7 @@ def crank_pin_force(
     Raises
     ------
     ParameterError
-        As `minicrank_pin_force`.
+        See `minicrank_pin_force`.
     """
     outward, forward = direction(motion.crank_angle), direction(motion.crank_angle + 0.5 * np.pi)
     gas = -load.tangential_force_n * forward - load.radial_force_n * outward

@@ -26,7 +26,7 @@ from ...sources.scroll_gas.parameters import (
 from ...sources.synchronous_motor.parameters import SynchronousMotor
 
 MOST_INNER_SHARE: Final = 0.95
-"""Of the mass; wall, feet and oil are the rest."""
+"""Largest share of the mass that internal parts have; wall, feet and oil are the rest."""
 STROKES: Final = Held("may be printed or derived: two studies, no range")
 
 
@@ -74,11 +74,11 @@ class OldhamScrollTables(Machine):
     synchronous_motor: SynchronousMotor | None = None
     """In the other motor's place, on an inverter; a study names one of them."""
     air_gap: AirGap | None = None
-    """Of either motor."""
+    """Air gap of either motor."""
     stator_yoke: StatorYoke | None = None
     rotor: TurningRotor | None = None
     structure: ShellStructure | None = None
-    """Of the shell, where it may bend."""
+    """Structure of the shell, where it may bend."""
     variation: ShellVariation | None = None
     stopping: Stopping | None = None
     discharge_dome: DischargeDome | None = None

@@ -16,7 +16,7 @@ from .slider_crank import design_at_bore, rates_of_momentum
 BORE_RATIOS: Final = np.arange(10.0, 18.5) / 13.0
 """Bores over the machine's: 100 to 180 mm of 130 mm, as in the paper."""
 LINES: Final = (0, 3, 6, 8)
-"""Of these bores those whose curves over the crank angle are shown, the machine's among them."""
+"""Numbers of the bores whose curves over the crank angle are shown, the machine's among them."""
 SPEED_RATIOS: Final = np.array([0.8, 1.0, 1.2])
 """Speeds over the one asked for: 800, 1000 and 1200 rpm in the paper."""
 PAIRS: Final = {

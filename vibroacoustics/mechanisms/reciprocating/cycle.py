@@ -129,7 +129,7 @@ def steady_cycle(
 ) -> Cycle:
     """Solve the crankshaft's equation of motion (1) with Coulomb friction (4) by iteration.
 
-    As in the paper, the first solution is without friction; the friction of each solution goes
+    The first solution is without friction, which the paper does too; the friction of each goes
     into the next until it repeats. With several cylinders the sums of (1) go over all of them.
 
     Raises

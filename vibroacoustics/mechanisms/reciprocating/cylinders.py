@@ -55,9 +55,9 @@ class CylinderBanks(Parameters):
     """
 
     bank_angles_rad: tuple[float, ...] = Field(min_length=1, max_length=8)
-    """Of the cylinders' axes from upright."""
+    """Angles of the cylinders' axes from upright."""
     throw_angles_rad: tuple[float, ...] = Field(min_length=1, max_length=12)
-    """Of the crank pins from the first one's place."""
+    """Angles of the crank pins from the first one's place."""
     throw_positions_m: tuple[float, ...]
     """Middle of each crank pin along the shaft."""
     rod_pitch_m: float = Field(ge=0.0, le=1.0)
@@ -113,4 +113,4 @@ class CylinderBanks(Parameters):
 ONE_CYLINDER: Final = CylinderBanks(
     bank_angles_rad=(0.0,), throw_angles_rad=(0.0,), throw_positions_m=(0.0,), rod_pitch_m=0.0
 )
-"""Of a machine whose file has no banks."""
+"""Cylinders of a machine whose file has no banks."""

@@ -40,7 +40,7 @@ class PistonAndRod(Parameters):
 
 class Crankshaft(Parameters):
     inertia_kg_m2: float = Field(gt=0.0, le=1e6)
-    """Of all that turns with the shaft, balanced about its axis."""
+    """Inertia of all that turns with the shaft, balanced about its axis."""
     motor_slope_ratio: float = Field(ge=-3.0, le=1.0)
     """Relative change of the motor's torque per relative change of speed."""
 
@@ -85,7 +85,7 @@ class ReciprocatingTables(Machine):
     sliding_pairs: SlidingPairs
     gas: CylinderGas
     crankshaft_height_m: float = HEIGHT
-    """Of the shaft's axis from the centre of mass at rest."""
+    """Height of the shaft's axis from the centre of mass at rest."""
     cylinders: CylinderBanks | None = None
     """Banks and crank throws; none is one cylinder."""
     counterweights: BalancePlanes

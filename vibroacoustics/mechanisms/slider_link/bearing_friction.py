@@ -9,7 +9,8 @@ from ...base.errors import ParameterError
 from .parameters import JournalBearing, ThrustBearing
 
 MOST_STEPS: Final = 60
-"""As many halvings come down to the rounding of a double; Newton's steps are about seven."""
+"""Largest number of steps: so many halvings come down to rounding; Newton's steps are about
+seven."""
 ROUNDING: Final = 4.0 * np.finfo(float).eps
 
 

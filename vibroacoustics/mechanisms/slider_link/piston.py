@@ -167,7 +167,7 @@ def piston_contacts(
 ) -> PistonContacts:
     """Constraint forces on the piston (8) to (11), with the sides that it touches.
 
-    Of the eight combinations of sides the one is taken whose forces have the signs assumed. It
+    One of the eight combinations of sides is taken: its forces have the signs assumed. It
     exists and is the only one where all eight determinants are positive (`check_not_jammed`).
 
     Parameters

@@ -26,7 +26,7 @@ class Forces(FileTable):
     scaling: Literal["inertia"] | None = None
     """With one speed: every force grows as the speed squared."""
     recorded_speed_rpm: float | None = Field(default=None, gt=0.0, le=1e5)
-    """Of a recording over time, which does not say it."""
+    """Speed of a recording over time, which does not say it."""
     speed_rpm: tuple[float, ...] = ()
     sources: tuple[str, ...] = ()
     packed: str = ""

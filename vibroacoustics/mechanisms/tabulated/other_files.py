@@ -15,7 +15,7 @@ from .csv_layout import ONE_SOURCE
 from .spectra import COMPONENTS, Spectra, orders_of
 
 MAXIMUM_BYTES: Final = 2**31
-"""Of results, which are read as a whole."""
+"""Size of results, which are read as a whole."""
 MISSED_REVOLUTION: Final = 1e-3
 """Largest part of a revolution by which a recording misses whole ones."""
 if TYPE_CHECKING:

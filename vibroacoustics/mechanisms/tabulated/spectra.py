@@ -16,7 +16,7 @@ COMPONENTS: Final = ("fx", "fy", "fz", "mx", "my", "mz")
 SAME_SPEED: Final = 1e-9
 """Speeds that differ by less than this part of them are one."""
 SMALLEST_STEPS: Final = 3
-"""Of crank angles over a revolution: with fewer there is no order one."""
+"""Least number of crank angles over a revolution: with fewer there is no order one."""
 
 
 @dataclass(frozen=True)

@@ -50,7 +50,8 @@ class Outdoors:
     def rows(
         self, points: Array, receivers: Array, frequency_hz: Array, walls: Sequence[Mirror] = ()
     ) -> Iterator[ComplexArray]:
-        """The same to several receivers: (receiver, point), one frequency after the other."""
+        """Green's functions to several receivers: (receiver, point), one frequency after the
+        other."""
         for hertz in frequency_hz:
             yield np.array(
                 [self.green(points, receiver, float(hertz), walls) for receiver in receivers]

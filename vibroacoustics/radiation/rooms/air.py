@@ -24,9 +24,9 @@ from .layout import (
 from .wall_step import WallPatch, Walls, pass_walls
 
 _LARGEST_PHASE: Final = 2.8
-"""Of the highest term in a step, rad, where the search for the time step begins."""
+"""Phase of the highest term in a step, rad, where the search for the time step begins."""
 _LARGEST_EIGENVALUE: Final = 3.9
-"""Of a step's operator without walls' resistance: from 4 on, terms grow."""
+"""Eigenvalue of a step's operator without walls' resistance: from 4 on, terms grow."""
 
 
 class Air:
@@ -42,7 +42,7 @@ class Air:
         self.boxes, self.time_step_s = boxes, time_step_s
         self._layout = plan = layout(boxes, faces)
         self.terms = np.zeros(plan.terms[-1])
-        """Of the series now, box after box."""
+        """Terms of the series now, box after box."""
         self._before = np.zeros_like(self.terms)
         self._turn = 2.0 * np.cos(plan.omega * time_step_s)
         reach = SPEED_OF_SOUND_M_PER_S * time_step_s
@@ -187,7 +187,8 @@ def _patches(faces: Sequence[Face], plan: Layout, masses: Sequence[float]) -> li
 
 
 def largest_eigenvalue(air: Air) -> float:
-    """Of a step's operator: Lanczos iteration, an upper bound to its tolerance."""
+    """Largest eigenvalue of a step's operator: Lanczos iteration, an upper bound to its
+    tolerance."""
     from scipy.sparse.linalg import LinearOperator, eigsh
 
     factors = air.balance()

@@ -30,7 +30,7 @@ def room_cost(study: Study, settings: StudyRoom) -> Cost:
     Raises
     ------
     ParameterError
-        As `room_vectors`.
+        See `room_vectors`.
     """
     waves, ears = RoomSettings(settings.maximum_frequency_hz), listeners_m(settings)
     shell, radiation = study.machine.shell, study.radiation

@@ -35,7 +35,7 @@ class AirBox:
 
     @property
     def spacing(self) -> Array:
-        """Of the nodes, m."""
+        """Spacing of the nodes, m."""
         return np.asarray(self.size / np.array(self.nodes))
 
 

@@ -18,7 +18,7 @@ _NEAREST_M: Final = 0.05
 _AIR_TEMPERATURE_K: Final = 293.15
 _AIR_HUMIDITY_RATIO: Final = 0.5
 LONGEST_S: Final = 5.0
-"""Of rooms that hardly absorb."""
+"""Longest reverberation time, of rooms that hardly absorb."""
 
 
 @dataclass(frozen=True)
@@ -28,13 +28,13 @@ class DiffuseRoom:
     absorption_area_m2: Array
     """By octave from 63 Hz to 4 kHz, (octave,)."""
     surface_m2: float
-    """Of walls and blocks."""
+    """Surface of walls and blocks."""
     volume_m3: float
-    """Of the air."""
+    """Volume of the air."""
 
     @classmethod
     def of(cls, room: Room) -> "DiffuseRoom":
-        """Of a room."""
+        """Return the diffuse room of a room."""
         return cls(absorption_area_m2(room), surface_m2(room), volume_m3(room))
 
     def area_m2(self, frequency_hz: Array) -> Array:
@@ -54,7 +54,7 @@ class DiffuseRoom:
         return np.asarray(area / (1.0 - np.minimum(area / self.surface_m2, _MOST_MEAN_ABSORPTION)))
 
     def reverberation_time_s(self, frequency_hz: Array) -> Array:
-        """Of walls and air, T = 24 ln 10 V/(c A), (frequency,), s; 5 s at most.
+        """Reverberation time of walls and air, T = 24 ln 10 V/(c A), (frequency,), s; 5 s at most.
 
         H. Kuttruff, Room Acoustics, 6th edition (2016), equation 5.25 (Sabine).
         """
@@ -166,7 +166,7 @@ def air_attenuation_per_m(frequency_hz: Array) -> Array:
 
 
 def volume_m3(room: Room) -> float:
-    """Of the air, m³."""
+    """Return the volume of the air, m³."""
     return float(sum(np.prod(box.size) for box in cut(room, np.inf, least_nodes=1)))
 
 

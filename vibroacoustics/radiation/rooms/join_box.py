@@ -10,7 +10,7 @@ from ..arrays import Array, ComplexArray
 from .lattice import Lattice
 
 _MORE_NODES: Final = 6
-"""Of the quadrature, beyond those that waves along the side need."""
+"""More nodes of the quadrature, beyond those that waves along the side need."""
 _QUADRATURE: Final = 1e-4
 """Error of the quadrature by what radiates or scatters close to the box."""
 
@@ -38,7 +38,7 @@ class JoinBox:
         on_floor: bool = False,
     ) -> None:
         self.lattices: list[Lattice] = []
-        """Of each side, for `room_transfer`."""
+        """Lattice of each side, for `room_transfer`."""
         self.axes: list[int] = []
         """Across each side."""
         self.weights: list[Array] = []
@@ -62,7 +62,7 @@ class JoinBox:
 
     @property
     def points(self) -> list[Array]:
-        """Of each side, (point, 3), m."""
+        """Points of each side, (point, 3), m."""
         return [
             np.stack(np.meshgrid(*lattice.lines, indexing="ij"), axis=-1).reshape(-1, 3)
             for lattice in self.lattices

@@ -32,7 +32,7 @@ class Piece:
     near: tuple[tuple[int, int, Array], ...]
     """Sides that matter: axis, end, and what the series lacks along the axis, (point,)."""
     result_rows: IndexArray
-    """Of the points in what is read, (point,)."""
+    """Rows of the points in what is read, (point,)."""
 
 
 @dataclass(frozen=True)

@@ -129,7 +129,7 @@ def _matrices(
 
 
 def wavenumbers(length_m: float, nodes: int) -> Array:
-    """Of the terms along one axis, n pi/L, rad/m, (term,)."""
+    """Return the wavenumbers of the terms along one axis, n pi/L, rad/m, (term,)."""
     return np.asarray(np.pi * np.arange(nodes) / length_m)
 
 

@@ -16,7 +16,7 @@ from .record import Record
 _STEP_HZ: Final = 50.0
 """Between the frequencies at which the field is computed, at most; splines run through them."""
 _APART: Final = 0.01
-"""Of the two points of a slope, over the distance from the body to the box."""
+"""Distance of the two points of a slope, over the distance from the body to the box."""
 
 
 class MachineField:

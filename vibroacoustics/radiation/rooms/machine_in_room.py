@@ -33,14 +33,15 @@ from .settings import RoomSettings
 from .standing import Standing, check_listeners, standing
 
 MOST_HZ: Final = 1000.0
-"""Of the waves in a room."""
+"""Highest frequency of the waves in a room."""
 _PADDING: Final = 2
 """Lines of the fine grid for each that the record's duration needs."""
 _MORE_LINES: Final = STENCIL_NODES // 2
 """Above the highest frequency, for interpolation below it."""
 _POSITIONS: Final = 20
 _LEAST_RADIUS_M: Final = 1.0
-"""Of the hemisphere, which is twice the characteristic dimension of the machine or more."""
+"""Least radius of the hemisphere, which is twice the characteristic dimension of the machine or
+more."""
 
 
 def room_vectors(
@@ -121,7 +122,7 @@ def placed(
     Raises
     ------
     ParameterError
-        As `room_vectors`.
+        See `room_vectors`.
     """
     profile = body_profile(shell, settings.body)
     if profile is None:
@@ -237,7 +238,7 @@ def green_of_foot(vectors: xr.Dataset) -> Callable[[Array], ComplexArray]:
     Raises
     ------
     ParameterError
-        As `room_pressure_per_velocity`.
+        Takes and gives what `room_pressure_per_velocity` does.
     """
     table = vectors["room_green_of_foot"].transpose("listener", "room_frequency")
     return _between_lines(table.values, vectors)

@@ -40,7 +40,7 @@ _KEPT: Final = 8
 SHOWN_FROM_HZ: Final = 250.0
 """Lowest third octave in which both methods are shown."""
 PressureAt = Callable[[Array], ComplexArray]
-"""Of frequencies, (frequency,), to (place, pattern, frequency), Pa per unit velocity."""
+"""Function of frequencies, (frequency,), to (place, pattern, frequency), Pa per unit velocity."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def _material(name: str, covering: Covering) -> Material:
 
 
 def foot_m(settings: StudyRoom) -> Array:
-    """Of the shell's axis on what it stands on, shape (3,)."""
+    """Return the foot of the shell's axis on what it stands on, shape (3,)."""
     return np.array([*settings.foot_m, settings.standing_height_m])
 
 
@@ -91,7 +91,7 @@ def machine_middle_m(settings: StudyRoom, shell: Shell) -> Array:
 
 
 def listeners_m(settings: StudyRoom) -> dict[str, Array]:
-    """Of each listener by name, shape (3,)."""
+    """Return the position of each listener by name, shape (3,)."""
     return {
         name: np.array([listener.x_m, listener.y_m, listener.height_m])
         for name, listener in settings.listeners.items()
@@ -261,7 +261,7 @@ def crossover_bands_hz(highest_hz: float) -> tuple[float, float]:
 def place_gains_db(waves: Array, diffuse: Array) -> Array:
     """Level of the power at the machine's place over that in the open, (shown band + 1,), dB.
 
-    Of each third octave that is shown, the mean over the listeners; the last one, of all of them
+    For each third octave that is shown, the mean over the listeners; the last one, of all of them
     together, holds above the waves.
 
     Parameters

@@ -33,7 +33,7 @@ class Record:
 
     samples: Array
     shapes: Sequence[tuple[int, ...]]
-    """Of each lattice, (quantity, x, y, z)."""
+    """Shapes of each lattice, (quantity, x, y, z)."""
     pulse: Pulse
     every: int
     remaining_db: float

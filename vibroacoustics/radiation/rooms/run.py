@@ -36,8 +36,8 @@ class RoomResponse:
     """Green's function of a microphone at lattices of points."""
 
     values: tuple[ComplexArray, ...]
-    """Of each lattice, (frequency, quantity, x, y, z): the Green's function, 1/m, and if asked for
-    its derivatives along x, y and z, 1/m²; free field is exp(-jkr)/(4 pi r)."""
+    """Values of each lattice, (frequency, quantity, x, y, z): the Green's function, 1/m, and on
+    request its derivatives along x, y and z, 1/m²; free field is exp(-jkr)/(4 pi r)."""
     remaining_db: float
     """Level at which the run ended, of its largest pressure: what was cut off."""
 
@@ -80,7 +80,7 @@ class Runs:
         self._pulse = Pulse(*settings.force(self.step_s), self.step_s)
         self._every = settings.sampling_steps(self.step_s)
         self.steps = int(np.ceil((self._pulse.time_s[-1] + longest_s) / self.step_s))
-        """Of a run, at most."""
+        """Steps of a run, at most."""
 
     @property
     def sample_s(self) -> float:
@@ -89,7 +89,7 @@ class Runs:
 
     @property
     def samples(self) -> int:
-        """Of a run, at most."""
+        """Samples of a run, at most."""
         return -(-self.steps // self._every)
 
     def record(self, name: str, microphone: Array, progress: Progress = no_progress) -> Record:

@@ -13,7 +13,8 @@ LARGEST_SPACING_M: Final = 0.128
 """With it flat L- and U-shaped rooms with blocks of 1.1 m and more have their natural frequencies
 within 0.1 %, with waves to 355 and 710 Hz."""
 SAMPLES_PER_PERIOD: Final = 3.0
-"""Of what is recorded, at the highest frequency: the pulse has next to nothing at twice that."""
+"""Samples of what is recorded, at the highest frequency: the pulse has next to nothing at twice
+that."""
 STEPS_PER_PERIOD: Final = 10.0
 """At the highest frequency, at least: with 8 a wall of 0.8 takes 0.0055 too much. Rooms with
 furniture are stable with about as many only."""

@@ -66,7 +66,7 @@ class Walls:
 
 @lru_cache
 def _coefficients(material: Material, time_step_s: float) -> Array:
-    """Of p, U- and S- in the next flux of each branch, (3, branch)."""
+    """Coefficients of p, U- and S- in the next flux of each branch, (3, branch)."""
     stepped = stepped_branches(fitted_branches(material), time_step_s)
     mass, spring = stepped.mass / time_step_s, stepped.spring * time_step_s
     resistance = stepped.resistance / 2.0

@@ -48,7 +48,7 @@ from .studies import inputs_table, key_figures
 from .validation import is_study, levels_tables, validations_of
 
 MOST_ROWS: Final = 40
-"""Of a table that is not folded."""
+"""Most rows of a table that is not folded."""
 
 
 def analysis_of_comparison(compared: Compared, figures: Sequence[CheckedFigure]) -> Analysis:

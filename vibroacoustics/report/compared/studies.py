@@ -18,7 +18,7 @@ Figure = tuple[str, str, float, float]
 """Words, unit and the values of both."""
 MOST_ROWS: Final = 60
 _NO_INPUT: Final = ("records", "source_file", "title", "options")
-"""Of the parameters, what is no input of its known_inputs."""
+"""Attributes among the parameters that are no input."""
 _AMPLITUDES: Final = {
     "force_amplitude": ("Force", "N"),
     "moment_amplitude": ("Moment", "N m"),

@@ -67,7 +67,7 @@ def _of_study(result: xr.Dataset, option: str, channel: str, speed: float) -> Le
 
 
 def _of_recording(result: xr.Dataset, channel: str, _: float) -> Levels | None:
-    """Of all of a recording, which must be at one speed."""
+    """Levels of a whole recording, which must be at one speed."""
     if "equivalent_level" not in result or result.sizes["speed"] > 1:
         return None
     at_channel = result.sel(channel=channel)
@@ -199,7 +199,7 @@ def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
 
 
 def _numerical(study: xr.Dataset, channel: str) -> float:
-    """Of the transfer vectors' grids, for sound pressure."""
+    """Error of the transfer vectors' grids, for sound pressure."""
     if not channel.startswith(PRESSURE):
         return 0.0
     return grid_error_db(study, channel.removeprefix(PRESSURE))

@@ -47,7 +47,7 @@ def levels_over_speed(
 ) -> Chart:
     """A-weighted level over the speed, total and modelled: a line an option, of one its band.
 
-    Of a recording a line a weighting. Speeds to avoid are shaded. A recording without a run-up is
+    For a recording: a line a weighting. Speeds to avoid are shaded. A recording without a run-up is
     drawn over the time.
 
     Parameters

@@ -29,7 +29,7 @@ def orders_over_speed(
 ) -> Chart:
     """Order cuts of a channel over the speed: a line an order.
 
-    Of sound pressure levels, dB re 20 µPa, unweighted. Of a study or a comparison the eight
+    Sound pressure levels are unweighted, dB re 20 µPa. A study or a comparison shows the eight
     strongest orders, after weighting by A where they are sound; of a comparison solid lines are the
     first result, dashed ones the second. With `order_limit` (of `check_limits`), limits are drawn
     in the colours of their orders.
@@ -99,7 +99,7 @@ def speed_frequency_map(
     """Level of a channel over speed and frequency, dB re 20 µPa or 1 unit peak, unweighted.
 
     Thin lines: shaft orders 1, 2, 5, 10 … Of a recording at a steady speed over the time instead.
-    Of a study the lines of all sources, without their noise.
+    For a study: the lines of all sources, without their noise.
 
     Parameters
     ----------

@@ -20,7 +20,8 @@ SCRIPTS: Final = {
 """By the name of the panel."""
 _STYLES: Final = {"sliders": (), "run_up": ("run_up.css",)}
 _LEFT_OUT: Final = b"<\\"
-"""Of the letters from ( to ~, so that the rest are 85 that mean nothing in HTML and in JSON."""
+"""Letters from ( to ~ that are not used, so that 85 remain that mean nothing in HTML and in
+JSON."""
 _LETTERS: Final = np.array(
     [code for code in range(ord("("), ord("~") + 1) if code not in _LEFT_OUT]
 )

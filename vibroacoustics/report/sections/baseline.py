@@ -184,7 +184,7 @@ def _of_samples(results: xr.Dataset) -> str:
 
 
 MOST_ORDERS: Final = 10
-"""Of the loudest, in a table."""
+"""Most orders in a table, the loudest ones."""
 
 
 def order_tables(results: xr.Dataset) -> list[Table]:

@@ -99,7 +99,8 @@ def room_sentence(results: xr.Dataset) -> str:
 
 
 def room_table(results: xr.Dataset, listener: str) -> Table:
-    """Of every option the level by air, by the feet and both, loudness, against the limits."""
+    """Return the levels of every option, airborne, structure-borne and both, loudness, and the
+    limits."""
     plate = "room_plate_level" in results
     loud, limits = sones(results, listener), _limits(results)
     head = ["Option", "By air, dB(A)"]

@@ -50,7 +50,7 @@ def _finding(results: xr.Dataset) -> str:
 
 
 def _loudest(results: xr.Dataset) -> str:
-    """Of one speed."""
+    """Sentence on the loudest stop at one speed."""
     level = results["stopping_fast_maximum_level"].sel(stopping_phase=list(_PHASES))
     rise = np.subtract(*level.values[::-1])
     most, loudest = int(np.argmax(rise)), int(np.argmax(level.values[1]))

@@ -65,7 +65,7 @@ def way_sentence(results: xr.Dataset, receiver: str) -> str:
 
 
 def ways_table(results: xr.Dataset, receiver: str) -> Table:
-    """Of every option 1× and all lines, by air and by the plate."""
+    """Return 1× and all lines of every option, airborne and structure-borne."""
     rows = []
     for option in options(results):
         by_air, by_plate, low, high = first_order_levels(results, receiver, option)

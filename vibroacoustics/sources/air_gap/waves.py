@@ -50,7 +50,8 @@ def product(first: Waves, other: Waves) -> dict[Wave, complex]:
 
 
 def permeance(gap: AirGap, stator_slots: int, rotor_slots: int | None) -> dict[Wave, complex]:
-    """Of the gap over its mean: slots of stator and rotor, static and dynamic eccentricity.
+    """Permeance of the gap over its mean: slots of stator and rotor, static and dynamic
+    eccentricity.
 
     First order of each, multiplied (Gieras, Wang & Lai, Noise of Polyphase Electric Motors, 2006,
     chapter 2). The middle of a slot stands at angle zero.
@@ -94,7 +95,7 @@ def stress_pa(flux_t: Waves) -> dict[Wave, complex]:
 
 
 NO_STRESS = 1e-6
-"""Of the largest wave: smaller ones are left out."""
+"""Share of the largest wave: smaller ones are neglected."""
 
 
 PORTS = (BEARING_HOUSING, LOWER_BEARING, STATOR, STATOR_YOKE)

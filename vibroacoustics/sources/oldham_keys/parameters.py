@@ -44,4 +44,4 @@ class OldhamKeys(Parameters):
     ring_inertia_kg_m2: float = INERTIA
     """About the shaft's direction, through the ring's centre of mass."""
     scroll_inertia_kg_m2: float = INERTIA
-    """Of the part that the ring keeps from turning, about its centre."""
+    """Inertia of the part that the ring keeps from turning, about its centre."""

@@ -23,7 +23,7 @@ AFTER_OPENING: Final = np.pi / 3.0
 AFTER_CLOSING: Final = np.pi / 18.0
 """From where a suction pocket is shown, rad: before, the gap's length exceeds its own."""
 HIGHEST_HZ: Final = 4000.0
-"""Of plane waves in the chamber, roughly, and of what the radiation takes."""
+"""Highest frequency of plane waves in the chamber, roughly, and of what the radiation takes."""
 
 
 def scroll_gas_curves(

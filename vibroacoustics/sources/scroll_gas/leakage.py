@@ -20,7 +20,7 @@ TURN: Final = 2.0 * np.pi
 STEPS: Final = 512
 """A turn; four times as many change no pressure by more than 1e-5 of itself."""
 ALMOST: Final = 1e-6
-"""Of a step."""
+"""Share of a step."""
 FIRST_TURNS: Final = 4
 """Beside gas at the discharge pressure, from which the opening's turns begin."""
 
@@ -42,7 +42,7 @@ class TightPockets:
         self.first = PocketTurn(closing_ratio(gas, filling), np.zeros(2))
 
     def turn(self, opened_pa: Array) -> PocketTurn:
-        """As each turn."""
+        """Return the turn; all turns are equal."""
         return self.first
 
     def trapped(self) -> TrappedGas | None:
@@ -97,7 +97,7 @@ class LeakingPockets:
         return self._angle[: -2 * STEPS]
 
     def _mass(self, opens_with: float) -> float:
-        """Of a pair without leakage, kg: that the gas of one that opens is the opening's."""
+        """Mass of a pair without leakage, kg: that the gas of one that opens is the opening's."""
         c = self._opening
         pressure = self._built_in * opens_with**self._index
         density = c.density * (pressure / c.pressure) ** (1.0 / c.stiffness_exponent)
@@ -114,7 +114,7 @@ class LeakingPockets:
         return PocketTurn(float(self._ratios[0, -1]), self._leaks[0])
 
     def trapped(self) -> TrappedGas:
-        """Of the last turn."""
+        """Gas trapped in the last turn."""
         angle = self._angle[::2]
         ratio, leak = (
             np.append(rows[::-1, :-1].ravel(), rows[0, -1]) for rows in (self._ratios, self._leaks)
@@ -130,7 +130,7 @@ class LeakingPockets:
 
 
 def gap_area_m2(wraps: ScrollWraps, leakage: ScrollLeakage, since_closing: Array) -> Array:
-    """Of the gaps at a pair of contacts, at tips and flanks, m².
+    """Return the area of the gaps at a pair of contacts, at tips and flanks, m².
 
     Parameters
     ----------

@@ -12,7 +12,7 @@ import numpy as np
 from ...base.arrays import Array
 
 ALMOST: Final = 1e-12
-"""Of κ - 1, below which a gas counts as isothermal."""
+"""Value of κ - 1 below which a gas counts as isothermal."""
 
 
 class LeakingPairs(NamedTuple):
@@ -24,15 +24,16 @@ class LeakingPairs(NamedTuple):
     pairs: int
     """Closed ones at most."""
     steps: int
-    """Of a turn."""
+    """Steps of a turn."""
     closes_at: float
     """Half step at which a pair closes; before, the base pressure is that of suction pockets."""
     base_pa: Array
     """Pressure without leakage."""
     volume_m3: Array
-    """Of both pockets."""
+    """Volume of both pockets."""
     area_m2: Array
-    """Of the gaps at the outer contacts, with their losses; zero before the pair has closed."""
+    """Area of the gaps at the outer contacts, with their losses; zero before the pair has
+    closed."""
     polytropic_index: float
     suction_density: float
     isentropic_exponent: float

@@ -121,7 +121,7 @@ def steady_opening(
     Raises
     ------
     ParameterError
-        As `opening_constants`.
+        See `opening_constants`.
     SolverError
         The gas does not come to a course that repeats.
     """

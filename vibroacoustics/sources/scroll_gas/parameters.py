@@ -126,7 +126,7 @@ class ScrollOpening(Parameters):
     port_length_m: float = Field(ge=1e-3, le=0.2)
     port_diameter_m: float = Field(ge=2e-3, le=0.1)
     discharge_coefficient_ratio: float = Field(ge=0.3, le=1.0)
-    """Of gap and port."""
+    """Discharge coefficient of gap and port."""
     chamber_volume_m3: float = Field(gt=0.0, le=1e-3)
     """When a pocket opens; it shrinks at first."""
     plenum_volume_m3: float = Field(ge=1e-5, le=0.1)
@@ -142,7 +142,7 @@ class ScrollLeakage(Parameters):
     flank_gap_m: float = Field(ge=0.0, le=1e-3)
     """Between two flanks at their contact."""
     flow_ratio: float = Field(gt=0.0, le=1.0)
-    """Of the flow without losses through either gap."""
+    """Share of the flow without losses through either gap."""
 
 
 class SuctionPockets(Parameters):

@@ -114,7 +114,8 @@ def _before_opening(
 
 
 def polytropic_pressure_pa(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Array) -> Array:
-    """Of a pocket that neither leaks nor fills with inertia, constant after the opening, Pa."""
+    """Pressure of a pocket that neither leaks nor fills with inertia, constant after the opening,
+    Pa."""
     volume = pocket_volume(wraps, np.clip(angle_since_closing, 0.0, wraps.opening_angle_rad))
     ratio = pocket_volume(wraps, np.zeros(())) / volume
     return np.asarray(gas.suction_pressure_pa * ratio**gas.polytropic_index)

@@ -117,7 +117,7 @@ def suction_flow(
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def volume_and_swelling(angle: float, c: FillingConstants) -> tuple[float, float]:
-    """Of one pocket, m³ and m³/rad."""
+    """Volume of one pocket and its rate, m³ and m³/rad."""
     inner, sine, cosine = c.outer_contact - angle, np.sin(angle), np.cos(angle)
     crescent = 0.5 * (c.outer_contact**2 - inner**2) - c.outer_contact * sine - cosine + 1.0
     swelling = inner - c.outer_contact * cosine + sine

@@ -14,7 +14,7 @@ from ...base.errors import ParameterError
 from .parameters import SynchronousMotor
 
 LARGEST_MODULATION = {"sine": 1.0, "space-vector": 2.0 / np.sqrt(3.0)}
-"""Of a carrier period that the reference may fill."""
+"""Largest part of a carrier period that the reference may fill."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def torque_harmonics(
 ) -> ComplexArray:
     """Torque (e_a i_a + e_b i_b + e_c i_c)/Ω by harmonic of the electrical frequency, N m.
 
-    As space vectors, 3/(2Ω) Re Σ e_k i_m* e^{j(k-m)θ}, where harmonics 5, 11, … turn backwards:
+    With space vectors, 3/(2Ω) Re Σ e_k i_m* e^{j(k-m)θ}, where harmonics 5, 11, … turn backwards:
     only multiples of six are left (Krause, Wasynczuk & Sudhoff, Analysis of Electric Machinery,
     2nd ed., 3.3: power in turning variables).
 

@@ -19,7 +19,7 @@ class SynchronousMotor(Parameters):
 
     pole_pairs: int = Field(ge=1, le=50)
     slots: int = Field(ge=3, le=500)
-    """Of the stator."""
+    """Slots of the stator."""
     flux_linkage_vs: float = Field(gt=0.0, le=1e3)
     """Peak of the magnets' flux through a phase, fundamental."""
     fifth_ratio: float = RATIO
@@ -59,7 +59,7 @@ class SynchronousMotor(Parameters):
 
     @property
     def cogging_order(self) -> int:
-        """Of the shaft: the least common multiple of slots and poles."""
+        """Order of the shaft: the least common multiple of slots and poles."""
         return math.lcm(self.slots, 2 * self.pole_pairs)
 
     def contradictions(self) -> Contradictions:

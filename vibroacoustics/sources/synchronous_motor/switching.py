@@ -13,7 +13,7 @@ from .harmonics import OperatingPoint, pair_currents
 from .parameters import SynchronousMotor
 
 SAMPLES: Final = 1024
-"""Of the reference; the series is exact to rounding for a sine."""
+"""Samples of the reference; the series is exact to rounding for a sine."""
 BASEBAND: Final = 16
 """Multiples of the electrical frequency about those of the carrier that are kept."""
 
@@ -103,7 +103,7 @@ def sidebands(
 
 
 def _voltages(motor: SynchronousMotor, point: OperatingPoint, carrier: int) -> dict[int, complex]:
-    """Of a phase about a multiple of the carrier, by n, V; those that count."""
+    """Voltages of a phase about a multiple of the carrier, by n, V; those that count."""
     size = leg_harmonics(motor.modulation, point.modulation_ratio, carrier)
     turned, half = float(np.angle(point.voltage_v)), 0.5 * motor.dc_link_voltage_v
     electrical_hz = point.electrical_rad_per_s / (2.0 * np.pi)
@@ -117,9 +117,9 @@ def _voltages(motor: SynchronousMotor, point: OperatingPoint, carrier: int) -> d
 def _torque(
     motor: SynchronousMotor, point: OperatingPoint, currents: tuple[complex, complex]
 ) -> complex:
-    """Of a forward and a backward current with the magnets and, in the salient rotor, with the
-    fundamental of the current. The phasor of a backward wave is conjugate in space, and so is its
-    torque's."""
+    """Torque of a forward and a backward current with the magnets and, in the salient rotor, with
+    the fundamental of the current. The phasor of a backward wave is conjugate in space, and so is
+    its torque's."""
     forwards, backwards = currents
     held = point.current_a[1]
     magnets = 1.5 * abs(point.emf_v[1]) / point.speed_rad_per_s * (forwards + backwards)

@@ -36,7 +36,7 @@ _STEPS: Final[Schema] = {
 
 
 def study_schema() -> Schema:
-    """Of a study's file, which may extend another."""
+    """Return the schema of a study's file, which may extend another."""
     raw = Study.model_json_schema(schema_generator=FileSchema)
     machine = raw["properties"]["machine"]
     for name in FILLED_IN:
@@ -86,7 +86,7 @@ def _with_automatic(properties: Schema, fields: Iterable[str]) -> None:
 
 
 def machine_schema() -> Schema:
-    """Of a machine's file."""
+    """Return the schema of a machine's file."""
     raw = Study.model_json_schema(schema_generator=FileSchema)
     machine = raw["properties"]["machine"]
     made = by_kind(_kinds(machine))

@@ -11,7 +11,8 @@ _OBJECT: Final = ("properties", "additionalProperties")
 
 
 class FileSchema(GenerateJsonSchema):
-    """Of tables as files write them: keys in any unit, nothing that is filled in by the reader."""
+    """Schema of tables as files write them: keys in any unit, nothing that is filled in by the
+    reader."""
 
     def model_schema(self, schema: Any) -> Schema:
         """A model without the fields that are read from a file, and without examples in Python."""

@@ -128,7 +128,7 @@ class GasInShell:
 
     @cached_property
     def _on_wall(self) -> tuple[dict[Around, tuple[IndexArray, Array]], ...]:
-        """Of each order by twin: modes of the wall, force on these per pressure of a node,
+        """Coupling of each order by twin: modes of the wall, force on these per pressure of a node,
         (node, mode)."""
         load = WallPressure(self.profile, self.under_cap)
         arounds = dict.fromkeys(mode.around for mode in self.modes)

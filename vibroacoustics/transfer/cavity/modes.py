@@ -12,9 +12,9 @@ from .elements import matrices
 from .profile import Profile
 
 MODES: Final = 12
-"""Of each order; what higher ones do is in the attachment mode."""
+"""Modes of each order; what higher ones do is in the attachment mode."""
 _UNIFORM: Final = 1e-6
-"""Of the largest k² of the order; below it a mode is the uniform pressure."""
+"""Share of the largest k² of the order; below it a mode is the uniform pressure."""
 
 
 @dataclass(frozen=True)

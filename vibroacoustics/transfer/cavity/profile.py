@@ -10,7 +10,7 @@ from ...base.arrays import Array, IndexArray
 DISC: Final = (14, 8)
 """Elements across and along the axis; modes of a flat disc below 4.5 kHz are right to 3e-4."""
 ANNULUS: Final = (6, 14)
-"""The same of an annulus, which is narrow and high."""
+"""Elements of an annulus, which is narrow and high."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from scipy.linalg import block_diag, eigh
 from ...base.arrays import Array, ComplexArray
 
 _FREE: Final = 1e-13
-"""Of the largest ω²; below it a motion strains nothing: rounding is some 1e-16."""
+"""Share of the largest ω²; below it a motion strains nothing: rounding is some 1e-16."""
 
 
 @dataclass(frozen=True)

@@ -58,7 +58,7 @@ class FrameOnShell:
 
     @property
     def shell_mass(self) -> Array:
-        """Of what moves with the shell as a rigid body, shape (6, 6), kg and kg m²."""
+        """Mass of what moves with the shell as a rigid body, shape (6, 6), kg and kg m²."""
         return self.machine_mass - self.inner.rigid_mass
 
     def sound(
@@ -204,7 +204,7 @@ class FrameOnShell:
 
     @property
     def _squares(self) -> ComplexArray:
-        """Of the modes with loss, rad²/s²."""
+        """Squares of the natural frequencies of the modes with loss, rad²/s²."""
         squares = (2.0 * np.pi * self.natural_hz) ** 2
         return np.asarray(squares * (1.0 + 1j * self.loss_factor_ratio))
 
@@ -232,7 +232,8 @@ class FrameOnShell:
 
     @cached_property
     def _of_motions(self) -> Array:
-        """Of each motion of the parts per load on a part, shape (motion, part times component)."""
+        """Displacement of each motion of the parts per load on a part, (motion, part times
+        component)."""
         return self.motions.shapes.T @ self.inner.loads
 
 

@@ -6,7 +6,7 @@ from ...base.arrays import Array
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
 
 LARGEST = 2.0
-"""Of a radiation efficiency (EN 12354-1, B.2)."""
+"""Largest radiation efficiency (EN 12354-1, B.2)."""
 
 
 def radiation_efficiency(

@@ -98,7 +98,7 @@ def _input_power(
 ) -> Array:
     """Into the plate; where the machine has a floor of its file or a measured one, into that.
 
-    Of a plate the motion of one foot by another is known, of other floors it is not.
+    The motion of one foot by another is known for a plate, for other floors it is not.
     """
     stand = machine.stand
     feet = len(stand.names)

@@ -39,7 +39,7 @@ class JointLoads:
     joint: Joint
 
     def generalised(self, meridian: Meridian, around: Around) -> Array:
-        """As of any `Load`.
+        """Return the generalised force, see `Load`.
 
         Raises
         ------
