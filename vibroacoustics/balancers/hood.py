@@ -15,7 +15,7 @@ from ..mechanics.moving_parts import Revolution
 
 @register
 class Hood(Option):
-    """What takes a known loss off the airborne sound and leaves the machine as it is."""
+    """Hood, jacket or damping sheet with a known insertion loss; the machine stays as it is."""
 
     kind: ClassVar[str] = "hood"
     band_hz: tuple[float, ...] = Field(min_length=1, max_length=40)

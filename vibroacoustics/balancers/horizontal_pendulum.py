@@ -40,7 +40,7 @@ class HorizontalPendulum(Option):
     arms: Literal[1, 2]
     """2 are mirror images across the stroke; 1 has the mass of both, on the side of y."""
     pivot_m: float = Field(ge=0.0, le=1.0)
-    """Position of the pivots from the middle of the ring, across the stroke."""
+    """Distance of the pivots from the centre of the ring, across the stroke."""
     damping_ratio: float = Field(ge=1e-5, le=1.0)
     """Damping of the bearing, over twice the bob's inertia and the shaft's angular frequency."""
 

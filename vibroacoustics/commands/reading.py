@@ -204,7 +204,7 @@ class OrderOptions:
     ] = None
     with_map: Annotated[
         bool | None,
-        typer.Option("--map/--no-map", help="Keep and draw the order map; default: of a run-up."),
+        typer.Option("--map/--no-map", help="Keep and plot the order map; default: of a run-up."),
     ] = None
     fit: Annotated[
         bool,

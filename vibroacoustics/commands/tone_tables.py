@@ -118,7 +118,7 @@ def _of_channel(tones: xr.Dataset, name: str) -> Iterator[Table | Bullets | Text
         caption = f"{name}: {len(listed)} listed above the noise of their critical band"
         yield Table(caption, (*TONE_HEAD, *_TIME_HEAD, "prominent"), rows, frozenset({0, 7}))
     else:
-        yield Text(f"{name}: no tone stands above the noise of its critical band")
+        yield Text(f"{name}: no tone exceeds the noise of its critical band")
     loudness, sharpness = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
     loud = f"loudness {loudness:.3g} sone, sharpness {sharpness:.2f} acum"
     yield Bullets((_audibility(tones, name), *([] if math.isnan(loudness) else [loud])))

@@ -35,7 +35,7 @@ class Prior:
     Attributes
     ----------
     name : in the results
-    words : after "a remainder"
+    words : words after "unmodelled noise"
     density : at levels relative to the published one, dB, of any scale
     """
 

@@ -40,7 +40,7 @@ def remaining_factor(options: Mapping[str, Option], frequency_hz: Array) -> Arra
     Parameters
     ----------
     options : by name
-    frequency_hz : middle of the bands, shape (band,)
+    frequency_hz : midband frequency, Hz, shape (band,)
     """
     losses = [option.insertion_loss() for option in options.values()]
     factors = [1.0 if loss is None else loss.power_factor(frequency_hz) for loss in losses]

@@ -26,7 +26,7 @@ _BLOCK_S: Final = 2.5
 """Length of a transform: its lines lie 0.4 Hz apart, a fifteenth of the third octave at 25 Hz."""
 _FILTERED: Final = ("A", "C")
 _SHORTEST_SHARE: Final = 4
-"""At either end at most a quarter of a recording is left out."""
+"""Largest part of a recording that is omitted at either end."""
 _TICK_S: Final = 0.01
 """Squares are summed over ticks of this length for levels over the time."""
 

@@ -18,7 +18,7 @@ from .by_source import GAIN_BANDS
 BASELINE_BANDS: Final = GAIN_BANDS
 """Third octaves that a baseline may have."""
 UNMODELLED_BANDS: Final = bands_between(3, 25.0, 10000.0)
-"""Third octaves of the remainder, where no baseline stands."""
+"""Third octaves of unmodelled noise, where there is no baseline."""
 MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in BASELINE_BANDS])
 _EDGES: Final[Array] = np.array([[band.lower_hz, band.upper_hz] for band in BASELINE_BANDS])
 

@@ -23,7 +23,8 @@ class TakenApart:
 
     Attributes
     ----------
-    order : shape (order,); not a number where lines are too close to tell it from its neighbours
+    order : shape (order,); not a number where lines are too close to separate it from its
+    neighbours
     band : without these orders, shape (band,); not a number where the spectrum does not cover one
     """
 

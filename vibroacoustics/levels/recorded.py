@@ -121,7 +121,7 @@ def labelled_levels(
 ) -> xr.Dataset:
     """Levels from the meters of the channels of sound pressure; empty where there are none.
 
-    Attribute `levels_left_out_s`: what A- and C-weighted levels leave out at either end.
+    Attribute `levels_left_out_s`: what A- and C-weighted levels omit at either end.
 
     Parameters
     ----------

@@ -101,7 +101,7 @@ def in_gain_bands(remaining: Array) -> Array:
 def over_published(
     study: Study, axes: LevelAxes, sounds: Sequence[Mapping[CaseKey, SourceSound]]
 ) -> Array:
-    """What samples model over the published level, (sample,), dB; not a number without solution.
+    """Return modelled minus published level, (sample,), dB; not a number without solution.
 
     Over 0 dB(A) where none is published.
     """

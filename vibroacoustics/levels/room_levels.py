@@ -1,4 +1,4 @@
-"""Levels at the listeners in a room, labelled: by air, by the feet, both ways, and their limits."""
+"""Levels at the listeners in a room, labelled: airborne, structure-borne, both, and limits."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -23,7 +23,7 @@ from .structure_borne import weight_of
 
 @dataclass(frozen=True)
 class AirInRoom:
-    """Mean squares by air at the listeners with the values as given.
+    """Mean squares of airborne sound at the listeners with nominal values.
 
     Attributes
     ----------
@@ -96,11 +96,11 @@ def room_variables(
     statistics: xr.Dataset,
     plate_per_power: Callable[[Array], Array],
 ) -> xr.Dataset:
-    """Label the levels at the listeners by air and, where there is one, by the plate.
+    """Label airborne levels at the listeners and, where there is a plate, structure-borne ones.
 
     Parameters
     ----------
-    air : mean squares by air
+    air : mean squares of airborne sound
     sound : sound of every case
     results : nominal levels at the microphones, those of samples, and of the plate
     statistics : `room_level` of the samples; empty without samples
@@ -113,7 +113,7 @@ def room_variables(
 
 
 def air_variables(air: AirInRoom) -> xr.Dataset:
-    """Label the levels by air with the nominal values."""
+    """Label the airborne levels with nominal values."""
     values = {
         "room_level": level(air.total),
         "room_source_level": level(air.alone),
@@ -127,7 +127,7 @@ def air_variables(air: AirInRoom) -> xr.Dataset:
 
 
 def line_variables(sound: Mapping[CaseKey, RoomSound], results: xr.Dataset) -> xr.Dataset:
-    """Pressure of all sources together at the lines, by air with the values as given."""
+    """Airborne pressure of all sources at the lines, with nominal values."""
     coords = {**_coordinates(results["room_level"]), "line": results["line"].values}
     column = {str(name): number for number, name in enumerate(coords["line"])}
     pressure = np.zeros(tuple(map(len, coords.values())), dtype=complex)
@@ -145,7 +145,7 @@ def power_level(power_band: Array) -> Array:
 
 
 def plate_variables(results: xr.Dataset, plate_per_power: Callable[[Array], Array]) -> xr.Dataset:
-    """Label the levels by the feet and the plate at the listeners; empty without a plate.
+    """Label the structure-borne levels at the listeners; empty without a plate.
 
     Parameters
     ----------

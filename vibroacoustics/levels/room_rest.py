@@ -15,7 +15,7 @@ _A: Array = weighting_power("A", MIDDLE_HZ)
 def rest_in_bands(results: xr.Dataset, receiver: str) -> Array:
     """Mean squares beside the model at a microphone, shape (speed, option, band), Pa².
 
-    In `BASELINE_BANDS`. Their spectrum is that of the remainder and, where third octaves were
+    In `BASELINE_BANDS`. Their spectrum is that of unmodelled noise and, where third octaves were
     measured, what these are over the model; their A-weighted sum is what the level of the machine
     is over that of the model.
 

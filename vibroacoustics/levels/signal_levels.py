@@ -62,7 +62,7 @@ def recorded_levels(
 ) -> RecordedLevels:
     """Equivalent level and greatest Fast and Slow levels of a recording.
 
-    With A and C the first and last 0.1 s are left out, at most a quarter of the recording at either
+    With A and C the first and last 0.1 s are omitted, at most a quarter of the recording at either
     end: the weighting runs in there, and what is cut off at the ends would click.
 
     Parameters

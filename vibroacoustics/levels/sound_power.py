@@ -2,7 +2,7 @@
 
 LW = mean Lp - K1 - K2 + 10 lg(S/S0). The method takes the intensity as p²/(rho c), straight out of
 the surface: near a small source at a low frequency, and where the sound passes a flat side at an
-angle, the result is too high (docs/radiation.md tells by how much).
+angle, the result is too high (docs/radiation.md shows by how much).
 """
 
 from typing import Final
@@ -84,7 +84,7 @@ def sound_power_level(
 
 
 def stand_corrections_db(settings: SoundPowerSettings, surface_m2: float) -> tuple[float, float]:
-    """K1 and K2 of the test stand that a study is compared with, dB; 0 where it tells nothing.
+    """K1 and K2 of the test stand that a study is compared with, dB; 0 where it states nothing.
 
     The microphones there read K1 + K2 more than the simulation's, which has neither.
     """

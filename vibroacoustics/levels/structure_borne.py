@@ -26,7 +26,7 @@ def mean_square_per_power(distance_m: ArrayLike, absorption_area_m2: float | Non
 
     Parameters
     ----------
-    distance_m : from the middle of the feet, shape (...)
+    distance_m : distance from the centre of the feet, shape (...)
     absorption_area_m2 : absorption area of the room; none for an open half space
     """
     diffuse = 0.0 if absorption_area_m2 is None else 4.0 / absorption_area_m2
@@ -37,14 +37,14 @@ def mean_square_per_power(distance_m: ArrayLike, absorption_area_m2: float | Non
 def structure_borne_variables(
     settings: StructureBorne, sound: PlateSound, distance_m: ArrayLike, results: xr.Dataset
 ) -> xr.Dataset:
-    """Label the levels by the feet and the plate, apart from what comes by air.
+    """Label the structure-borne levels, apart from airborne sound.
 
     Parameters
     ----------
     settings : absorption in front of the plate, and deviation of the method
     sound : sound of all cases, shapes (speed, option, line)
-    distance_m : distance of each receiver from the middle of the feet, shape (receiver,)
-    results : levels by air, and the frequencies of the lines
+    distance_m : distance of each receiver from the centre of the feet, shape (receiver,)
+    results : airborne levels, and the frequencies of the lines
     """
     level_total = results["level_total"]
     frequency_hz = results["tone_frequency"].transpose("speed", "line").values

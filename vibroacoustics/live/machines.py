@@ -46,7 +46,7 @@ class Machines:
 
 
 def machines_of(results: xr.Dataset) -> Machines | None:
-    """From the parameters that a run kept; none of another version or a stranger's."""
+    """Read them from the parameters of a run; none of another version or a third party."""
     third_party = json.loads(results.attrs.get("plugins", "{}"))
     if any(name.startswith("kind of ") for name in third_party):
         return None  # the report is the same with and without the files of a plug-in

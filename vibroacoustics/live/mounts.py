@@ -31,7 +31,7 @@ class MountMatrices(NamedTuple):
 
 
 def is_over_frequency(machine: MachineOnMounts) -> bool:
-    """Whether the mounts are no constants or the floor gives way."""
+    """Whether the mounts depend on frequency or the floor is compliant."""
     return machine.stand.is_over_frequency or machine.floor is not None
 
 

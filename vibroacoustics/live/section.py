@@ -21,7 +21,7 @@ from .sliders import has_sliders, sliders_of
 
 MOST_MICROPHONES: Final = 10
 HEADROOM: Final = 2.0
-"""Full scale over the largest pressure of the options as given: sliders may be louder."""
+"""Full scale over the largest pressure of the nominal options: sliders may be louder."""
 _CREST: Final = 4.0
 """Peak over effective value of the noise that full scale leaves room for."""
 

@@ -1,4 +1,4 @@
-"""A floor that gives way under the feet: a mass on a spring, or measured mobilities."""
+"""Compliant floor under the feet: a mass on a spring, or measured mobilities."""
 
 from collections.abc import Sequence
 from pathlib import Path

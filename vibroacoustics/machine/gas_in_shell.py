@@ -8,9 +8,9 @@ from pydantic import Field
 from ..base.parameters import Parameters
 
 GAS_PATH_PARTLY: Final = (
-    "Of the gas only what a study's sources name is modelled: in an empty shell, without what it "
+    "The model holds only the gas that a study's sources name: in an empty shell, without what it "
     "does to the block; gas and bearing forces are pairs within the rigid block. Oil, and walls "
-    "that bend, are left out."
+    "that bend, are neglected."
 )
 SOUND = Field(ge=50.0, le=1500.0)
 DENSITY = Field(ge=0.05, le=500.0)
@@ -25,7 +25,7 @@ class DischargeGas(Parameters):
 
 
 class ShellGas(Parameters):
-    """Gas in the shell as an empty cylinder, out of which the suction valve draws."""
+    """Gas in the shell as an empty cylinder, from which the suction valve takes gas."""
 
     radius_m: float = Field(ge=5e-3, le=5.0)
     height_m: float = Field(ge=5e-3, le=5.0)

@@ -87,7 +87,7 @@ class Machine(KindOfParameters):
     mount_stiffness: MountStiffness | None = None
     """Over frequency, of mounts that give none of their own."""
     floor: Floor | None = None
-    """That gives way under the feet; rigid where neither this table nor the next is given."""
+    """Compliant floor under the feet; rigid where neither this table nor the next is given."""
     floor_mobility: FloorMobility | None = None
     suspension: Suspension | None = None
     """Springs between the block with the mechanism and the shell; none where both are one."""
@@ -221,7 +221,7 @@ class Machine(KindOfParameters):
         return ()
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What the model of this kind leaves out, a sentence or two each."""
+        """Effects that the model of this kind neglects, a sentence or two each."""
         return ()
 
     @property

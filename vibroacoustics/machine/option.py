@@ -21,7 +21,7 @@ Figures = Mapping[str, Array]
 class Option(KindOfParameters):
     """One way of balancing or quieting a machine.
 
-    A further one is one file of `balancers`, or of a stranger, whose class is registered: others
+    A further one is one file of `balancers`, or of a third party, whose class is registered: others
     ask what it adds, never which one it is.
 
     Examples
@@ -92,7 +92,7 @@ class Option(KindOfParameters):
         return None
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What its model leaves out, a sentence or two each."""
+        """Effects that its model neglects, a sentence or two each."""
         return ()
 
     def sentences(self, figures: Figures) -> tuple[str, ...]:

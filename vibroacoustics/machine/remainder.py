@@ -10,12 +10,12 @@ from ..base.arrays import Array
 from ..base.decibel import level_of_power, power_of_level
 from ..base.parameters import Contradictions, Held, Parameters, Regime
 
-PRIOR: Final = Held("say what is held of the remainder before anything is sampled")
+PRIOR: Final = Held("are the prior of unmodelled noise before anything is sampled")
 LEAST_FLAT_DB: Final = 1.0
 UNMODELLED_KEYS: Final = frozenset(
     f"remainder.{name}" for name in ("speed_growth_db", "peak_frequency_hz", "slope_db")
 )
-"""Without effect where a machine has no published level that leaves a remainder."""
+"""Without effect where a machine has no published level that leaves unmodelled noise."""
 PEAKS: Final = (
     Regime("unmodelled noise with its peak up to 1 kHz", 0.0, 1000.0),
     Regime("unmodelled noise with its peak from 1 kHz", 1000.0, inf),
@@ -34,7 +34,7 @@ class SpectralShare(Parameters):
 
 
 class OverallNoise(Parameters):
-    """The A-weighted sound pressure level of the whole machine, from a catalogue or assumed."""
+    """A-weighted sound pressure level of the machine, published or assumed."""
 
     level_dba: Annotated[float, DATUM] = Field(ge=0.0, le=140.0)
     speed_rpm: Annotated[float, DATUM] = Field(ge=60.0, le=60000.0)

@@ -41,7 +41,7 @@ class Case:
     ----------
     machine : machine with the option, with the values of a sample
     added : by the option
-    revolution : steady, of the machine as given
+    revolution : steady revolution of the nominal machine
     supply_frequency_hz : supply frequency of the motor, from the study or derived by a source; else
         none
     maximum_frequency_hz : lines and noise up to here
@@ -86,7 +86,7 @@ CaseKey = tuple[float, str]
 class Source(KindOfParameters):
     """Who drives the machine: what a study's table says of it, its loads and its words.
 
-    A further one is one folder of `sources`, or a file of a stranger, whose class is registered.
+    A further one is one folder of `sources`, or a file of a third party, whose class is registered.
 
     Examples
     --------

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from ..base.parameters import Contradictions, Held, Parameters
 
-AS_GIVEN: Final = Held("act on stops, which are computed with the values as given")
+AS_GIVEN: Final = Held("act on stops, which are computed with nominal values")
 
 
 class TurningBack(Parameters):

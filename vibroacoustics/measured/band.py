@@ -24,13 +24,13 @@ def amplitude_band(estimate: ComplexArray, sampled: ComplexArray) -> tuple[Array
     normal and circular, so that the squared amplitude over half the variance is noncentral χ² of
     two degrees of freedom: its limits are those noncentralities that put the estimate at 95 % and
     at 5 % of the distribution. Quantiles of the drawn amplitudes themselves lie too high where
-    noise exceeds the response. The variance is that of the draws' median, |e|² / ln 2, which a few
-    near-singular draws do not move. The estimate itself is always within.
+    noise exceeds the response. The variance is that of the samples' median, |e|² / ln 2, which a
+    few near-singular samples do not move. The estimate itself is always within.
 
     Parameters
     ----------
     estimate : complex, any shape
-    sampled : estimates of measurements drawn again, shape (draw, ...)
+    sampled : estimates from sampled measurements, shape (sample, ...)
 
     Returns
     -------
@@ -54,14 +54,14 @@ def amplitude_band(estimate: ComplexArray, sampled: ComplexArray) -> tuple[Array
 def power_band(estimate: Array, sampled: Array) -> tuple[Array, Array]:
     """Band of a sum of powers, or of a ratio of such sums, not below zero.
 
-    Quantiles of the draws, reflected at the estimate: draws lie above the estimate by the power of
-    their noise, and the estimate lies as much above the truth. Basic bootstrap, Davison and
+    Quantiles of the samples, reflected at the estimate: samples lie above the estimate by the power
+    of their noise, and the estimate lies as much above the truth. Basic bootstrap, Davison and
     Hinkley, Bootstrap Methods and their Application, section 5.2.1.
 
     Parameters
     ----------
     estimate : any shape
-    sampled : shape (draw, ...)
+    sampled : samples, shape (sample, ...)
     """
     low, high = np.quantile(sampled, [0.5 - SHARE / 2.0, 0.5 + SHARE / 2.0], axis=0)
     return np.maximum(2.0 * estimate - high, 0.0), np.maximum(2.0 * estimate - low, 0.0)

@@ -91,7 +91,7 @@ def _truncation(settings: BlockedForces, measurement: Measurement) -> tuple[floa
     """The truncation, given or chosen, and what each tried one makes wrong; see docs."""
     stated = settings.measured.truncation_ratio
     rows, columns = measurement.compliance.shape[1:]
-    if rows == columns:  # without one response the others do not tell the forces
+    if rows == columns:  # without one response the others do not determine the forces
         return stated or 0.0, np.full(len(TRIED), np.nan)
     made = left_out_responses(measurement.operating, measurement.compliance, TRIED)
     levels = level_of_amplitude(np.abs(made)) - level_of_amplitude(np.abs(measurement.operating))

@@ -117,7 +117,7 @@ def _band_variables(
 ) -> Variables:
     """Levels of powers re the reference, shape (validation, band); empty bands are no numbers.
 
-    `ratios` are those of measurements drawn again, shape (draw, validation, band).
+    `ratios` are those of sampled measurements, shape (sample, validation, band).
     """
     ratio = predicted / measured
     low, high = power_band(ratio, ratios)

@@ -30,7 +30,7 @@ def changed_response(
     compliance : B Y Bᵀ, elongation per pair of forces, m/N, shape (frequency, element, element)
     elongation : B u, before the change, shape (frequency, element)
     stiffness_change : dZ, dynamic stiffness, N/m, shape (frequency, element, element)
-    truncation : singular values of I + dZ B Y Bᵀ below this share of the largest are left out
+    truncation : singular values of I + dZ B Y Bᵀ below this share of the largest are omitted
 
     Returns
     -------
@@ -59,7 +59,7 @@ def changed_response(
 
 
 def _solve(matrix: ComplexArray, right: ComplexArray, truncation: float) -> ComplexArray:
-    """Solution of each system, of its larger singular values alone where some are left out."""
+    """Solution of each system, of its larger singular values alone where some are omitted."""
     if truncation == 0.0:
         try:
             return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])

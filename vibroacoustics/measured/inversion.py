@@ -59,7 +59,7 @@ def truncated_inverses(matrix: ComplexArray, truncations: Sequence[float]) -> Co
     Parameters
     ----------
     matrix : shape (frequency, row, column)
-    truncations : shares of the largest singular value below which others are left out
+    truncations : shares of the largest singular value below which others are omitted
     """
     left_vectors, sizes, right = np.linalg.svd(matrix, full_matrices=False)
     inverses = []

@@ -60,7 +60,7 @@ def of_spectra(
 ) -> BaselineContent:
     """Orders and third octaves of spectra; those of one microphone and speed are averaged.
 
-    Orders and bands that not all speeds of a microphone tell are left out.
+    Orders and bands that some speeds of a microphone lack are omitted.
 
     Parameters
     ----------

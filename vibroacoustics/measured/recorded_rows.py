@@ -59,7 +59,7 @@ def _tones(orders: list[float], apart: Row | None) -> Array:
 
 
 def band_row(row: Row, orders: Row, apart: Row | None, steady: xr.DataArray | None) -> Row:
-    """Third octaves without the orders, also those that the narrow band did not tell apart.
+    """Third octaves without the orders, also those that the narrow band did not separate.
 
     Parameters
     ----------

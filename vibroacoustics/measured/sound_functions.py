@@ -26,7 +26,7 @@ def force_sound_of(study: Study) -> ForceSound:
     Raises
     ------
     ParameterError
-        The files do not fit, or the study asks for what they cannot tell.
+        The files do not fit, or the study needs what they do not hold.
     StorageError
         A file cannot be read.
     """
@@ -39,7 +39,7 @@ def force_sound_of(study: Study) -> ForceSound:
     unsupported += ["sources that drive an elastic shell"] * study.drives_shell
     if unsupported:
         raise ParameterError(
-            f"measured.sound: tells the sound of forces at the microphones alone; leave out "
+            f"measured.sound: gives the sound of forces at the microphones alone; remove "
             f"{unsupported[0]}"
         )
     machine = on_mounts(study.machine)

@@ -12,7 +12,7 @@ from .moving_parts import MovingPart
 
 @dataclass(frozen=True)
 class RingForce:
-    """Force of what an option hangs on an Oldham ring, along the ring's stroke.
+    """Force of a part that an option adds to an Oldham ring, along the ring's stroke.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class Added:
     ----------
     parts : moving parts
     figures : to report of it, by name; the unit is the suffix of the name
-    on_ring : force of what hangs on the machine's Oldham ring; none where nothing does
+    on_ring : force of a part on the machine's Oldham ring; none without one
     rings : further Oldham rings
     on_scroll_n_m : moment between housing and the part that the machine's ring keeps from turning
 
@@ -96,7 +96,7 @@ class InsertionLoss:
 
     Attributes
     ----------
-    band_hz : nominal middle of the bands, shape (band,)
+    band_hz : nominal midband frequency, shape (band,)
     loss_db : shape (band,)
 
     Examples

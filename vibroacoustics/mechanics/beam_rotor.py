@@ -39,7 +39,7 @@ class Section:
 
 @dataclass(frozen=True)
 class RotorMatrices:
-    """Mass, gyroscopic matrix per rad/s of spin and stiffness, all (freedoms, freedoms)."""
+    """Mass, gyroscopic matrix per rad/s of spin and stiffness, all of shape (dof, dof)."""
 
     mass: Array
     gyroscopic: Array

@@ -87,7 +87,7 @@ class Noise(_OnPorts):
 
 @dataclass(frozen=True)
 class Loads(_OnPorts):
-    """Loads of one source in one case; what a source does not do is left out.
+    """Loads of one source in one case; loads that are zero may be absent.
 
     Attributes
     ----------

@@ -36,7 +36,7 @@ class OrdersOfBlocks:
     mean_spectrum : RMS of each line from the mean power over the blocks, (channel, line)
     map_order : order of the lines
     amplitude : complex peaks, shape (channel, block, line); None where no map is wanted
-    time_s : middle of the blocks, shape (block,)
+    time_s : mid-time of the blocks, s, shape (block,)
     shaft_frequency_hz : mean over each block, shape (block,)
     revolutions : revolutions of a block, a whole number; any number for a fit
     resolution_order : noise bandwidth of a line, orders

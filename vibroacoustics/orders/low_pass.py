@@ -23,7 +23,7 @@ class LowPass:
     """
 
     cutoff: float
-    """c, amplitude 1/2, middle of the transition, cycles a step."""
+    """Cut-off frequency c, of amplitude 1/2 within the transition, cycles a step."""
     half_length: int
     """H, steps."""
     kaiser_beta: float

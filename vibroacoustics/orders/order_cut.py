@@ -180,7 +180,7 @@ def _check_bands(spectra: OrderMap, orders: Array, bandwidth: float) -> None:
 
 
 def warn_of_neighbours(orders: Array, needed: float, why: str, stacklevel: int = 3) -> None:
-    """Warn of orders that are nearer to each other than is needed to tell them apart."""
+    """Warn of orders that are nearer to each other than the resolution."""
     for lower, upper in pairwise(np.unique(orders)):
         if upper - lower < needed * (1.0 - _SAME_LINE):
             warnings.warn(

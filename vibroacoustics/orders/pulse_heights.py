@@ -11,7 +11,7 @@ from ..base.arrays import Array
 EVEN_HEIGHT: Final = 0.8
 """Least height over the largest one, above which the threshold stays as it is."""
 _NEIGHBOURS: Final = 5
-"""Pulses over which the median of heights and intervals is taken: two spikes are left out."""
+"""Pulses over which the median of heights and intervals is taken: two spikes have no effect."""
 _BEYOND: Final = 0.5
 """Height that is expected beyond the first and last pulse, over theirs."""
 _LEAST_SWING: Final = 0.6

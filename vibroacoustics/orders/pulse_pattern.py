@@ -71,7 +71,7 @@ def sampling_note(pulse_times_s: Array, sample_rate_hz: float) -> str | None:
 
 
 def _gap_note(pulses: NumberedPulses, stated: int) -> tuple[str, bool] | None:
-    """Teeth that are left out in every revolution; whether the stated number counts them."""
+    """Teeth that are missing in every revolution; whether the stated number counts them."""
     steps = np.diff(pulses.number)
     gaps = np.flatnonzero(steps > 1)
     if gaps.size < _LEAST_REVOLUTIONS:
@@ -81,9 +81,7 @@ def _gap_note(pulses: NumberedPulses, stated: int) -> tuple[str, bool] | None:
     regular = np.mean((apart == teeth) & (steps[gaps[1:]] == absent + 1))
     if regular < _REPEATED or teeth < 3:
         return None
-    wheel = (
-        f"{absent} of {teeth} pulses are left out regularly, as on a wheel of {teeth} - {absent}"
-    )
+    wheel = f"{absent} of {teeth} pulses are missing regularly, as on a wheel of {teeth} - {absent}"
     if teeth == stated:
         return f"{wheel} teeth: the gaps are counted", True
     return f"{wheel} teeth; {stated} pulses a revolution are stated: give {teeth}", False

@@ -102,7 +102,7 @@ def _at_points(
 def synchronous_average(channel: xr.DataArray, revolutions: RevolutionAverage) -> xr.Dataset:
     """Mean revolution of the channels and its standard error.
 
-    Where there are fewer than two revolutions it is left out: the attribute `left_out` says why.
+    Where there are fewer than two revolutions it is omitted: the attribute `left_out` says why.
     """
     try:
         average = revolutions.result()
@@ -128,7 +128,7 @@ def fault_times(faults: Sequence[PulseFault]) -> xr.Dataset:
 
 
 def resolution(blocks: OrdersOfBlocks) -> dict[str, Any]:
-    """Attributes that say how finely the blocks tell orders apart."""
+    """Attributes on the order resolution of the blocks."""
     return {
         "window": WINDOW,
         "revolutions_per_block": blocks.revolutions,

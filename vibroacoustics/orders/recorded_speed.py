@@ -110,9 +110,9 @@ def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSp
     UncertainSpeedWarning
         Other speeds explain the signal as well as the one that was tracked.
     StandstillWarning
-        The shaft stands at the begin or the end: that part is left out.
+        The shaft stands at the begin or the end: that part is omitted.
     PulseWarning
-        Teeth are left out, pulses unequally spaced or too quick for the sample rate, their jitter
+        Teeth are missing, pulses unequally spaced or too quick for the sample rate, their jitter
         is above 5 % of a period, or a part of the recording has none.
     """
     rate_hz = recording.sample_rate_hz

@@ -14,7 +14,7 @@ _INFLATION: Final = 1.4
 (Kim and Gu 2004)."""
 
 _CLEAN_TRIALS: Final = 8
-"""Pieces after the third trial: fewer trials cannot tell a clean curve from luck."""
+"""Pieces after the third trial: fewer trials cannot distinguish a clean curve from luck."""
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ _NEAR: Final = 0.02
 """Relative distance up to which courses follow the same shaft."""
 _CHANCE: Final = 5.0
 """Evidence that the best of all speeds gets where no shaft turns: about ln of the number of speeds
-that can be told apart, over which the best was looked for."""
+that can be separated, over which the best was looked for."""
 _FRAMES: Final = (24, 12, 24, 48, 24, 12)
 """Revolutions of the frames in which a course is refined, one after the other."""
 _SHORT_SPECTRA: Final = 3.0
@@ -86,7 +86,7 @@ def checked_course(search: Search, courses: list[Course]) -> tuple[Course, Speed
     """The course with the most evidence in its order spectrum, at the scale that it asks for.
 
     A course that follows the shaft makes its lines sharp, whichever of them it follows; the comb
-    tells the scale. An even speed is a course too. The best one is refined in the order spectra of
+    shows the scale. An even speed is a course too. The best one is refined in the order spectra of
     short blocks. Rivals are other scales of it, and what other courses explain of what is left when
     the lines of the best one are taken out.
 

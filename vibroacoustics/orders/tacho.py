@@ -39,7 +39,7 @@ def tacho_motion(
     as smooth as their jitter asks for (`smooth_curve`). Within one knot distance of its ends the
     speed is less certain than inside. The pulses are taken to be equally spaced on the shaft: a
     pitch error of theirs shows as a fluctuation of the speed that repeats every revolution, from
-    which nothing in the pulses can tell it; a large one is noted.
+    which nothing in the pulses shows; a large one is noted.
 
     Parameters
     ----------

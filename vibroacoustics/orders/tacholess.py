@@ -62,7 +62,7 @@ def tacholess_motion(
         are as long as eight revolutions at the lowest
     orders : rising, of the comb; the better they are those of the machine, the surer is the speed
     maximum_change_per_s : largest relative change of the speed, 1/s
-    mains_hz : nominal frequency of the mains, whose multiples are left out; None where there are
+    mains_hz : nominal frequency of the mains, whose multiples are removed; None where there are
         none
 
     Raises

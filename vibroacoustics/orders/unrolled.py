@@ -18,7 +18,7 @@ from .speed_courses import MOST_LEVEL, Course, Search
 _BLOCKS: Final = 4.0
 """Lengths of a block in the recording; fewer average nothing, more resolve less."""
 _MOST_REVOLUTIONS: Final = 128
-"""Revolutions of a block, at the middle of the limits."""
+"""Revolutions of a block, midway between the limits."""
 _LEAST_REVOLUTIONS: Final = 8
 _FLOOR_ORDERS: Final = 4.0
 """Width of the running median under the lines of an order spectrum."""

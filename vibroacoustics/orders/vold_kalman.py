@@ -56,7 +56,7 @@ class TrackedOrders:
         against the crank angle of the track's shaft
     sample_rate_hz : sample rate of the envelopes
     noise_gain : largest factor by which noise within the bandwidth grows because orders are too
-        close to be told apart; about 1 or 2 where they are apart
+        close to be separated; about 1 or 2 where they are apart
     """
 
     time_s: Array
@@ -74,7 +74,7 @@ def vold_kalman(
 ) -> TrackedOrders:
     """Track orders in a signal, all of them together.
 
-    Orders that cross are told apart if they stay within the bandwidth of each other for a short
+    Orders that cross are separated if they stay within the bandwidth of each other for a short
     time only: at a crossing with s Hz/s, a bandwidth up to √s. Orders that stay side by side need
     a bandwidth below their distance.
 
@@ -150,7 +150,7 @@ def _too_close(
         for number in numbers
     ]
     return SolverError(
-        f"{' and '.join(names)} around {when:.3g} s: too close for too long to be told apart with "
+        f"{' and '.join(names)} around {when:.3g} s: too close for too long to be separated with "
         f"a bandwidth of {bandwidth_hz:g} Hz"
     )
 
@@ -180,7 +180,7 @@ def _common_span(
     """First sample and number of samples at which all motions are known."""
     start = max(track.motion.start_s for track in tracks) * sample_rate_hz
     end = min(track.motion.end_s for track in tracks) * sample_rate_hz
-    # A motion's end is a time of its own; an ulp must not take a sample off.
+    # A motion's end is a time of its own; an ulp must not drop a sample.
     first = max(0, int(np.ceil(start - 1e-6)))
     count = max(0, min(samples, int(np.floor(end + 1e-6)) + 1) - first)
     duration = count / sample_rate_hz

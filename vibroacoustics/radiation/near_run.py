@@ -36,7 +36,7 @@ _ENVELOPE_DECAY_PER_CELL: Final = 0.933
 
 @dataclass(frozen=True)
 class Watch:
-    """The pressures that tell when a run has settled."""
+    """Pressures that show when a run has settled."""
 
     frequency: IndexArray
     """Indices of the frequencies that are watched, (watched,)."""

@@ -69,7 +69,7 @@ class Fields:
 
     def advance(self) -> None:
         """One step of fluxes and pressure."""
-        step: Any = _advance  # numba's types do not tell its arguments
+        step: Any = _advance  # numba's types do not show its arguments
         step(self._pressure, self._flux, self._split, *self._coefficients)
 
     def pressure(self, indices: IndexArray) -> Array:

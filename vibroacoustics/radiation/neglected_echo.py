@@ -1,6 +1,6 @@
 """Size of the echo that walls beyond the machine side's grid send back to the body.
 
-The machine side scatters the echo of near walls exactly and leaves out what the body scatters of
+The machine side scatters the echo of near walls exactly and neglects what the body scatters of
 the others' echo. Monopoles inside the body estimate it: they are fitted to the surface's velocity
 with the near walls' images, then to the velocity that the images in the other walls bring there.
 """

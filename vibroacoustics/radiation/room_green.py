@@ -107,7 +107,7 @@ def kwave_green(
 def green_difference_db(field: BoxField, expected: BoxField) -> Array:
     """Largest level difference over the box, signed, dB, (frequency,).
 
-    Points are left out where images cancel to less than -30 dB of the largest expected value:
+    Points are omitted where images cancel to less than -30 dB of the largest expected value:
     an error of a thousandth of that is no error of the level there.
     """
     simulated = np.abs(np.concatenate([field.inner, field.outer], axis=1))

@@ -58,7 +58,7 @@ class _Wall:
         self._volumes = np.zeros(3)
 
     def add(self, points: SurfacePoints, piece: IndexArray, moving: Array) -> None:
-        """Add points (point,) with their wall pieces; `moving` tells which of them ever move."""
+        """Add points (point,) with their wall pieces; `moving` says which of them ever move."""
         number = self.area.size
         self.area += np.bincount(piece, points.area, number)
         self.area_vectors += _by_piece(piece, points.area[:, None] * points.normal, number)

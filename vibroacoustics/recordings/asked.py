@@ -146,7 +146,7 @@ def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) 
     except (OSError, ValueError) as error:  # ValueError: a name with a null byte
         raise StorageError(f"cannot be read: {error}") from None
     if not path.is_file():
-        raise StorageError("is no file")
+        raise StorageError("is not a file")
     if size == 0:
         raise StorageError("is empty")
     if size > MAXIMUM_READING_BYTES and not may_be_large:

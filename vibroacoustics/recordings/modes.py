@@ -40,7 +40,7 @@ def read_modes(path: str | Path, *, file_unit_m: float | None = None) -> Measure
     """Read normal modes (dataset 55) and their nodes (15 or 2411) from a universal file.
 
     The file is read in a process of its own, of limited memory. Modal masses are taken in kg,
-    lengths in m, unless dataset 164 tells the file's units.
+    lengths in m, unless dataset 164 states the file's units.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ def read_recording(
     to_s: float | None = None,
     names: Mapping[str, str] | None = None,
 ) -> xr.Dataset:
-    """Read a recording; what its file must hold is told in docs/recordings.md.
+    """Read a recording; docs/recordings.md says what its file must hold.
 
     The file is read in a process of its own, of limited memory.
 

@@ -39,7 +39,7 @@ def avoid_table(results: xr.Dataset, every: Sequence[Avoided]) -> Table | None:
     rows = tuple(_row(results, same) for same in _alike(results, every[:MOST_ROWS]))
     more = f"; {MOST_ROWS} of {len(every)}, all are in speeds.csv" if len(every) > MOST_ROWS else ""
     head = ("Option", "What stands out", "Avoid, rpm", "Largest at, rpm", "By, dB",
-            "Of the total there", "Strongest line", "Natural frequency")  # fmt: skip
+            "Share of the total there", "Strongest line", "Natural frequency")  # fmt: skip
     receiver = catalogue_receiver(results)
     return Table(
         f"Speeds to avoid, levels at {receiver}{more}", head, rows, frozenset({0, 1, 6, 7})

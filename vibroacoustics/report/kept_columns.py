@@ -1,4 +1,4 @@
-"""Columns of strangers: checked, and kept in the results for a report without the plug-in."""
+"""Columns of third parties: checked, and kept in the results for a report without the plug-in."""
 
 import json
 from collections.abc import Mapping
@@ -23,14 +23,15 @@ _DIMENSIONS: Final = ("option", "speed", "receiver")
 
 
 class ColumnsOf(NamedTuple):
-    """Columns of some results, and a line on each that is left out."""
+    """Columns of some results, and a line on each that is omitted."""
 
     columns: tuple[Column, ...]
     left_out: tuple[str, ...]
 
 
 def columns_of(results: xr.Dataset) -> ColumnsOf:
-    """Built-in columns, those of strangers that are loaded, and kept ones of others, in order."""
+    """Built-in columns, those of third parties that are loaded, and kept ones of others, in
+    order."""
     third_party = COLUMNS.origins()
     built_in = [column for column in COLUMNS.values() if column.name not in third_party]
     columns = [column for column in built_in if column.applies(results)]

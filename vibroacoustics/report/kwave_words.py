@@ -38,7 +38,7 @@ def kwave_sentence(results: xr.Dataset) -> str:
     words += f", the pressure per velocity by at most {rounding.fixed(largest, 3)} dB"
     if frequency[-1] < results["frequency"].values[-1]:
         crossover_db = float(np.abs(differences[:, :, -1]).max())
-        words += f", {rounding.fixed(crossover_db, 3)} dB at the seam of {frequency[-1]:g} Hz"
+        words += f", {rounding.fixed(crossover_db, 3)} dB at the limit of {frequency[-1]:g} Hz"
     return f"{words}."
 
 

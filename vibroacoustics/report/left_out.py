@@ -28,7 +28,7 @@ def missing(results: xr.Dataset, noun: str, attribute: str) -> dict[str, str]:
         return {}
     plugins = json.loads(results.attrs.get("plugins") or "{}")
     return {
-        name: f"{noun} {name} is left out: {origin['file']} is not loaded, and the results do "
+        name: f"{noun} {name} is missing: {origin['file']} is not loaded, and the results do "
         "not hold it"
         for key, origin in plugins.items()
         if (name := key.removeprefix(f"{noun} ")) != key

@@ -125,10 +125,12 @@ def _notes(blocked: xr.Dataset) -> list[str]:
         _counted(frequency),
         f"Condition number: median {np.median(condition):.3g}, largest {condition.max():.3g} at "
         f"{frequency[int(np.argmax(condition))]:g} Hz.",
-        f"Bands are of {blocked.attrs['draws']} draws of the random errors of the measurements.",
+        f"Bands are from {blocked.attrs['draws']} samples of the random measurement errors.",
     ]
     if np.all(np.isnan(blocked["left_out_error"].values)):
-        notes.append("As many responses as forces: no truncation could be chosen; measure more.")
+        notes.append(
+            "No truncation could be chosen: responses are as few as forces. Measure more responses."
+        )
     return notes
 
 
@@ -238,7 +240,7 @@ def _predicted_notes(predicted: xr.Dataset) -> list[str]:
     return [
         _counted(predicted["frequency"].values),
         f"Half the width of a line's 90 % band: median {half} dB.",
-        f"Bands are of {predicted.attrs['draws']} draws of the random errors of the measurements; "
+        f"Bands are from {predicted.attrs['draws']} samples of the random measurement errors; "
         "what is not linear, sources that react and errors that all measurements share are not in "
         "them.",
     ]

@@ -206,7 +206,7 @@ def orders_tables(results: xr.Dataset) -> list[Table]:
 def levels_data(results: xr.Dataset) -> DataTable:
     """Leq, LFmax, LSmax and third-octave levels of every channel of sound pressure.
 
-    Column `left_out_s`: what is left out at either end of the recording; `bands`: "sums" of the
+    Column `left_out_s`: what is omitted at either end of the recording; `bands`: "sums" of the
     lines within a third octave, or "filters" of IEC 61260-1.
     """
     names = ("leq_db", "lfmax_db", "lsmax_db", "left_out_s", "bands")
@@ -224,7 +224,7 @@ def levels_data(results: xr.Dataset) -> DataTable:
 
 
 def _left_out_s(results: xr.Dataset, weighting: str) -> float:
-    """What a level leaves out at either end: the run-in of the weighting's filter."""
+    """What a level omits at either end: the run-in of the weighting's filter."""
     return 0.0 if weighting == "Z" else float(results.attrs.get("levels_left_out_s", 0.0))
 
 
@@ -291,7 +291,7 @@ def _levels_table(results: xr.Dataset) -> Table:
     head = ("Channel", "weighting", "Leq, dB", "LFmax, dB", "LSmax, dB")
     method = "IEC 61260-1 filters" if results.attrs.get("band_method") == "filters" else "band sums"
     caption = (
-        "Sound pressure levels, dB re 20 µPa; A and C leave out the first and last "
+        "Sound pressure levels, dB re 20 µPa; A and C omit the first and last "
         f"{_left_out_s(results, 'A'):.3g} s, the filters' run-in; third octaves in levels.csv by "
         f"{method}"
     )

@@ -1,4 +1,4 @@
-"""What the report says of the remainder: how it goes with speed."""
+"""Sentences of the report on unmodelled noise: its growth with speed."""
 
 from collections.abc import Callable
 from typing import Final
@@ -13,9 +13,8 @@ from ..results.stored_study import at_catalogue, overall_noise, parameters, quot
 
 _GROWTH = "remainder.speed_growth_db"
 NO_LEVEL: Final = (
-    "The machine's file gives no published level: there is no remainder, and levels and their "
-    "changes are those of what the model holds. The machine itself is louder, and less of it "
-    "changes."
+    "The machine's file gives no published level: there is no unmodelled noise. Levels and their "
+    "changes are those of the modelled sources. The machine itself is louder and changes less."
 )
 
 
@@ -25,7 +24,7 @@ def unmodelled_level(results: xr.Dataset, speed: float) -> Band:
 
 
 def measured_rpm(results: xr.Dataset) -> float | None:
-    """The first speed at which a baseline stands for the remainder at the catalogue's microphone.
+    """First speed at which a baseline replaces unmodelled noise at the published microphone.
 
     None where there is none.
     """
@@ -44,7 +43,7 @@ def total_sentence(results: xr.Dataset) -> str:
 
 
 def growth_sentence(results: xr.Dataset) -> str:
-    """How the remainder is assumed to go with speed, or that there is none.
+    """Say how unmodelled noise is assumed to grow with speed, or that there is none.
 
     Also where a baseline stands for it.
     """

@@ -258,7 +258,7 @@ def _bands(case: _Case, square: Array) -> SoundBands:
 
 
 def _room_lines(case: _Case) -> SoundLines:
-    """Lines of all sources by air, with the energy of what comes by the plate."""
+    """Airborne lines of all sources, with the energy of structure-borne sound."""
     pressure = case["room_pressure_line"]
     if "room_plate_line_level" in case:
         by_plate = 2.0 * _square(case["room_plate_line_level"])

@@ -53,7 +53,7 @@ def rendered(
 
     Parameters
     ----------
-    parts : lines and noise; what lies above 0.45 of the sample rate is left out
+    parts : lines and noise; those above 0.45 of the sample rate are omitted
     samples : number of samples of the sound, see `whole_revolutions`
     sample_rate_hz : sample rate of the sound
     seed : seed of the phases of the noise
@@ -85,9 +85,9 @@ def rendered_noise(
 ) -> Array:
     """Noise with the mean square of each band over its duration, shape (sample,), Pa.
 
-    Lines of one transform, of random phase; the sound repeats without a seam. Within a band the
+    Lines of one transform, of random phase; the sound repeats without a step. Within a band the
     power per hertz goes with 1/(f √A(f)), A = gain of the A-weighting of powers: so its A-weighted
-    mean square is that of all of it at the middle of the band, as levels count it.
+    mean square is that of all of it at midband, as levels count it.
 
     Parameters
     ----------

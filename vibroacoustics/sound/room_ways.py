@@ -21,14 +21,14 @@ from .room_responses import WaysOfRoom, room_responses
 
 
 class BothMethods(NamedTuple):
-    """Ways to the listeners, and both methods around their seam.
+    """Ways to the listeners, and both methods around their crossover.
 
     Attributes
     ----------
     ways : with the gain of the place
     gain : gain of the power at the machine's position, a function of frequencies
     waves : mean square per power, shape (listener, band), Pa²/W
-    shown : numbers of the bands around the seam
+    shown : numbers of the bands around the crossover
     transfers : waves and diffuse field in these, without the gain
     gains_db : gains of the position, in these bands and above
     """

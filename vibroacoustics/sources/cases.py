@@ -41,7 +41,7 @@ class MovingParts(Source):
 
 
 def cases_of(study: Study, progress: Progress) -> dict[CaseKey, Case]:
-    """Every speed with every option, with the values as given."""
+    """Return every speed with every option, with nominal values."""
     operation = study.operation
     supplies = operation.supply_frequency_hz or (None,) * len(operation.speed_rpm)
     points = list(product(zip(operation.speed_rpm, supplies, strict=True), study.options))

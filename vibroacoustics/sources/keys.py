@@ -179,7 +179,7 @@ def resolved_orders(signal: Array, highest: int) -> ComplexArray:
 
 
 def _turning(case: Case) -> _Ring:
-    """The machine's ring with the gas moment that presses its keys and what hangs on it."""
+    """The machine's ring with the gas moment that presses its keys and the parts on it."""
     ring = case.machine.require(OldhamRing)
     gas = gas_cycle(case.machine, case.shared, case.speed_rpm).self_rotation_moment_n_m
     moment, force = gas + case.added.on_scroll_n_m, case.added.on_ring or NOTHING_HUNG
@@ -206,7 +206,7 @@ def _spectra(
     mean, fluctuation = split_periodic(resultants, forces.revolutions)
     torque_n_m = key_torque_n_m(forces, ring.stroke_m)
     torque = order_spectrum(split_periodic(torque_n_m, forces.revolutions)[0], highest)
-    torque[0] = 0.0  # all friction is left out of the mean
+    torque[0] = 0.0  # the mean holds no friction
     block = 2 * mean.shape[-1] if forces.revolutions > 1 else mean.shape[-1]
     highest_hz = case.maximum_frequency_hz
     noise = Noise(

@@ -115,7 +115,7 @@ class InductionMotorForces(_AirGapForces):
 class SynchronousMotorForces(_AirGapForces):
     """Forces of the synchronous motor: its magnets' fundamental, the stator's slots, eccentricity.
 
-    All of them are orders of the shaft. The field of the currents is left out.
+    All of them are orders of the shaft. The field of the currents is neglected.
     """
 
     kind: ClassVar[str] = "synchronous-motor-forces"

@@ -28,7 +28,7 @@ def gas_loads(
     Parameters
     ----------
     cycle : over uniform crank angles
-    height_m : height of the middle of the wraps
+    height_m : mid-height of the wraps
     flanks_close : whether the flanks' contact takes the radial force, as with a drive bushing
 
     Returns

@@ -210,7 +210,7 @@ def closing_time_s(valve: CheckValve) -> float:
 
 
 def closing_force_n(valve: CheckValve, time_s: Array) -> Array:
-    """Force along z on what carries the valve, by its change of momentum, shape of the times.
+    """Force along z on the valve's support, by its change of momentum, shape of the times.
 
     The disc flies down: its reaction F pushes up; on the seat it stays, with the half sine of the
     impulse √(2 F s m). Both cancel over time.

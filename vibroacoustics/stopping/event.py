@@ -21,7 +21,7 @@ FADE_S: Final = 1.0
 STEADY_S: Final = 1.5
 """Twelve Fast time constants: the level is settled within 3e-5 dB."""
 REST_S: Final = (8.0, 16.0, 32.0, 64.0)
-"""After the stop, until the mounts have rung out; tried in this order."""
+"""Time after the stop, until the motion on the mounts has decayed; tried in this order."""
 RESIDUE: Final = 1e-4
 """Share of the largest force into a foot, in the last second: the vibration has decayed."""
 
@@ -129,7 +129,8 @@ def _response(
     body: MachineOnMounts,
     pressure_per_velocity: Callable[[Array], ComplexArray],
 ) -> Transient:
-    """To a load that is faded in and followed by rest until the mounts have rung out."""
+    """To a load that is faded in and followed by rest until the motion on the mounts has
+    decayed."""
     rate = LOAD_SAMPLES * clock.rate_hz
     fade = _fade(course.shape[-1], clock.rate_hz)
     for rest_s in REST_S:

@@ -84,7 +84,7 @@ class BaselineSettings(Parameters):
     file: tuple[str, ...] = Field(min_length=1)
     """In a study file a name, or a list of names."""
     microphones: dict[str, BaselineMicrophone] = Field(default_factory=dict)
-    """By receiver; those that are called as in the files are left out."""
+    """Names by receiver; those of the files need no entry."""
     tacho_angle_rad: float | None = Field(default=None, ge=-7.0, le=7.0)
     """Crank angle of the study at which the tacho gives its pulse; none for energies."""
     recorded_speed_rpm: tuple[float, ...] = ()

@@ -203,7 +203,7 @@ def _check_room(study: StudyTables) -> None:
         if name in study.receivers:
             raise ValueError(
                 f"room.listeners.{name}: a microphone has this name, receivers.{name}; give "
-                "another, so that sounds and tables tell them apart"
+                "another, so that sounds and tables distinguish them"
             )
     try:
         study.room.check_holds(study.machine.shell)
@@ -212,7 +212,7 @@ def _check_room(study: StudyTables) -> None:
 
 
 def _check_orders(study: StudyTables) -> None:
-    """Refuse more orders than the radiation or the crank angles can tell apart."""
+    """Refuse more orders than the radiation or the crank angles can resolve."""
     speeds = {*study.operation.speed_rpm, study.catalogue_speed_rpm}
     fastest, slowest = max(speeds), min(speeds)
     orders, samples = study.highest_order(slowest), study.operation.crank_angle_samples
@@ -268,7 +268,7 @@ def _check_sources(study: StudyTables) -> None:
         )
     if study.shell_modes is not None and _gas_flows_into(study):
         raise ValueError(
-            "shell_modes: measured modes do not tell what gas in the shell does to its wall; "
+            "shell_modes: measured modes do not show what gas in the shell does to its wall; "
             f"leave the gas out: machine.without = {_gas_flows_into(study)}"
         )
     if study.operation.stopping and not study.machine.has_table(Stopping):

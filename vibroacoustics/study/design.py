@@ -101,7 +101,7 @@ class Search(Parameters):
     seed: int = Field(default=1, ge=0, le=2**31 - 1)
     """Seed of the random numbers; the same seed gives the same designs."""
     best: int = Field(default=5, ge=1, le=20)
-    """Designs that are told one by one."""
+    """Designs that are reported one by one."""
     fresh_samples: int = Field(default=10_000, ge=100, le=1_000_000)
     """Samples of the tolerances that the search has not used; a design's promise rests on them."""
 

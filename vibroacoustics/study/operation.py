@@ -31,7 +31,7 @@ class Operation(Parameters):
     supply_frequency_hz: tuple[Annotated[float, _SHOWN_SUPPLY], ...] | None = None
     """Frequency of the motor's supply, one for each speed; where a source needs it."""
     point: str | None = None
-    """Operating point of the machine's file, whose values hold; none for the machine's as given."""
+    """Operating point of the machine's file, whose values hold; none for the nominal machine."""
     stopping: bool = False
     """Whether a stop from each speed is computed, where the machine has a table of that name."""
     turning_back: bool = False

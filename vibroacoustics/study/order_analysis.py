@@ -20,7 +20,7 @@ BAND_METHODS: Final[tuple[BandMethod, ...]] = get_args(BandMethod)
 
 @dataclass(frozen=True)
 class SpeedChannel:
-    """A channel tells the speed: in rpm where that is its unit, else by pulses.
+    """A channel gives the speed: in rpm where that is its unit, else by pulses.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class SpeedChannel:
 
 @dataclass(frozen=True)
 class NominalSpeed:
-    """The speed is told, and taken to be even.
+    """The speed is stated, and taken to be even.
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ class TacholessSpeed:
     channel : name, or None for the recording's only channel
     minimum_rpm, maximum_rpm : limits within which the speed is looked for
     comb : rising orders that the machine is known to have; one or two may be silent
-    mains_hz : nominal frequency of the mains, whose multiples are left out; None: nothing is
+    mains_hz : nominal frequency of the mains, whose multiples are removed; None: nothing is
 
     Raises
     ------

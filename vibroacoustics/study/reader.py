@@ -46,7 +46,7 @@ class Reader:
         return result
 
     def _number_or_problem(self, keys: tuple[str, ...], value: Any) -> Any:
-        """The bare value of a leaf; what is wrong with its source or range is told later."""
+        """The bare value of a leaf; what is wrong with its source or range is reported later."""
         try:
             return self.number(keys, value)
         except ParameterError as error:
@@ -78,7 +78,7 @@ class Reader:
         ----------
         keys : keys of the leaf
         value : number, or table with value, source and range
-        unit : where the key's suffix tells none
+        unit : unit where the key's suffix states none
         """
         where = self.file_and_key(keys)
         if not is_quantity(value):

@@ -24,7 +24,7 @@ Coordinate = Annotated[float, Field(ge=0.0, le=LONGEST_M)]
 
 
 class Furniture(Parameters):
-    """A solid cuboid that is left out of the air of a room."""
+    """A solid cuboid in a room, which holds no air."""
 
     lower_m: tuple[Coordinate, Coordinate, Coordinate]
     """Its corner nearest to the room's origin: x, y, z."""

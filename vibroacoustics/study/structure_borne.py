@@ -66,7 +66,7 @@ class StructureBorne(Parameters):
         return 1.0 / (8.0 * sqrt(self.bending_stiffness_n_m * self.mass_kg_per_m2))
 
     def under(self, machine: Machine) -> Machine:
-        """The machine on the plate; as it is where it has a floor that gives way already.
+        """The machine on the plate; unchanged where it has a compliant floor already.
 
         A single row of a mobility holds above its frequency; below, the plate is a spring.
         """

@@ -54,7 +54,7 @@ class StudyTables(Parameters):
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None
     structure_borne: StructureBorne | None = None
-    """Plate under the feet whose sound is computed beside that by air."""
+    """Plate under the feet whose structure-borne sound is computed."""
     room: StudyRoom | None = None
     """Room into which the machine is put, with listeners."""
     rating: Rating | None = None

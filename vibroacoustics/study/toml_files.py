@@ -69,7 +69,7 @@ def _deeper_than(content: Mapping[str, Any], depth: int) -> bool:
 
 
 def read_with_base(path: Path) -> Written:
-    """Merge a study over the one it extends, and so on; also tell the file of each value.
+    """Merge a study over the one it extends, and so on; also give the file of each value.
 
     Raises
     ------

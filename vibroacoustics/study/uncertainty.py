@@ -54,4 +54,4 @@ class MeasuredModes(Parameters):
     file: str = Field(min_length=1)
     """In a study relative to the study's folder; places are about the centre of mass, z up."""
     file_unit_m: float | None = Field(default=None, gt=0.0, le=1.0)
-    """Length of the unit of the places; none where the file itself tells it (dataset 164)."""
+    """Length of the unit of the places; none where the file itself states it (dataset 164)."""

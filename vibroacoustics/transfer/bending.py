@@ -190,7 +190,8 @@ def pressure_over_time(
     """Pressure of loads in the shell by Fourier transform of the event, Pa, (receiver, times).
 
     The rigid machine is treated so by `transient`: the event counts as one period, ends with rest
-    that lasts until the shell has rung out, and has no lines above the highest frequency.
+    that lasts until the vibration of the shell has decayed, and has no lines above the highest
+    frequency.
 
     Parameters
     ----------

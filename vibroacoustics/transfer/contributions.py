@@ -88,7 +88,7 @@ def contributions(
         (per_force, part)
         for source, load in loads.items()
         for part in load.noise
-        if part.density.any()  # keys that strike
+        if part.density.any()  # key impacts
         and (per_force := _per_force(path, microphones, part, source))
     ]
     for per_force, _ in noise:

@@ -23,7 +23,7 @@ class Stand:
     height_m : height of the mounts from the centre of mass, except of feet that give their own
     feet : anywhere; four in a square where there are none
     stiffness : over frequency, of every mount without one of its own
-    floor : that gives way; rigid where there is none
+    floor : compliant floor; rigid where there is none
     """
 
     mounts: Mounts
@@ -122,7 +122,7 @@ def _constant(stiffness: Array, loss: float) -> Callable[[Array], ComplexArray]:
 def _in_series(
     mount: Callable[[Array], ComplexArray], floor: Floor | FloorMobility, foot: str
 ) -> Callable[[Array], ComplexArray]:
-    """A mount on a floor that gives way: 1/(1/k + receptance of the floor)."""
+    """Stiffness of a mount on a compliant floor: 1/(1/k + receptance of the floor)."""
 
     def stiffness_at(frequency_hz: Array) -> ComplexArray:
         stiffness = mount(frequency_hz)

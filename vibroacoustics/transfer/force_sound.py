@@ -27,12 +27,12 @@ class OfReceivers(Protocol):
 class ForceSound:
     """Measured pressure of forces on the machine, or of forces of its feet on the floor.
 
-    Called as pressure per velocity of the body on the feet, it is that of the machine as given;
+    Called as pressure per velocity of the body on the feet, it is that of the nominal machine;
     of another machine it is `of`, so that the pressure of a force stays the measured one.
 
     Attributes
     ----------
-    body : the machine as given
+    body : the nominal machine
     frequency_hz : rising, shape (frequency,)
     per_wrench : pressure per force and moment on the machine about its centre of mass, shape
         (receiver, 6, frequency); none where feet were measured

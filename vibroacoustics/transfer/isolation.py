@@ -17,7 +17,7 @@ class Isolation:
 
     The motion of a body is (tx, ty, tz, rx, ry, rz) of its centre of mass, m and rad; its load is
     force and moment about it, N and N m. Small motion: rotations add linearly; the stiffness that
-    gravity adds is left out.
+    gravity adds is neglected.
 
     Attributes
     ----------

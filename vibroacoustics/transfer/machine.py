@@ -70,7 +70,7 @@ class MachineOnMounts:
     suspension : block, springs and tube
     feet : anywhere, in place of four in a square
     mount_stiffness : stiffness of the mounts over frequency
-    floor : that gives way under the feet; rigid where there is none
+    floor : compliant floor under the feet; rigid where there is none
     attached : further bodies, of an option
     """
 

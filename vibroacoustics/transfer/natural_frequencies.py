@@ -68,9 +68,9 @@ def framed_hz(frame: FrameOnShell) -> Array:
     """Frequencies of shell and parts joined at their contacts, without loss, free in space, Hz,
     rising.
 
-    Coordinates are the shell's modes, its six rigid motions and the freedoms of the parts; the
-    gaps at the contacts are held by their springs in series with what the modes leave out, those
-    at the bearings by the metal: above the shaft's speed a film is many times as stiff.
+    Coordinates are the shell's modes, its six rigid motions and the degrees of freedom of the
+    parts; the gaps at the contacts are held by their springs in series with what the modes lack,
+    those at the bearings by the metal: above the shaft's speed a film is many times as stiff.
     """
     inner = frame.inner
     squares = (2.0 * np.pi * frame.natural_hz) ** 2
@@ -96,7 +96,7 @@ def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str,
     Parameters
     ----------
     machine : its tables of spaces
-    path : modes of the wall as given
+    path : modes of the nominal wall
     sound_speed : by the name of a space's table, m/s
     """
     named = {}

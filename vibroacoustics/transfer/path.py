@@ -32,12 +32,12 @@ class ShellPath:
     ----------
     modes : computed or measured
     structure : its joints and, where the modes are computed, its wall
-    wall : all modes as given, for walls that differ; none where they are measured
+    wall : all nominal modes, for walls that differ; none where they are measured
     radius_m : radius of the wall
     rows : the path's modes among those of the wall, shape (mode,)
-    frequency_factor : natural frequencies over those of the modes as given, shape (mode,) or ()
+    frequency_factor : natural frequencies over those of the nominal modes, shape (mode,) or ()
     mass_factor : modal mass relative to that of the nominal modes, shape (mode,) or ()
-    gas : spaces of gas in the shell with the modes as given, by their shape, as they are asked for
+    gas : spaces of gas in the shell with the nominal modes, by their shape, as they are needed
     """
 
     modes: tuple[ShellMode, ...] | tuple[SampledMode, ...]
@@ -95,7 +95,7 @@ class ShellPath:
     def with_structure(self, structure: ShellStructure) -> "ShellPath":
         """The path with sampled values of joints and wall.
 
-        Joints are exact; another wall changes frequencies and masses of the modes as given, by
+        Joints are exact; another wall changes frequencies and masses of the nominal modes, by
         `ProjectedModes`, not their shapes. Measured modes stay.
         """
         path = replace(self, structure=structure)

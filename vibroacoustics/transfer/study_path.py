@@ -31,7 +31,7 @@ def projection_errors(
     """Largest relative error of a natural frequency by projection, by name of the sampled value.
 
     Over the modes up to the highest frequency, at both ends of the value's range, the other values
-    as given. Only values that change the shapes of modes are in it.
+    nominal. Only values that change the shapes of modes are in it.
     """
     if path.wall is None:
         return {}

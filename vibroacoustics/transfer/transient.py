@@ -42,7 +42,7 @@ def transient(
     The event counts as one period: it has to end with rest that lasts until the mounts' ringing
     has died out. Their structural loss (the same at every frequency above zero) has no causal
     counterpart in time (Crandall 1970, J. Sound Vib. 11:3): a kick of the load has a forerunner of
-    about the loss factor times its size. What lies above the highest frequency is left out.
+    about the loss factor times its size. Sound above the highest frequency is omitted.
 
     Parameters
     ----------

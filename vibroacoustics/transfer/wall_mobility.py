@@ -83,7 +83,7 @@ def wall_mobility(
     """Outward velocity of points per force, m/(N s), shape (point, reference, frequency).
 
     By the modes of the shell, with its frame where it has one, as the sources drive them. A force
-    on the wall drives the elastic modes alone: what the rigid machine does of it is left out.
+    on the wall drives the elastic modes alone: the part of the rigid machine is omitted.
 
     Parameters
     ----------

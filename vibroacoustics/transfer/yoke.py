@@ -106,7 +106,7 @@ class YokeOnWall:
         return float((np.pi if order else 2.0 * np.pi) * self.yoke.mean_radius_m)
 
     def _residual(self, order: int, rows: list[int]) -> float:
-        """Steady flexibility of the band that the modes leave out, m/N."""
+        """Steady flexibility of the band that the modes lack, m/N."""
         shell = self._wall.shell
         modes = [self._modes[row] for row in rows]
         stiffness = np.array([m.modal_mass_kg * (2.0 * np.pi * m.frequency_hz) ** 2 for m in modes])

@@ -13,7 +13,7 @@ from vibroacoustics.levels.agreement import (
     priors_of,
 )
 from vibroacoustics.levels.by_source import GAIN_BANDS
-from vibroacoustics.machine.remainder import OverallNoise, UnmodelledNoise, SpectralShare
+from vibroacoustics.machine.remainder import OverallNoise, SpectralShare, UnmodelledNoise
 
 DEVIATION_DB = 2.0
 NOISE = OverallNoise(level_dba=56.0, speed_rpm=2900.0, distance_m=1.0, deviation_db=DEVIATION_DB)

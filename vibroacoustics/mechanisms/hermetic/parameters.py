@@ -83,7 +83,7 @@ class Rotor(Parameters):
 
 class Shaft(Parameters):
     """Uniform shaft from the crank's centre, where the upper bearing is, past the lower bearing
-    to the middle of the motor rotor."""
+    to the centre of the motor rotor."""
 
     diameter_m: float = LENGTH
     bearing_distance_m: float = LENGTH

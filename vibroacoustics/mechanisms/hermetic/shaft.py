@@ -1,7 +1,8 @@
 """Equations of motion of the crankshaft with rod and piston, over the crank angle.
 
-Cases I, II and III of Estupiñan & Santos differ in the shaft's freedoms only: none, the crank's
-x and y, or a finite-element rotor. The states are displacements, velocities and the shaft speed.
+Cases I, II and III of Estupiñan & Santos differ in the shaft's degrees of freedom only: none, the
+crank's x and y, or a finite-element rotor. The states are displacements, velocities and the shaft
+speed.
 """
 
 from dataclasses import dataclass
@@ -44,12 +45,12 @@ class Crankshaft:
 
     @property
     def dof_count(self) -> int:
-        """Number of the rotor's freedoms, without the crank angle."""
+        """Number of the rotor's degrees of freedom, without the crank angle."""
         return int(self.matrices.mass.shape[0])
 
     @property
     def crank_places(self) -> Array:
-        """Where the free crank coordinates stand among the freedoms and, last, θ."""
+        """Indices of the free crank coordinates among the degrees of freedom and, last, θ."""
         return np.array([*range(len(self.free) - 1), self.dof_count])
 
 
@@ -69,7 +70,7 @@ def _flexible(machine: HermeticTables) -> Crankshaft:
 
 
 def node_positions_m(machine: HermeticTables) -> Array:
-    """Nodes along the shaft from the crank's centre to the middle of the motor rotor, m."""
+    """Nodes along the shaft from the crank's centre to the centre of the motor rotor, m."""
     lower = machine.shaft.bearing_distance_m
     end = lower + machine.shaft.rotor_distance_m
     upper_part = np.linspace(0.0, lower, ELEMENTS_TO_LOWER_BEARING + 1)
@@ -134,7 +135,7 @@ class ShaftEquations:
         return np.stack(forces, axis=-2) if forces else np.zeros((*speed.shape, 0, 2))
 
     def _balance(self, angle: Array, states: Array) -> tuple[Array, Array]:
-        """Mass matrix and force of the freedoms and, last, the crank angle."""
+        """Mass matrix and force of the degrees of freedom and, last, the crank angle."""
         shaft, (displacement, velocity, speed) = self.shaft, self.split(states)
         size = shaft.dof_count + 1
         mass, force = np.zeros((*speed.shape, size, size)), np.zeros((*speed.shape, size))
@@ -155,7 +156,8 @@ class ShaftEquations:
         return mass, force
 
     def accelerations(self, angle: Array, states: Array) -> Array:
-        """Second derivatives in time of the freedoms and the crank angle, shape (..., n + 1)."""
+        """Second derivatives in time of the degrees of freedom and crank angle, shape (..., n +
+        1)."""
         mass, force = self._balance(angle, states)
         return np.asarray(np.linalg.solve(mass, force[..., None])[..., 0])
 

@@ -101,7 +101,7 @@ class FourBar(Parameters):
     minicrank_error_m: float = ERROR
     bracket_error_m: float = ERROR
     branch: Literal[1, -1]
-    """M of equation (5): which way the mechanism is assembled."""
+    """M of equation (5): branch in which the mechanism is assembled."""
     minicranks: Literal[1, 3]
     """1 is the paper's rigid four-bar; of 3, at 120° to each other and on elastic pins, the first
     has the errors."""

@@ -98,7 +98,7 @@ class OldhamScrollTables(Machine):
         if self.frame is not None:
             yield from self._of_frame(self.frame)
         if self.turning_back is not None and self.brake is None:
-            yield "turning_back: needs the table brake; leave out both or none"
+            yield "turning_back: needs the table brake; give both or none"
         for name, table in (
             ("discharge_dome", self.discharge_dome),
             ("suction_annulus", self.suction_annulus),

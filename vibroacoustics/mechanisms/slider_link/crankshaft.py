@@ -74,7 +74,7 @@ def bearing_forces(
 ) -> tuple[Array, Array]:
     """Forces of upper and lower bearing on the crankshaft (27) to (30), shape (2, samples), N.
 
-    From the moments about the middle of the lower bearing; the second row of (28) and of (30) is
+    From the moments about the centre of the lower bearing; the second row of (28) and of (30) is
     printed with wrong signs, table 2 is right.
 
     Parameters
@@ -132,7 +132,7 @@ def crank_coefficients(
 ) -> tuple[Array, Array, Array, Array]:
     """γ4, γ5, γ6 of (34), kg m² and m, and the factor of the slider's moment on the link.
 
-    The last one comes with the moment M_b that the paper leaves out: the crank pin's friction
+    The last one comes with the moment M_b that the paper neglects: the crank pin's friction
     moment, passed on to the link, acts back on the crank with this factor.
 
     Parameters

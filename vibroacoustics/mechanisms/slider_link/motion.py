@@ -182,7 +182,7 @@ def _motor_answer(panels: GaussPanels, error: Array, steepness: float) -> Array:
 
 
 def _start(panels: GaussPanels, rise: Array, mean_velocity: float) -> float:
-    """What to add to φ̇²/2 for the mean velocity to be as given; Newton's method."""
+    """Return what to add to φ̇²/2 for the stated mean velocity; Newton's method."""
     start = 0.5 * mean_velocity**2 - panels.integral(rise) / (2.0 * np.pi)
     for _ in range(MAXIMUM_ITERATIONS):
         if np.min(start + rise) <= 0.0:

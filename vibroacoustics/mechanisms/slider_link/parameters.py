@@ -85,7 +85,7 @@ class Heights(Parameters):
     piston_axis_m: float = Field(ge=-0.5, le=0.5)
     """From the block's centre of mass up to the piston's axis [z_s]."""
     upper_bearing_m: float = LENGTH
-    """From the piston's axis down to the middle of the upper bearing [z_p]."""
+    """Height of the piston's axis above the centre of the upper bearing [z_p]."""
     bearing_distance_m: float = LENGTH
     """Between the middles of the two bearings [z_b]."""
 

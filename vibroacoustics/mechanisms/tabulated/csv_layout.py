@@ -142,7 +142,7 @@ def forces_csv(results: xr.Dataset, option: str = REFERENCE_OPTION) -> bytes:
     """Orders of force and moment of a run's results, as a table by order.
 
     Remarks above it hold the table `[shaft_axes]` that the machine file needs. Sources that make no
-    force under the option are left out.
+    force under the option are omitted.
 
     Parameters
     ----------

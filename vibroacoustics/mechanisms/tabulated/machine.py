@@ -81,7 +81,7 @@ class TabulatedMachine(Machine):
     sliding_mass: SlidingMass | None = None
     """For options that balance it."""
     oldham: Ring | None = None
-    """For options that hang on it."""
+    """Ring of the machine, for options that add to it."""
     counterweights: BalancePlanes | None = None
     """Where weights can sit on the shaft."""
 
@@ -160,7 +160,7 @@ class TabulatedMachine(Machine):
         return Revolution(speed_rpm, constant_rotation(speed_rpm, samples), wrenches)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What a table leaves out."""
+        """Effects that a table neglects."""
         return _LEAVES_OUT
 
 

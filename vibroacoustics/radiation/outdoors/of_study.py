@@ -10,7 +10,7 @@ from .barrier import Barrier
 from .green import Outdoors
 
 _LEAST_GAP_M: Final = 0.3
-"""From the machine to a barrier, whose echo to the machine is left out."""
+"""Distance from the machine to a barrier, whose echo to the machine is neglected."""
 
 
 def outdoors_of(shell: Shell, surroundings: Surroundings) -> Outdoors | None:

@@ -128,7 +128,7 @@ def _check_receivers(side: RevolutionSide, task: Task) -> None:
     for name, position in task.positions.items():
         if not side.clear(position[None, :])[0]:
             raise ParameterError(
-                f"receivers.{name}: stands under the floor or on the wall of the machine"
+                f"receivers.{name}: is under the floor or on the wall of the machine"
             )
 
 

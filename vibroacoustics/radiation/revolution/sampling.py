@@ -19,7 +19,7 @@ TOLERANCE: Final = 1e-3
 _FIRST_HZ: Final = 200.0
 """Distance of the frequencies solved first."""
 _GAIN: Final = 16.0
-"""Error at a solved frequency that is left out over that beside it, about; 2⁶ for fine steps."""
+"""Error at an omitted solved frequency over that beside it, about; 2⁶ for fine steps."""
 _DEGREE: Final = 5
 
 Solve = Callable[[IndexArray], tuple[ComplexArray, Array]]
@@ -120,7 +120,7 @@ def _spline(frequency_hz: Array, smooth: ComplexArray, wanted_hz: Array) -> Comp
 
 
 def _left_out(frequency_hz: Array, smooth: ComplexArray) -> Array:
-    """What every solved frequency but the last errs by where it is left out with every other."""
+    """Error at every solved frequency but the last, if it is omitted with every other one."""
     error = np.zeros(smooth.shape)
     for start in (0, 1):
         out = np.arange(start, frequency_hz.size - 1, 2)

@@ -30,7 +30,8 @@ _LARGEST_EIGENVALUE: Final = 3.9
 
 
 class Air:
-    """Pressure of all boxes as cosine series, with fluxes through seams and into walls."""
+    """Pressure of all boxes as cosine series, with fluxes through joints of boxes and into
+    walls."""
 
     def __init__(
         self,
@@ -163,7 +164,7 @@ def _mass_m(
 def _seams(
     boxes: Sequence[AirBox], faces: Sequence[Face], plan: Layout, masses: Sequence[float]
 ) -> tuple[IndexArray, Array]:
-    """First nodes of both ends of every seam and their number; 1/(d1 + d2) by node, 1/m."""
+    """First nodes of both ends of every joint and their number; 1/(d1 + d2) by node, 1/m."""
     rows, give, row = [], np.zeros(plan.nodes), 0
     for face, mass in zip(faces, masses, strict=True):
         if len(face.ends) == 2:

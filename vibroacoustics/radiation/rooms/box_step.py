@@ -122,9 +122,9 @@ def step_series(
 
 @kernel
 def pass_seams(pressure: Any, flux: Any, seams: Any, give: Any) -> None:  # pragma: no cover
-    """Change of flux through seams by the difference of pressure across them.
+    """Change of flux through joints of boxes by the difference of pressure across them.
 
-    `seams` holds the first node of both ends and their number; `give` is c dt/(d1 + d2) by node.
+    `joints` holds the first node of both ends and their number; `give` is c dt/(d1 + d2) by node.
     """
     for joint in range(seams.shape[0]):
         first, second, count = seams[joint]

@@ -50,10 +50,10 @@ class End:
 
 @dataclass(frozen=True)
 class Face:
-    """A rectangle where air ends: a seam between two boxes, or a wall behind one."""
+    """A rectangle where air ends: a joint between two boxes, or a wall behind one."""
 
     ends: tuple[End, ...]
-    """Two of a seam, of which the first lies below; one of a wall."""
+    """Two boxes at a joint, of which the first lies below; one at a wall."""
     lower: Array
     """Corner along the two axes of the face, in their order, m, (2,)."""
     upper: Array

@@ -1,4 +1,4 @@
-"""The diffuse field of a room, where waves are not computed, and its seam to the waves."""
+"""The diffuse field of a room, where waves are not computed, and its crossover to the waves."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -130,12 +130,12 @@ def gain_at_place_db(waves: Array, diffuse: Array) -> float:
 
     A machine in a corner or a niche sends out another power than in the open. The mean of the
     ratios of both mean squares over all listeners and third octaves; added to the diffuse field,
-    both have the same energy at the seam.
+    both have the same energy at the crossover.
 
     Parameters
     ----------
     waves, diffuse : mean square pressures (listener, third octave), Pa²; those without sound
-        are left out
+        are omitted
     """
     sounding = (waves > 0.0) & (diffuse > 0.0)
     if not sounding.any():
@@ -144,7 +144,7 @@ def gain_at_place_db(waves: Array, diffuse: Array) -> float:
 
 
 def air_attenuation_per_m(frequency_hz: Array) -> Array:
-    """Attenuation of the intensity by air at 20 °C, 50 % and 101.325 kPa, m in exp(-m x), 1/m.
+    """Attenuation of the intensity in air at 20 °C, 50 % and 101.325 kPa, m in exp(-m x), 1/m.
 
     ISO 9613-1:1993, equations 3 to 6.
     """

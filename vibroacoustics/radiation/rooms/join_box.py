@@ -18,14 +18,14 @@ _QUADRATURE: Final = 1e-4
 class JoinBox:
     """Points on the six sides of a box: nodes of Gauss-Legendre quadrature.
 
-    The sides may pass through seams and stand near walls and blocks, but lie in the air.
+    The sides may pass through joints of boxes and stand near walls and blocks, but lie in the air.
 
     Parameters
     ----------
     lower, upper : corners (3,), m
     maximum_frequency_hz : maximum frequency of the waves
     clearance_m : between the sides and the body in the box: the closer, the more nodes
-    on_floor : whether the box stands on something hard: its lowest side is left out, where neither
+    on_floor : whether the box stands on something hard: its lowest side is omitted, where neither
         the field nor the Green's function has a slope
     """
 

@@ -14,15 +14,15 @@ from .layout import cosines, left_out, series_mass_m, slopes
 
 _EDGE_M = 1e-9
 _NEGLIGIBLE: Final = 0.01
-"""Share of what a series lacks at its end: sides that matter less to the points are left out."""
+"""Share of what a series lacks at its end: sides that matter less to the points are omitted."""
 
 
 @dataclass(frozen=True)
 class Piece:
     """A quantity at rows and columns of points in a box.
 
-    Series alone would be wrong near seams and walls by the pressure that drives the flux through
-    them: the terms that are left out are added from the fluxes. That is also how a source acts, so
+    Series alone would be wrong near joints and walls by the pressure that drives the flux through
+    them: the omitted terms are added from the fluxes. That is also how a source acts, so
     that source and point may be exchanged.
     """
 

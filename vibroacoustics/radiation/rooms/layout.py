@@ -19,7 +19,7 @@ class Layout:
     face has nodes, where pressures are compared and fluxes act. From terms to nodes leads a matrix
     for each axis of the face, and back another: the transposed one with the nodes' widths and the
     terms' norms. Where a face covers its sides completely with as many nodes as they have terms,
-    those transforms undo each other and are left out.
+    those transforms undo each other and are omitted.
     """
 
     shapes: IndexArray
@@ -35,7 +35,7 @@ class Layout:
     side_terms: int
     ends: IndexArray
     """Side's first term, terms along both axes, first node, nodes along both axes, first entry of
-    the four matrices, and 1 where they are left out, (end, 11)."""
+    the four matrices, and 1 where they are omitted, (end, 11)."""
     matrices: Array
     nodes: int
     omega: Array
@@ -161,7 +161,7 @@ def angular_frequencies(box: AirBox) -> Array:
 def flux_gain(omega: Array, time_step_s: float) -> Array:
     """What a term takes of a flux at a wall: cos²(omega dt/2).
 
-    With fluxes in the middle of the steps a term at resonance answers to its mean flux by
+    With fluxes midway in the steps a term at resonance answers to its mean flux by
     omega/(2 tan(omega dt/2)/dt) sin(omega dt)/(omega dt) too much; this undoes it. It is the
     correction of k-Wave's sources (E. Wise, B. Treeby et al.), once for the flux and once for its
     mean over a step.

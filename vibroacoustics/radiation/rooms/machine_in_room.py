@@ -146,7 +146,7 @@ def _in_room(
     names: Sequence[str],
     progress: Progress,
 ) -> xr.Dataset:
-    """`room_transfer_vector` and `room_green_of_foot`, with what is told of the runs."""
+    """`room_transfer_vector` and `room_green_of_foot`, with attributes of the runs."""
     highest, clearance_m = waves.maximum_frequency_hz, stands.clearance_m
     box = JoinBox(stands.lower, stands.upper, highest, clearance_m, on_floor=True)
     boxes = cut(stands.room, waves.spacing_m)

@@ -183,14 +183,14 @@ def of_modes(pressure: PressureAt) -> PressureAt:
 def wave_share(highest_hz: float) -> Callable[[Array], Array]:
     """Share of the waves in mean squares, of frequencies.
 
-    From the waves to the power over the seam's frequencies; lower by a factor where the waves end
-    below them.
+    From the waves to the power over the crossover frequencies; lower by a factor where the waves
+    end below them.
     """
     return lambda frequency_hz: np.asarray(1.0 - blend(frequency_hz / crossover_shift(highest_hz)))
 
 
 def crossover_shift(highest_hz: float) -> float:
-    """Factor on the seam's frequencies where waves end below it."""
+    """Factor on the crossover frequencies where waves end below it."""
     return min(1.0, highest_hz / CROSSOVER_HZ[1])
 
 
@@ -254,7 +254,7 @@ def plate_per_power(settings: StudyRoom, vectors: xr.Dataset) -> Callable[[Array
 
 
 def crossover_bands_hz(highest_hz: float) -> tuple[float, float]:
-    """Lowest and highest middle of the third octaves that are shown around the seam, Hz."""
+    """Lowest and highest midband frequency that is shown around the crossover, Hz."""
     return SHOWN_FROM_HZ * crossover_shift(highest_hz), highest_hz
 
 

@@ -41,12 +41,12 @@ def plane_gains(
 
     Parameters
     ----------
-    room : its furniture is left out of the map
+    room : its furniture is omitted from the map
     source_m : the monopole, shape (3,)
     above_floor_m : height of the monopole over what it stands on
     height_m : height of the plane
     bands_hz : frequencies that stand for each band, alike in number, by its nominal middle
-    maximum_frequency_hz : maximum frequency of the waves; bands beyond it are left out
+    maximum_frequency_hz : maximum frequency of the waves; bands beyond it are omitted
     progress : told of the advance
 
     Returns

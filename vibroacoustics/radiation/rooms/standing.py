@@ -16,7 +16,7 @@ from .room import Block, Room
 _MARGIN_M: Final = 0.1
 """From the body to the box around it where nothing is in the way, else half the gap."""
 LEAST_GAP_M: Final = 0.03
-"""Between the body and what stands beside it."""
+"""Distance between the body and objects beside it."""
 _SAME_LEVEL_M: Final = 1e-6
 _SIDES: Final = ((0, 0), (0, 1), (1, 0), (1, 1), (2, 1))
 """Axis and end of the box's sides but the lowest."""

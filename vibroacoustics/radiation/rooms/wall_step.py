@@ -37,7 +37,7 @@ class WallPatch:
 class Walls:
     """State of all patches of walls of a room, and what a step does to it.
 
-    U = rho c u out of the room in the middle of the steps, S the sum of its means over the steps.
+    U = rho c u out of the room midway in the steps, S the sum of its means over the steps.
     The trapezoidal rule for each branch, L (U+ - U-)/dt + R (U+ + U-)/2 + K dt (S+ + S-)/4 = p,
     keeps the branches passive whatever the step (Bilbao et al. (2016), section IV), and p is what
     the mass of air in front leaves, p - d/c (U+ - U-)/dt with the sum of U over the branches.

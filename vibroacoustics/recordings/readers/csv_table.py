@@ -80,7 +80,7 @@ def _rows(file: BinaryIO, head: Head) -> tuple[int, int]:
 
 
 def _complete(table: _Table) -> tuple[_Table, list[str]]:
-    """The table without a last row that was cut short, and what to tell of it."""
+    """The table without a last row that was cut short, and a remark on it."""
     rows, has_end = last_lines(table.file, table.begin)
     if has_end or len(rows) < 2:
         return table, []
@@ -89,7 +89,7 @@ def _complete(table: _Table) -> tuple[_Table, list[str]]:
         return table, []
     remark = (
         f"its last row ({text(last)[:60]!r}) has no end and seems cut short: the file is "
-        "truncated; that row is left out"
+        "truncated; that row is omitted"
     )
     return _Table(table.file, table.head, table.begin, last_begin), [remark]
 

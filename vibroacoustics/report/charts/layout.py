@@ -24,9 +24,9 @@ COLOURS: Final = (
 """Okabe & Ito's palette without its yellow, and a violet."""
 DASHES: Final = ("-", "--", "-.", ":")
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
-NOTHING_TO_SHOW: Final = "Every value is too small to draw."
+NOTHING_TO_SHOW: Final = "Every value is too small to show."
 _KEY: Final = 40.0
-"""Width of what the legend draws before a name."""
+"""Width of the legend's mark before a name."""
 _GAP: Final = 14.0
 _BAR: Final = 66.0
 _STEPS: Final = (1.0, 2.0, 2.5, 5.0, 10.0)

@@ -1,6 +1,6 @@
 """Charts as data: panels with marks, which paper, page and JSON share.
 
-`picture` draws a chart once; `data` gives the same values as JSON.
+`picture` renders a chart once; `data` gives the same values as JSON.
 """
 
 from collections.abc import Callable, Iterable, Sequence

@@ -30,7 +30,7 @@ def svg(chart: Chart) -> bytes:
 
 
 def _panel(panel: Panel, box: Box, name: str, keys: dict[str, str]) -> list[str]:
-    """Axes, marks and words of a panel; adds what the legend draws of each mark."""
+    """Axes, marks and words of a panel; adds each mark's legend."""
     parts = _titles(panel, box)
     frame = frame_of(panel, box)
     if frame is None:

@@ -1,4 +1,4 @@
-"""Marks of a chart in SVG, each with what the legend draws of it; colours of an image."""
+"""Marks of a chart in SVG, each with its legend; colours of an image."""
 
 import base64
 import io
@@ -40,7 +40,7 @@ _KEY: Final = np.array([[13.0, 0.0]])
 
 @singledispatch
 def mark_content(mark: Any, frame: Frame) -> tuple[str, str]:
-    """Return a mark as SVG and what the legend draws of it."""
+    """Return a mark as SVG and its legend."""
     raise TypeError(f"{mark!r}: is no mark")
 
 

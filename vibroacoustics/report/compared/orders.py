@@ -97,9 +97,10 @@ def summary(compared: xr.Dataset) -> str:
     )
     middle = rounding.fixed(float(np.median(size[loud])), 2)
     return (
-        f"Of {int(loud.sum())} orders within {WITHIN_DB:g} dB of the strongest of their channel at "
-        f"their speed, B differs from A by {middle} dB in the middle, most in order {order:g} of "
-        f"{channel} at {speed:.0f} rpm, {rounding.signed(float(difference[worst]))} dB."
+        f"B differs from A by {middle} dB (median of {int(loud.sum())} orders within "
+        f"{WITHIN_DB:g} dB of the strongest of their channel at their speed). The largest "
+        f"difference is that of order {order:g} of {channel} at {speed:.0f} rpm: "
+        f"{rounding.signed(float(difference[worst]))} dB."
     )
 
 

@@ -134,9 +134,10 @@ def _agreement(validations: Sequence[Validation]) -> str:
     )
     count = sum(each.uncertainty > 0.0 for each in validations)
     return (
-        f"Of {len(validations)} figures of the study beside the recordings {agree} agree within "
-        f"{LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)} and {differ} differ by more than "
-        f"{COVERAGE:g} times the validation uncertainty; it is known, in part at least, of {count}."
+        f"{agree} of {len(validations)} figures of the study agree with the recordings within "
+        f"{LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)}. {differ} differ by more than "
+        f"{COVERAGE:g} times the validation uncertainty, which is known, at least in part, for "
+        f"{count}."
     )
 
 
@@ -185,7 +186,7 @@ def _runs(orders: xr.Dataset) -> tuple[Block, ...]:
     note = (
         "Means are energy means over the runs of each specimen and then over the specimens. "
         "Deviations are of levels: between runs of one specimen, and between specimens without "
-        "what the runs scatter; where each specimen ran once, the two cannot be told apart. The "
+        "what the runs scatter; where each specimen ran once, the two cannot be separated. The "
         "uncertainty of the mean of one specimen holds for that specimen alone."
     )
     table = Table("Runs", ("Run", "Recording", "Specimen"), tuple(rows), frozenset({0, 1, 2}))

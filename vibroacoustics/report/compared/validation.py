@@ -21,7 +21,8 @@ from .orders import is_pressure, known_channels, loud_orders
 
 
 class Levels(NamedTuple):
-    """Levels of one result at a microphone; uncertainty of the mean where several runs tell it."""
+    """Levels of one result at a microphone; uncertainty of the mean where there are several
+    runs."""
 
     total_dba: float
     total_uncertainty_db: float

@@ -91,7 +91,7 @@ class Loads(NamedTuple):
 
 
 def loads(results: xr.Dataset) -> Loads | None:
-    """Loads without a balancer, as given; None in files of older versions."""
+    """Nominal loads without a balancer; None in files of older versions."""
     if any(name not in results for name in NEEDED):
         return None
     first = results[list(NEEDED)].sel(option=REFERENCE_OPTION, order=1)

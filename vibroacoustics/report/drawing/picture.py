@@ -148,7 +148,7 @@ def _caption(results: xr.Dataset, acting: Loads, body: dict[str, Any]) -> str:
         f"At 1× and {acting.speed_rpm:g} rpm without a balancer: force "
         f"{FORCE.write(acting.force_amplitude_n)} and moment "
         f"{MOMENT.write(acting.moment_amplitude_nm)} about the centre of mass (dot), at most "
-        f"{FOOT_FORCE.write(foot)} into a foot; an arrow is a peak, a loop what it draws over a "
+        f"{FOOT_FORCE.write(foot)} into a foot; an arrow is a peak, a loop its path over a "
         f"revolution. Microphones: {'; '.join(heights)}.{mesh}"
     )
 

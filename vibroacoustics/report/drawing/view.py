@@ -33,7 +33,7 @@ class View(NamedTuple):
         return self.in_drawing(points_m[..., list(self.axes)])
 
     def vector(self, peak: ComplexArray, from_m: Array, scale: float, colour: str) -> list[str]:
-        """What a complex peak, shape (axis,), draws over a revolution, with arrows to its ends.
+        """Path of a complex peak, shape (axis,), over a revolution, with arrows to its ends.
 
         It acts at a point, shape (3,); the scale is drawing units per unit of the vector.
         """

@@ -178,7 +178,7 @@ _COVERAGE: Final = 2.0
 def compared_order_charts(compared: xr.Dataset) -> list[Chart]:
     """Return a chart for each channel: both spectra at each speed, or each order over many speeds.
 
-    Channels without an order that both results have are left out.
+    Channels without an order that both results have are omitted.
     """
     has_any = compared["order_difference"].notnull().any(["speed", "order"])
     return [compared_orders(compared, name) for name in compared["channel"].values[has_any.values]]

@@ -98,7 +98,7 @@ def levels_over_speed(
             "levels_over_speed",
             f"A-weighted level at {microphone} over the speed, total and modelled, for every "
             "option.",
-            f"A-weighted level at {microphone}: total, with what is not modelled, and modelled "
+            f"A-weighted level at {microphone}: total with unmodelled noise, and modelled "
             f"sources alone.{_bands(results)} {SHADED}",
         )
     return Chart(*words, shown, wide=True)

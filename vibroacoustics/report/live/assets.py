@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 CHARTS: Final = "uPlot.iife.min.js"
-"""uPlot 1.6.32 by Leon Sorokin, under the MIT licence that stands beside it."""
+"""uPlot 1.6.32 by Leon Sorokin, under the MIT licence beside it."""
 SCRIPTS: Final = {
     "sliders": (
         "weighting.js", "levels.js", "sound.js", "abx.js", "charts.js", "panel.js", "sliders.js",

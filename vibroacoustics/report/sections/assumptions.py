@@ -1,4 +1,4 @@
-"""Where the inputs come from, and what is not modelled."""
+"""Sources of the inputs, and neglected effects."""
 
 from typing import Any, Final
 
@@ -58,7 +58,7 @@ NOT_MODELLED: Final = (
 
 
 def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
-    """What the results leave out, one sentence or two each."""
+    """Effects that the results neglect, one sentence or two each."""
     of_shell = ELASTIC_SHELL if words(results)["shell_bends"] else RIGID_SHELL
     unmodelled = "in no level" if overall_noise(results) is None else "unmodelled noise"
     machine = parameters(results)["machine"]
@@ -207,7 +207,7 @@ def _errata(results: xr.Dataset) -> list[Block]:
     """Errors in the source document."""
     errata = parameters(results)["machine"]["errata"]
     rows = tuple((entry["item"], entry["printed"], entry["finding"]) for entry in errata)
-    head = ("Item", "As printed", "Finding")
+    head = ("Item", "Printed", "Finding")
     return [Table("Errata of the source", head, rows, frozenset({0, 1, 2}))]
 
 

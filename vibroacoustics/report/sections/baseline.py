@@ -1,4 +1,4 @@
-"""The measured baseline: what options make of it, and what it cannot tell."""
+"""The measured baseline: what options make of it, and its limits."""
 
 from pathlib import PurePath
 from typing import Any, Final
@@ -45,12 +45,12 @@ def summary(results: xr.Dataset) -> str:
         f"{', '.join(microphones(results))} ({files}). There total level, orders and "
         "their changes are those measured, less what is modelled without a balancer, plus what is "
         "modelled with the option, band by band and order by order; they take the place of the "
-        "catalogue level."
+        "published level."
     )
 
 
 def limits(results: xr.Dataset) -> tuple[str, ...]:
-    """What the measurement covers, and what it cannot tell."""
+    """What the measurement covers, and its limits."""
     sentences = [_of_bands(results), _of_orders(results), _of_speeds(results)]
     sentences += [_of_model(results), _of_others(results), _of_samples(results)]
     return tuple(filter(None, sentences))
@@ -60,16 +60,16 @@ def _of_bands(results: xr.Dataset) -> str:
     rows = baseline_of(results).get("third_octaves", ())
     if not rows:
         return (
-            "Third octaves were not measured: beside the orders the remainder of the catalogue "
-            "level stands."
+            "Third octaves were not measured: beside the orders, the unmodelled noise of the "
+            "published level counts."
         )
     covered = {row["microphone"]: (min(row["band_hz"]), max(row["band_hz"])) for row in rows}
     ranges = [f"{low:g} to {high:g} Hz at {name}" for name, (low, high) in covered.items()]
     share = not_measured(results)
     size = f", up to {percent(share)} of the energy of the total level" if share > 0.005 else ""
     return (
-        f"Third octaves: {', '.join(ranges)}; in other bands the remainder of the catalogue level "
-        f"stands{size}."
+        f"Third octaves: {', '.join(ranges)}; in other bands the unmodelled noise of the published "
+        f"level counts{size}."
     )
 
 
@@ -113,14 +113,13 @@ def _of_speeds(results: xr.Dataset) -> str:
         outside = [speed for speed, position in position_at.items() if position == "outside"]
         if between:
             sentences.append(
-                f"At {name} levels at {', '.join(between)} rpm lie between measured speeds: on "
-                "straight lines of level and phase over speed, which a resonance between "
-                "them would not follow."
+                f"At {name} levels at {', '.join(between)} rpm are interpolated between measured "
+                "speeds, linearly in level and phase; a resonance between them is missed."
             )
         if outside:
             sentences.append(
                 f"At {name} nothing was measured at {', '.join(outside)} rpm: there the "
-                "remainder of the catalogue level stands, and levels are not to be set beside "
+                "unmodelled noise of the published level counts. Do not compare these levels with "
                 "those at other speeds."
             )
     return " ".join(sentences)
@@ -169,7 +168,7 @@ def _of_others(results: xr.Dataset) -> str:
     others = [name for name in names if name not in microphones(results)]
     if not others:
         return ""
-    return f"At {', '.join(others)} nothing was measured: there the catalogue level stands."
+    return f"At {', '.join(others)} nothing was measured: there the published level counts."
 
 
 def _of_samples(results: xr.Dataset) -> str:
@@ -177,7 +176,7 @@ def _of_samples(results: xr.Dataset) -> str:
         return ""
     tolerance = baseline_of(results).get("tolerance_db", 0.0)
     return (
-        f"Samples are weighed by what was measured, sure to ± {tolerance:g} dB: by the A-weighted "
+        f"Samples are weighted by the measurement, of ± {tolerance:g} dB: by the A-weighted "
         "level in the measured bands and orders at the lowest, a middle and the highest speed at "
         "each microphone, together as one measurement."
     )

@@ -51,7 +51,7 @@ register(Section("forces", "Force over a revolution", _blocks, position=50.0, ta
 
 def _orders(results: xr.Dataset) -> list[Block]:
     return [
-        Text(f"{words(results)['orders']} A missing marker means a value too small to draw."),
+        Text(f"{words(results)['orders']} A missing marker means a value too small to show."),
         *chosen_speeds(results, "results.nc"),
         Pictures((force_orders(results), foot_force_orders(results), level_orders(results))),
     ]

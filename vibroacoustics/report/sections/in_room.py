@@ -15,12 +15,12 @@ from ..blocks import Block, Details, Pictures, Text
 from ..figures.in_room import room_crossover, room_map
 from ..tables import DataTable, Table, long_table
 from . import Section, hold
-from .structure_borne import carrier, ranged
+from .structure_borne import UNCERTAIN, carrier, ranged
 from .tones import NO_LOUDNESS
 
 SONE_HEAD: Final = "Loudness, sone (diffuse field)"
 CROSSOVER_DB: Final = 2.0
-"""Difference of the two methods that is told."""
+"""Difference of the two methods that is reported."""
 _HOW: Final = (
     "Loudness by ISO 532-1 (Zwicker, diffuse field) is that of airborne and structure-borne sound "
     "together at the level in the table."
@@ -218,18 +218,17 @@ def _both(results: xr.Dataset, listener: str, option: str = REFERENCE_OPTION) ->
 
 def _carrier(results: xr.Dataset, listener: str, option: str = REFERENCE_OPTION) -> str:
     names = ("room_level", "room_plate_level_low", "room_plate_level_high")
-    which = carrier(*(_value(results, name, listener, option) for name in names))
-    return "the feet" if which == "the plate" else which
+    return carrier(*(_value(results, name, listener, option) for name in names))
 
 
 def _carrier_words(results: xr.Dataset, listener: str) -> str:
     level = _level(results, "room_level", listener)
     if "room_plate_level" not in results:
-        return f"it comes by air, {level} dB(A)"
+        return f"all of it is airborne, {level} dB(A)"
     which = _carrier(results, listener)
-    verdict = "which carries it is not sure" if which == "not sure" else f"{which} carries it"
+    verdict = "it is uncertain which dominates" if which == UNCERTAIN else f"{which} dominates"
     plate = _plate(results, listener)
-    return f"by air {level} dB(A), by the feet and the plate {plate} dB(A); {verdict}"
+    return f"airborne {level} dB(A), structure-borne {plate} dB(A); {verdict}"
 
 
 def _best(results: xr.Dataset, listener: str) -> str:
@@ -240,7 +239,7 @@ def _best(results: xr.Dataset, listener: str) -> str:
     change = each[least] - _both(results, listener)
     if change > -_LEAST_DB:
         return "; no option changes that."
-    return f"; {least} takes most off it, {rounding.signed(change)} dB."
+    return f"; {least} lowers it most, {rounding.signed(change)} dB."
 
 
 def _limits(results: xr.Dataset) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""What a hammer test of the shell tells: before and after."""
+"""Results of a hammer test of the shell: before and after."""
 
 from collections.abc import Callable, Iterator
 from typing import Final
@@ -49,7 +49,7 @@ def test_sentence(results: xr.Dataset) -> str:
 def peaks_sentence(results: xr.Dataset) -> str:
     """The clear peaks with their loss factors."""
     if "shell_peak_loss" not in results:
-        return "The mobilities have no clear peak: frequencies and loss factors tell nothing."
+        return "The mobilities have no clear peak: frequencies and loss factors cannot be read."
     pairs = zip(results["shell_peak"].values, results["shell_peak_loss"].values, strict=True)
     peaks = ", ".join(f"{peak:.0f} Hz ({100.0 * loss:.2g} %)" for peak, loss in pairs)
     return f"Clear peaks, with loss factor: {peaks}."

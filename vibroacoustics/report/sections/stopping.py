@@ -19,7 +19,7 @@ from .sources.words import LINE_FIGURE
 
 
 def sentences(results: xr.Dataset) -> tuple[str, ...]:
-    """What the stop does, its order map, and what is left out."""
+    """Forces and levels of the stop, its order map, and neglected effects."""
     return (_finding(results), *_turned_back(results), _map_sentence(results), _limits(results))
 
 

@@ -26,6 +26,7 @@ _OF_LINES: Final = [
     *(f"structure_borne_line_{name}" for name in ("level", "low", "high")), "tone_frequency",
     "structure_borne_input_power", "structure_borne_power",
 ]  # fmt: skip
+UNCERTAIN: Final = "uncertain"
 _LEAST_DB: Final = 0.1
 """Smaller changes are none."""
 
@@ -33,7 +34,8 @@ _LEAST_DB: Final = 0.1
 def first_order_levels(
     results: xr.Dataset, receiver: str, option: str
 ) -> tuple[float, float, float, float]:
-    """A-weighted level of 1× by air, by the plate, and what 5 % and 95 % of plates stay below."""
+    """A-weighted level of 1×, airborne and structure-borne, with the 5 % and 95 % quantiles of
+    plates."""
     by_air = _value(results, "order_level", receiver, option, order=1)
     by_plate, low, high = (
         _value(results, f"structure_borne_line_{name}", receiver, option, line="order 1")
@@ -43,23 +45,22 @@ def first_order_levels(
 
 
 def carrier(by_air: float, low: float, high: float) -> str:
-    """Which way carries a level."""
+    """Name the path that dominates a level."""
     if by_air < low:
-        return "the plate"
-    return "the air" if by_air > high else "not sure"
+        return "structure-borne sound"
+    return "airborne sound" if by_air > high else UNCERTAIN
 
 
 def way_sentence(results: xr.Dataset, receiver: str) -> str:
-    """How loud 1× is by air and by the plate, which carries it, which option changes that."""
+    """Say how loud 1× is, airborne and structure-borne, which path dominates, which option changes
+    it."""
     by_air, by_plate, low, high = first_order_levels(results, receiver, REFERENCE_OPTION)
     which = carrier(by_air, low, high)
-    verdict = (
-        "which of them carries it is not sure" if which == "not sure" else f"{which} carries it"
-    )
+    verdict = "it is uncertain which dominates" if which == UNCERTAIN else f"{which} dominates"
     return (
         f"At {receiver} and {nearest_speed(results):g} rpm without a balancer 1× is "
-        f"{rounding.level(by_air)} dB(A) by air and {rounding.level(by_plate)} dB(A) "
-        f"({_span(low, high)} with 90 %) by the feet and the plate: {verdict}."
+        f"{rounding.level(by_air)} dB(A) airborne and {rounding.level(by_plate)} dB(A) "
+        f"({_span(low, high)} with 90 %) structure-borne: {verdict}."
         f"{_best(results, receiver, by_plate)}"
     )
 
@@ -80,11 +81,11 @@ def ways_table(results: xr.Dataset, receiver: str) -> Table:
         first = (rounding.level(by_air), ranged(by_plate, low, high), carrier(by_air, low, high))
         rows.append((option, *first, all_by_air, ranged(*total), total_words))
     head = (
-        "Option", "1× by air, dB(A)", "1× by the plate, dB(A)", "1× carried by",
-        "All by air, dB(A)", "All by the plate, dB(A)", "Both, dB(A)",
+        "Option", "1× airborne, dB(A)", "1× structure-borne, dB(A)", "1× dominated by",
+        "All airborne, dB(A)", "All structure-borne, dB(A)", "Both, dB(A)",
     )  # fmt: skip
     caption = (
-        f"{receiver}, {nearest_speed(results):g} rpm: by air, and by the feet and the plate under "
+        f"{receiver}, {nearest_speed(results):g} rpm: airborne, and structure-borne under "
         "them with the span of 90 % of such plates"
     )
     return Table(caption, head, tuple(rows), frozenset({0, 3}))
@@ -125,7 +126,7 @@ def _value(
 
 
 def _best(results: xr.Dataset, receiver: str, by_plate: float) -> str:
-    """The option that leaves least of 1× by the plate."""
+    """Option with the lowest structure-borne 1×."""
     each = {
         balancer: first_order_levels(results, receiver, balancer)[1]
         for balancer in balancers(results)
@@ -134,10 +135,10 @@ def _best(results: xr.Dataset, receiver: str, by_plate: float) -> str:
         return ""
     least = min(each, key=lambda option: each[option])
     if each[least] > by_plate - _LEAST_DB:
-        return " No option takes anything off it."
+        return " No option lowers it."
     change = rounding.level_change(each[least] - by_plate, each[least], by_plate)
     text = change if change == "silent" else f"{change} dB"
-    return f" By the plate {least} leaves least of it: {text}."
+    return f" The lowest structure-borne 1× is that of {least}: {text}."
 
 
 def _span(low: float, high: float) -> str:

@@ -11,7 +11,7 @@ ANGLE = Field(default=0.0, ge=-2.0 * pi, le=2.0 * pi)
 
 
 class AirGap(Parameters):
-    """Flux density, slots, eccentricity. Windings' steps and saturation are left out."""
+    """Flux density, slots, eccentricity. Windings' steps and saturation are neglected."""
 
     flux_density_t: float = Field(gt=0.0, le=3.0)
     """Peak of the fundamental wave that turns forwards."""

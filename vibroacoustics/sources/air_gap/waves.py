@@ -119,7 +119,7 @@ def loads_of_stress(
     stress_pa : complex peaks by wave
     yoke : bore, length
     shaft : bearings and rotor
-    height_m : height of the middle of the stack, at which the rotor is pulled too
+    height_m : mid-height of the stack, at which the rotor is pulled too
     """
     largest = max(map(abs, stress_pa.values()), default=0.0)
     pulled = _pull(shaft, height_m)

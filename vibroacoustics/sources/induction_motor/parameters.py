@@ -13,7 +13,7 @@ class CapacitorMotor(Parameters):
     """A single-phase motor with a capacitor before its auxiliary winding.
 
     Resistances and reactances are per phase at line frequency, those of the rotor and of
-    magnetising referred to the main winding; core loss is left out.
+    magnetising referred to the main winding; core loss is neglected.
     """
 
     line_voltage_v: float = Field(gt=0.0, le=1e5)

@@ -18,7 +18,7 @@ from .integration import integrate
 from .parameters import OldhamKeys
 
 SETTLING_REVOLUTIONS: Final = 4
-"""Left out: from the start in the middle of the slots. At rated load, at all corners of the assumed
+"""Omitted: from the start midway in the slots. At rated load, at all corners of the assumed
 ranges, forces are then within 2e-8 N of those after ten."""
 REPEATED: Final = 1e-4
 """Change of forces from one revolution to the next, of the largest, below which they repeat; the

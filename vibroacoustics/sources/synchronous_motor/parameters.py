@@ -13,7 +13,7 @@ RATIO = Field(default=0.0, ge=-1.0, le=1.0)
 class SynchronousMotor(Parameters):
     """Magnets on or in the rotor, three phases in star, a fundamental of current that is held.
 
-    Resistance and inductance are per phase. Saturation and core loss are left out; the current's
+    Resistance and inductance are per phase. Saturation and core loss are neglected; the current's
     control holds its fundamental and answers to nothing else.
     """
 

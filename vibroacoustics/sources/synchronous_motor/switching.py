@@ -69,13 +69,13 @@ def sidebands(
     f_s ± 3 f_e of the carrier, 2 f_s and 2 f_s ± 6 f_e of twice the carrier are the first. In a
     salient rotor the two that it sees at one frequency drive one another, and make a reluctance
     torque with the fundamental. Below half the switching frequency the control of the current acts
-    on them: they are left out.
+    on them: they are omitted.
 
     Parameters
     ----------
     motor : link, carrier, circuit
     point : fundamental of voltage, current and magnets
-    highest_hz : torques above are left out
+    highest_hz : highest frequency of the torques, Hz
     """
     electrical = point.electrical_rad_per_s
     switching = 2.0 * np.pi * motor.switching_frequency_hz

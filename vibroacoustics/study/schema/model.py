@@ -64,9 +64,10 @@ def _table(schema: Schema) -> Schema:
 
 
 def _choice(schema: Schema) -> Schema:
-    """Tables of several kinds by their `kind`, so that a wrong key is told at its line; else any.
+    """Tables of several kinds by their `kind`, so that a wrong key is reported at its line; else
+    any.
 
-    What may be absent in a model is left out in a file, never null.
+    What may be absent in a model is absent in a file, never null.
     """
     parts = [part for part in schema["anyOf"] if part.get("type") != "null"]
     words = {"description": schema["description"]} if "description" in schema else {}

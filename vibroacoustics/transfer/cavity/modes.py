@@ -40,7 +40,7 @@ class GasOrder:
         return np.maximum(squares, 0.0), shapes
 
     def with_attachment(self, source: Array) -> tuple[Array, Array]:
-        """The modes and the steady response to a source that they leave out, as one more.
+        """The modes and the steady response to a source that they lack, as one more.
 
         It is orthogonal to the modes in stiffness and mass, so it acts as one (Craig & Bampton
         1968, of structures; attachment mode). None where the source drives no pressure.

@@ -23,7 +23,7 @@ def gas_of(machine: Machine, path: ShellPath) -> Mapping[str, DrivenGas]:
     Parameters
     ----------
     machine : their tables
-    path : modes of the wall as given; it keeps the modes of the gas
+    path : modes of the nominal wall; it keeps the modes of the gas
 
     Raises
     ------

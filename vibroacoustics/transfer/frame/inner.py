@@ -22,7 +22,8 @@ BODY_DOFS = len(WRENCH) * len(PARTS)
 
 @dataclass(frozen=True)
 class InnerSet:
-    """Five bodies, six freedoms each about their middles, then the shaft's nodes, x, y, θx, θy.
+    """Five bodies, six degrees of freedom each about their middles, then the shaft's nodes, x, y,
+    θx, θy.
 
     Attributes
     ----------
@@ -31,8 +32,8 @@ class InnerSet:
     bearings : between shaft and bodies
     gaps : motion at the contacts with the shell, then of the bodies at the bearings less that of
         the shaft, along x and y, per freedom, shape (contact and bearing's direction, freedom)
-    loads : on the freedoms per load on each part, shape (freedom, part times component)
-    rigid : freedoms per motion of all about the centre of mass, shape (freedom, 6)
+    loads : loads on the degrees of freedom per load on each part, shape (dof, part times component)
+    rigid : displacement per motion of all about the centre of mass, shape (dof, 6)
     """
 
     bodies: Elastic

@@ -35,7 +35,7 @@ class NaturalMotions:
     Attributes
     ----------
     squares : ω² of each with loss, shape (motion,), rad²/s²; zero of those without strain
-    shapes : displacement of the freedoms in each, shape (freedom, motion)
+    shapes : displacement of the degrees of freedom in each, shape (dof, motion)
     """
 
     squares: ComplexArray
@@ -43,7 +43,7 @@ class NaturalMotions:
 
 
 def natural_motions(*systems: Elastic) -> NaturalMotions:
-    """Eigenvectors of K x = ω² M x of systems apart, their freedoms one after another."""
+    """Eigenvectors of K x = ω² M x of systems apart, their degrees of freedom one after another."""
     squares, shapes = zip(*(_motions(system) for system in systems), strict=True)
     return NaturalMotions(np.concatenate(squares), block_diag(*shapes))
 

@@ -41,7 +41,7 @@ class FrameOnShell:
     inner : the parts
     contacts : contacts of the parts with the shell
     modal_forces : forces on the shell's modes per force on a contact, shape (mode, contact)
-    residual : steady flexibility that the modes leave out, shape (contact, contact), m/N
+    residual : steady flexibility that the modes lack, shape (contact, contact), m/N
     natural_hz, modal_mass_kg : natural frequency and modal mass of the modes, shape (mode,)
     loss_factor_ratio : loss factor of the shell
     machine_mass : mass of the machine, shape (6, 6), kg and kg m²

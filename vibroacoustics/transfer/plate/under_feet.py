@@ -53,7 +53,7 @@ def plate_sound(
 def plate_power(
     settings: StructureBorne, machine: MachineOnMounts, force: ComplexArray, frequency_hz: Array
 ) -> PlateSound:
-    """Compute the same of the lines of one case, shape (line,).
+    """Compute the sound power of the lines of one case, shape (line,).
 
     Parameters
     ----------

@@ -55,7 +55,7 @@ class Harmonic:
 
     @property
     def _tips(self) -> list[int]:
-        """First freedoms of the nodes on the axis."""
+        """First degrees of freedom of the nodes on the axis."""
         ends = (0, self.meridian.elements)
         return [NODE_DOFS * end for end in ends if self.meridian.nodes[end, 0] == 0.0]
 
@@ -114,7 +114,7 @@ class Harmonic:
         return eigh(stiffness.toarray(), mass.toarray())  # type: ignore[no-any-return]
 
     def static_flexibility(self, dofs: IndexArray) -> Array:
-        """Displacement per steady force without the rigid motions, (freedoms, freedoms).
+        """Displacement per steady force without the rigid motions, shape (dof, dof).
 
         The force is balanced by the inertia of the rigid motions that it starts.
 

@@ -1,4 +1,4 @@
-"""Modes of a shell of another thickness or material, by projection on the modes as given.
+"""Modes of a shell of another thickness or material, by projection on the nominal modes.
 
 First order of Rayleigh's quotient: the shapes stay, mass and stiffness are those of the changed
 wall in these shapes (Rayleigh, Theory of Sound, 1894, § 89). Exact for modulus and density, which
@@ -31,18 +31,18 @@ class ProjectedModes:
     shell: ElasticShell
 
     def frequency_factor(self, structure: ShellStructure) -> Array:
-        """Natural frequency over that as given, shape (mode,)."""
+        """Natural frequency over the nominal one, shape (mode,)."""
         stiffness = self.stiffness(structure) / self.stiffness(self.shell.structure)
         return np.asarray(np.sqrt(stiffness / self.mass_factor(structure)))
 
     def mass_factor(self, structure: ShellStructure) -> float:
-        """Modal mass over that as given, the same of every mode."""
+        """Modal mass over the nominal one, equal for all modes."""
         nominal = self.shell.structure
         density = structure.density_kg_per_m3 / nominal.density_kg_per_m3
         return density * structure.thickness_m / nominal.thickness_m
 
     def stiffness(self, structure: ShellStructure) -> Array:
-        """Modal stiffness of another wall in the shapes as given, shape (mode,), N/m."""
+        """Modal stiffness of another wall in the nominal shapes, shape (mode,), N/m."""
         thickness, poisson = structure.thickness_m, structure.poisson_ratio
         plate = structure.youngs_modulus_pa * thickness / (1.0 - poisson**2)
         stretching, bending = self._squares[:, 0] + poisson * self._squares[:, 1]
@@ -63,7 +63,7 @@ class ProjectedModes:
 
     @cached_property
     def flexibility(self) -> WallFlexibility:
-        """Steady flexibility of the wall as given; its orders are computed once."""
+        """Steady flexibility of the nominal wall; its orders are computed once."""
         return WallFlexibility(self.shell)
 
     @cached_property
@@ -85,7 +85,7 @@ def projection_error(
 
     Parameters
     ----------
-    projected : modes as given
+    projected : nominal modes
     shell : its outside
     structure : the changed wall
     maximum_frequency_hz : highest frequency of the modes that are compared, by name

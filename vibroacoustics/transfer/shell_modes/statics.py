@@ -87,7 +87,7 @@ class WallFlexibility:
 
 
 def local_flexibility_factor(nominal: ShellStructure, changed: ShellStructure) -> float:
-    """Flexibility under a local force of a changed wall over that of the wall as given.
+    """Flexibility under a local force of a changed wall over that of the nominal wall.
 
     1/(E t²) and slowly with Poisson's ratio, as of a sphere (Reissner 1946): w = ¼ √(12 (1 - ν²))
     F R/(E t²).

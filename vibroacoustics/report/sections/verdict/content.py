@@ -59,7 +59,7 @@ def lights(results: xr.Dataset) -> Lights | None:
 def light(shifts: Sequence[Shift]) -> Light:
     """The light of a quantity, at one microphone or several.
 
-    Better and worse are as the verdicts say; not sure is what is neither, although the band of
+    Better and worse are as the verdicts say; uncertain is what is neither, although the band of
     the samples reaches beyond what could be measured.
     """
     full = FULL_SCALE[shifts[0].unit]
