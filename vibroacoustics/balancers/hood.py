@@ -51,7 +51,6 @@ class Hood(Option):
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
         """What a loss by third octaves does not hold."""
         return (
-            "A hood acts on the airborne sound only, alike in all directions, and takes nothing "
-            "off outside the bands that its loss is given for; the sound that is not modelled is "
-            "taken as spread evenly over these bands.",
+            "A hood acts on airborne sound only, alike in all directions. Its insertion loss "
+            "is 0 dB outside the given bands. Unmodelled noise is assumed evenly spread over them.",
         )

@@ -26,10 +26,9 @@ def kwave_sentence(results: xr.Dataset) -> str:
     frequency = by_kwave["frequency"].values
     words = (
         f"k-Wave computed the room at {', '.join(map(str, by_kwave['receiver'].values))} from "
-        f"{frequency[0]:g} to {frequency[-1]:g} Hz, the closed form of image sources the rest. "
-        f"k-Wave's Green's function differs from the closed form by at most "
-        f"{rounding.fixed(float(gap.max()), 2)} dB (at {worst['receiver'].item()}, "
-        f"{worst['frequency'].item():g} Hz)"
+        f"{frequency[0]:g} to {frequency[-1]:g} Hz; other Green's functions are closed form. "
+        f"Both differ by at most {rounding.fixed(float(gap.max()), 2)} dB (at "
+        f"{worst['receiver'].item()}, {worst['frequency'].item():g} Hz)"
     )
     differences = method_difference_db(results)
     if differences is None:

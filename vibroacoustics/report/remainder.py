@@ -61,16 +61,16 @@ def _growth_sentence(results: xr.Dataset) -> str:
         return NO_LEVEL
     growth = parameters(results)["machine"].get("remainder", {}).get("speed_growth_db")
     if growth is None:  # files of older versions
-        return "That it stays constant over speed is an assumption, not a result."
+        return "It is assumed to be constant over speed."
     ends = _range(results) or (growth, growth)
     return (
-        f"That it grows by {_span(growth, ends, rounding.fixed)} dB for ten times the "
-        f"speed{_at_speeds(results, growth, ends)} is an assumption, not a result."
+        f"Assumed growth: {_span(growth, ends, rounding.fixed)} dB for ten times the "
+        f"speed{_at_speeds(results, growth, ends)}."
     )
 
 
 def _at_speeds(results: xr.Dataset, growth: float, ends: tuple[float, float]) -> str:
-    """`, which is +2.4 dB (2.0 to 2.8) at 3500 rpm`, of the speed that is furthest off."""
+    """Words such as `, +2.4 dB (2.0 to 2.8) at 3500 rpm`, for the speed that is furthest off."""
     published = quoted_speed(results)
     turning = [speed for speed in speeds(results) if speed > 0.0]
     furthest = max(turning, key=lambda s: abs(level_of_power(s / published)), default=published)
@@ -79,7 +79,7 @@ def _at_speeds(results: xr.Dataset, growth: float, ends: tuple[float, float]) ->
         return ""
     at_ends = sorted(end * decades for end in ends)
     change = _span(growth * decades, (at_ends[0], at_ends[1]), rounding.signed)
-    return f", which is {change} dB at {furthest:g} rpm,"
+    return f", {change} dB at {furthest:g} rpm"
 
 
 def _range(results: xr.Dataset) -> tuple[float, float] | None:

@@ -25,7 +25,7 @@ class OldhamScroll(OldhamScrollTables):
     axes: ClassVar[str] = "the Oldham stroke (x), across (y) and along the shaft (z)"
     orders: ClassVar[str] = (
         "The stroke of the ring is a pure cosine of the crank angle, so order 2 of the ring "
-        "alone is zero; higher orders come from what an option adds."
+        "alone is zero. Higher orders come from options."
     )
     derived: ClassVar[tuple[Derived, ...]] = (
         *ROUND_INERTIAS,

@@ -147,8 +147,8 @@ def _caption(results: xr.Dataset, acting: Loads, body: dict[str, Any]) -> str:
     return (
         f"At 1× and {acting.speed_rpm:g} rpm without a balancer: force "
         f"{FORCE.write(acting.force_amplitude_n)} and moment "
-        f"{MOMENT.write(acting.moment_amplitude_nm)} about the centre of mass (dot), at most "
-        f"{FOOT_FORCE.write(foot)} into a foot; an arrow is a peak, a loop its path over a "
+        f"{MOMENT.write(acting.moment_amplitude_nm)} about the centre of mass (dot). Largest force "
+        f"into a foot: {FOOT_FORCE.write(foot)}. Arrows are peaks, loops their paths over a "
         f"revolution. Microphones: {'; '.join(heights)}.{mesh}"
     )
 
@@ -177,9 +177,9 @@ def section_picture(results: xr.Dataset) -> Picture | None:
         "section",
         "Section of the machine with the forces of its sources at order 1 and at the loudest line.",
         f"Section across y at {float(results['shown_speed']):g} rpm, option {REFERENCE_OPTION}, of "
-        "the representative sample: force of all sources on each part, semi-major axis, peak; a "
-        "loop is its path over a period. Above order 1, below the line with the highest A-weighted "
-        "level. Parts are cylinders at their nominal heights.",
+        "the representative sample: force of all sources on each part, semi-major axis, peak. "
+        "Loops are its path over a period. Above order 1, below the line with the highest "
+        "A-weighted level. Parts are cylinders at their nominal heights.",
         svg.drawing(_WIDTH, 8.0 + 2 * _VIEW, views, "Section of the machine with forces"),
         "svg",
     )

@@ -149,15 +149,15 @@ def transfer(results: xr.Dataset, receiver: str | None = None) -> Chart:
         )
         for title, unit in (("Translations", "Pa per m/s"), ("Rotations", "Pa per rad/s"))
     )
-    greens = ", with the closed-form Green's function"
+    greens = ", closed-form Green's function"
     if is_compared:
-        greens = ": coloured lines with k-Wave's Green's function, dotted ones with the closed form"
+        greens = ": k-Wave's Green's function coloured, closed form dotted"
     return Chart(
         f"transfer_{file_name(mic)}",
         f"Sound pressure at {mic} per velocity of the housing against frequency, for translations "
         f"and rotations{'; k-Wave and closed form' if is_compared else ''}.",
-        f"Sound pressure at {mic} per velocity of the housing{greens}. tx, ty, tz: motion along x, "
-        "y, z; rx, ry, rz: rotation about them; motions that do not radiate are omitted. "
+        f"Sound pressure at {mic} per velocity of the housing{greens}. Motions: tx, ty, tz along "
+        "x, y, z; rx, ry, rz about them. Motions that do not radiate are omitted. "
         f"{marked}: 1× at the speeds of the study. Other microphones: in "
         "results.nc.",
         panels,

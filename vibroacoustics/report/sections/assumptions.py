@@ -137,9 +137,9 @@ def unmodelled_sentence(results: xr.Dataset) -> str:
         unmodelled = f"{band(results, 'level_unmodelled').ends(rounding.fixed)} dB(A) ({INTERVAL})"
     return (
         f"The {kind} level is {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
-        f"{noise['speed_rpm']:g} rpm{_point_words(results)}. What the model does not explain of it "
-        f"at {catalogue_receiver(results)} without a balancer is {unmodelled}: it is added as "
-        "energy at every option and microphone, spread as from a source at the machine. "
+        f"{noise['speed_rpm']:g} rpm{_point_words(results)}. Unmodelled noise at "
+        f"{catalogue_receiver(results)} without a balancer is {unmodelled}. It is added as energy "
+        "at every option and microphone, spread as from a source at the machine. "
         f"{growth_sentence(results)}"
     )
 
@@ -153,9 +153,9 @@ def discrepancy_sentence(results: xr.Dataset) -> str:
         f"{settings[f'{name}_deviation_db']:g} dB" for name in ("path", "source", "band", "added")
     )
     return (
-        f"Standard deviations of each sample from the model: {path} common to all sources, "
-        f"{source} of each source, {band_db} of each third octave of a source, {added} of what an "
-        "option adds. They are assumed, the same for all options, speeds and microphones."
+        f"Standard deviations of the samples: {path} common to all sources, {source} of each "
+        f"source, {band_db} of each third octave of it, {added} of an option. They are assumed, "
+        "the same for all options, speeds and microphones."
     )
 
 

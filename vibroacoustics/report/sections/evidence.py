@@ -129,9 +129,9 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         evidence_table(results),
         Text(
             "E is simulation minus data, u the root of the sum of squared standard uncertainties "
-            "of numerics, inputs and data (ASME V&V 20). They agree within a tolerance T where "
-            f"|E| + {ONE_SIDED:g} u ≤ T ({LEVEL_TOLERANCE_DB:g} dB, {percent(FORCE_TOLERANCE)} of "
-            f"a force) and differ where |E| > {COVERAGE:g} u.",
+            "of numerics, inputs and data (ASME V&V 20). Both agree where "
+            f"|E| + {ONE_SIDED:g} u ≤ T, and differ where |E| > {COVERAGE:g} u. The tolerance T is "
+            f"{LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)} of a force.",
             "note",
         ),
         *([conflict_table(results)] if "datum_tail" in results else []),

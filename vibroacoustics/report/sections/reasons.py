@@ -65,7 +65,7 @@ def _as_it_is(results: xr.Dataset) -> str:
     twice = "0 N" if force_n < rounding.FORCE_FLOOR else FORCE.write(force_n)
     body = "block on its springs" if "block_velocity_order" in results else "housing"
     return (
-        f"Without a balancer the moving parts excite the {body} at 1× with {shaken}. "
+        f"Without a balancer the 1× force and moment on the {body} are {shaken}. "
         f"The largest 2× force is {twice}, the largest 1× "
         f"foot force {FOOT_FORCE.write(float(reference['foot_force_1x_n'].max()))}. At "
         f"{reference['receiver'].item()} the 1× line is "

@@ -117,12 +117,12 @@ def acceptability_words(results: xr.Dataset, winners: Sequence[str]) -> str:
     """How sure the first rank is; files of older versions have it by the weights alone."""
     whatever = 100.0 * float(results["first_place_share"].sel(option=winners).sum())
     if "rank_acceptability" not in results or not has_samples(results):
-        return f", and in {whatever:.0f} % of the weightings sampled at random"
+        return f". It is first with {whatever:.0f} % of random weights"
     first = results["rank_acceptability"].isel(rank_position=0).sel(option=winners).sum("option")
     by_study = 100.0 * float(first.sel({"criteria_weights": OF_THE_STUDY}))
     return (
-        f": by these weights in {by_study:.0f} % of the samples, and with samples and weights at "
-        f"random in {whatever:.0f} %"
+        f". It is first in {by_study:.0f} % of the samples with these weights, in {whatever:.0f} % "
+        "with random weights"
     )
 
 
@@ -163,8 +163,8 @@ def _behind(results: xr.Dataset, option: str) -> str:
     """By which criteria an option that betters forces or sound falls behind the reference."""
     criteria = criteria_of_advantage(results, REFERENCE_OPTION, option)
     return (
-        f" {option} ranks below {REFERENCE_OPTION} all the same: {REFERENCE_OPTION} scores better "
-        f"in {' and '.join(map(_inside_a_sentence, criteria))}."
+        f" {option} ranks below {REFERENCE_OPTION}, which scores better in "
+        f"{' and '.join(map(_inside_a_sentence, criteria))}."
     )
 
 
@@ -203,7 +203,9 @@ def _published(results: xr.Dataset) -> list[Block]:
     if not wrong:
         return []
     source = parameters(results)["scoring"]["published"]["source"]
-    return [Text(f"Published scores: the printed sum does not add up for {wrong} ({source})")]
+    return [
+        Text(f"The printed sum of the published scores is wrong for {wrong}. Source: {source}.")
+    ]
 
 
 register(Section("scores", "Scores", _blocks, position=90.0, tables=_data))

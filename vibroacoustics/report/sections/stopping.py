@@ -42,10 +42,9 @@ def _finding(results: xr.Dataset) -> str:
         f"{whose} off at {speeds(results)[speed]:g} rpm the shaft comes to rest in "
         f"{rounding.significant(results['stopping_duration'].values[speed])} s, after "
         f"{rounding.fixed(results['stopping_revolutions'].values[speed])} revolutions. The largest "
-        f"force into a foot is {rounding.significant(stopping[speed])} N, against "
-        f"{rounding.significant(steady[speed])} N in steady running without torque ripple and "
-        f"{rounding.significant(_line_foot_force_n(results, speed))} N by the motor's torque at "
-        "twice the line frequency. "
+        f"force into a foot is {rounding.significant(stopping[speed])} N. In steady running without "
+        f"torque ripple it is {rounding.significant(steady[speed])} N. The motor's torque at twice "
+        f"the line frequency makes {rounding.significant(_line_foot_force_n(results, speed))} N. "
     ) + _loudest(results.isel(speed=speed))
 
 
@@ -85,7 +84,7 @@ def _limits(results: xr.Dataset) -> str:
     return (
         f"Assumed: the orbiting set turns by {rounding.fixed(np.degrees(stop['shift_rad']))}° "
         f"against its counterweights within {rounding.significant(1e3 * stop['shift_duration_s'])} "
-        f"ms; the gas keeps {rounding.fixed(100.0 * stop['gas_share_ratio'], 0)} % of its torque "
+        f"ms. The gas keeps {rounding.fixed(100.0 * stop['gas_share_ratio'], 0)} % of its torque "
         f"until the shaft is at rest; the motor's torque ends at once. {left_out}"
     )
 

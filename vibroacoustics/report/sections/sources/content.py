@@ -98,8 +98,8 @@ def spectrum_sentence(results: xr.Dataset) -> str:
     name = source_name(results, source)
     return (
         f"With the published spectral share {name} make "
-        f"{source_share(results, source, speed).in_percent()} of the energy, with the level alone "
-        f"{alternative_share(results, 'level alone', source).in_percent()}."
+        f"{source_share(results, source, speed).in_percent()} of the energy. The share with the "
+        f"level alone is {alternative_share(results, 'level alone', source).in_percent()}."
     )
 
 
