@@ -43,8 +43,9 @@ def _finding(results: xr.Dataset) -> str:
         f"{rounding.significant(results['stopping_duration'].values[speed])} s, after "
         f"{rounding.fixed(results['stopping_revolutions'].values[speed])} revolutions. The largest "
         f"force into a foot is {rounding.significant(stopping[speed])} N. In steady running "
-        f"without torque ripple it is {rounding.significant(steady[speed])} N. The motor's torque at twice "
-        f"the line frequency makes {rounding.significant(_line_foot_force_n(results, speed))} N. "
+        f"without torque ripple it is {rounding.significant(steady[speed])} N. The motor's torque "
+        "at twice the line frequency makes "
+        f"{rounding.significant(_line_foot_force_n(results, speed))} N. "
     ) + _loudest(results.isel(speed=speed))
 
 
