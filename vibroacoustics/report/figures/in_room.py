@@ -60,7 +60,7 @@ def _furniture(room: dict[str, Any], height_m: float) -> Iterator[Mark]:
 
 
 @needs("room_gain_waves", from_="`run` of a study with a table room")
-def room_crossover(results: xr.Dataset, listener: str | None = None) -> Chart:
+def room_seam(results: xr.Dataset, listener: str | None = None) -> Chart:
     """Level at a listener relative to the power level, by waves and by the diffuse field.
 
     Parameters

@@ -12,7 +12,7 @@ from ...results.bands import band
 from ...results.estimates import estimate
 from ...results.stored_study import balancers, nearest_speed, options, overall_noise
 from ..blocks import Block, Details, Pictures, Text
-from ..figures.in_room import room_crossover, room_map
+from ..figures.in_room import room_map, room_seam
 from ..tables import DataTable, Table, long_table
 from . import Section, hold
 from .structure_borne import UNCERTAIN, carrier, ranged
@@ -37,7 +37,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         room_table(results, loudest),
         Text(power_sentence(results)),
         Text(crossover_sentence(results)),
-        Pictures((room_map(results), room_crossover(results, loudest))),
+        Pictures((room_map(results), room_seam(results, loudest))),
         Details("Both methods at every listener", (crossover_table(results),)),
         *(Details("Absorption of walls and furniture", (table,)) for table in absorption(results)),
         Text(
