@@ -22,9 +22,9 @@ class Counterweight(Option):
     radius_m: float = Field(gt=0.0, le=0.5)
     """Radius of its centre of mass from the shaft's axis."""
     angle_rad: float = Field(ge=-2.0 * pi, le=2.0 * pi)
-    """By which it runs ahead of the crank pin; 180° is opposite."""
+    """Angle by which it leads the crank pin; 180° is opposite."""
     height_m: float = HEIGHT
-    """Along the shaft from the origin of the machine's crank frame."""
+    """Height along the shaft from the origin of the machine's crank frame."""
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
         """One mass that circles the shaft's axis with the crank."""

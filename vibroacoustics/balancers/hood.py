@@ -21,9 +21,9 @@ class Hood(Option):
     band_hz: tuple[float, ...] = Field(min_length=1, max_length=40)
     """Nominal middles of the third octaves in which the loss is known."""
     insertion_loss_db: tuple[float, ...]
-    """In each band, level without less level with the hood (ISO 11546, ISO 15665)."""
+    """Loss in each band, level without less level with the hood (ISO 11546, ISO 15665)."""
     mass_kg: float = Field(default=0.0, ge=0.0, le=100.0)
-    """Not on the mounts."""
+    """Mass, which is not on the mounts."""
 
     def contradictions(self) -> Contradictions:
         if len(self.band_hz) != len(self.insertion_loss_db):
@@ -41,7 +41,7 @@ class Hood(Option):
             yield f"insertion_loss_db = {list(self.insertion_loss_db)} dB: allowed -80 to 80 dB"
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
-        """No moving part."""
+        """Return no moving part."""
         return Added(figures={"added_mass_kg": self.mass_kg})
 
     def insertion_loss(self) -> InsertionLoss:

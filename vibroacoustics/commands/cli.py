@@ -55,7 +55,7 @@ def of_all_commands(
         bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print it.")
     ] = False,
 ) -> None:
-    """From mechanism to microphone: forces, feet and sound of a compressor."""
+    """Predict forces, feet and sound of a compressor, from mechanism to microphone."""
 
 
 def main() -> None:

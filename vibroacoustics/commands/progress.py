@@ -14,7 +14,7 @@ from . import messages
 SHORTEST_S: Final = 1.0
 """A stage that takes less is not worth a line."""
 PAUSE_S: Final = 30.0
-"""Between two lines of a stage."""
+"""Time between two lines of a stage."""
 
 
 @contextmanager

@@ -178,5 +178,5 @@ def _ratio(value_db: float, criterion_db: float) -> str:
 
 
 def _which(tone: Tone) -> str:
-    """By which of the two ratios it is prominent."""
+    """Name the ratio by which it is prominent."""
     return _PROMINENT.get((tone.prominent_by_noise, tone.prominent_by_bands), "no")

@@ -75,5 +75,6 @@ class BandMeter:
         self._is_first, self._filled = False, ramp
 
     def mean_square(self) -> Array:
-        """In each band, after all samples have been added, shape (band,), unit squared."""
+        """Mean square in each band, after all samples have been added, shape (band,), unit
+        squared."""
         return np.asarray(self._energy / self._samples)

@@ -17,7 +17,7 @@ from .sound_power import hemisphere_area_m2
 LINES_OF_BAND: Final = 24
 """Frequencies that stand for a third octave."""
 LOWEST_HZ: Final = 1.0
-"""In place of 0 Hz, where nothing is heard."""
+"""Frequency in place of 0 Hz, where nothing is heard."""
 ROUNDED: Final = 1.01
 """Factor of the middle of a band that is called by a round number."""
 

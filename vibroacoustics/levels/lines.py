@@ -13,7 +13,7 @@ from ..mechanics.received_sound import ReceivedSound
 from .axes import LevelAxes
 
 _ORDER = "order "
-"""With what the names of lines begin that are orders."""
+"""Prefix of the names of lines that are orders."""
 
 
 def order_columns(received: ReceivedSound, orders: int) -> tuple[IndexArray, IndexArray]:

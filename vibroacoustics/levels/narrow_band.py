@@ -13,7 +13,7 @@ from .bands import Band
 SPEED_ERROR: Final = 0.002
 """Share by which the speed may be off: so much wider a line is looked for."""
 LEAST_FLOOR_LINES: Final = 2
-"""On either side of a line, from which what lies under it is taken."""
+"""Lines on either side of a line, from which the noise under it is estimated."""
 MOST_FLOOR_LINES: Final = 4
 
 

@@ -1,4 +1,4 @@
-"""Both methods of a room side by side around the frequencies where one follows the other."""
+"""Comparison of both methods of a room around the crossover frequencies."""
 
 from collections.abc import Sequence
 

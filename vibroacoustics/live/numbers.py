@@ -58,7 +58,7 @@ class Numbers:
 
 
 def _rounded(values: NDArray[np.float32], bits: int) -> NDArray[np.float32]:
-    """With the last bits of their fractions zero."""
+    """Values with the last bits of their fractions zero."""
     if bits == FULL_BITS:
         return values
     last = FULL_BITS - bits

@@ -78,7 +78,7 @@ def full_scale_pa(lines: list[Lines]) -> float:
 
 
 def _shown(results: xr.Dataset) -> xr.Dataset:
-    """At few speeds and microphones, that of the published level first."""
+    """Results at few speeds and microphones, those of the published level first."""
     few = few_speeds(results)
     names = [str(name) for name in few["receiver"].values]
     names.sort(key=lambda name: name != catalogue_receiver(results))

@@ -18,7 +18,7 @@ ROUNDING: Final = 1e-9
 _RADIUS_M: Final = 0.025
 """Radius of the weight where the machine names no planes for weights."""
 _REACH_M: Final = 0.2
-"""From the shaft's origin, to both sides, likewise."""
+"""Reach from the shaft's origin, to both sides."""
 
 
 class Weight(NamedTuple):

@@ -27,7 +27,7 @@ class BalanceQuality(Parameters):
     used_ratio: float = Field(default=1.0, ge=0.0, le=1.0)
     """Residual unbalance over the permissible one."""
     lower_plane_height_m: float = HEIGHT
-    """Along the shaft, from the origin of the crank's axes."""
+    """Height along the shaft, from the origin of the crank's axes."""
     upper_plane_height_m: float = HEIGHT
     upper_share_ratio: float = Field(default=0.5, ge=0.0, le=1.0)
     """Share of the upper plane; the lower one has the rest."""

@@ -113,7 +113,7 @@ class DischargeMuffler(Parameters):
     """An expansion chamber in the discharge tube; the tube goes on without reflection."""
 
     distance_m: float = Field(ge=0.0, le=20.0)
-    """From the shell, along the tube."""
+    """Distance from the shell, along the tube."""
     length_m: float = Field(ge=1e-3, le=5.0)
     diameter_m: float = Field(ge=2e-3, le=1.0)
     """Inner."""

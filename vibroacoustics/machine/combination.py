@@ -15,7 +15,7 @@ from .machine import AnyMachine, Machine
 from .option import OPTIONS, AnyOption, Figures, Option
 
 SEPARATOR: Final = " + "
-"""Between the names of options in the name of their combination."""
+"""Separator of the names of options in the name of their combination."""
 _SUMMED: Final = ("_kg", "_w")
 """Units of figures that add up: masses and powers."""
 
@@ -42,7 +42,7 @@ class Combination(Option):
     parts: tuple[AnyOption, ...]
     """Options of these names."""
     machine: AnyMachine | None = None
-    """With the changed values of all redesigns among them; None without one."""
+    """Machine with the changed values of all redesigns among them; None without one."""
 
     @property
     def members(self) -> tuple[Option, ...]:

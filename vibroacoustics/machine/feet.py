@@ -26,7 +26,7 @@ class Foot(Parameters):
     vertical_stiffness_n_per_m: float | None = Field(default=None, ge=1e2, le=1e9)
     loss_factor_ratio: float | None = Field(default=None, ge=0.0, le=1.0)
     stiffness: MountStiffness | None = None
-    """Over frequency, from a file."""
+    """Stiffness over frequency, from a file."""
 
     @model_validator(mode="after")
     def _one_stiffness(self) -> "Foot":

@@ -24,7 +24,7 @@ LAYOUTS: Final = tuple(
 
 
 class Floor(Parameters):
-    """Under each foot the same mass on a spring, up and down; sideways it is rigid."""
+    """Mass on a spring under each foot, up and down; sideways it is rigid."""
 
     mass_kg: float = Field(ge=0.0, le=1e6)
     stiffness_n_per_m: float = Field(ge=1e3, le=1e12)

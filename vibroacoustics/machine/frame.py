@@ -34,7 +34,7 @@ class RoundPart(Parameters):
 
     @property
     def inertia_kg_m2(self) -> Array:
-        """About its middle, shape (3, 3)."""
+        """Inertia about its middle, shape (3, 3)."""
         polar = 0.5 * self.mass_kg * self.radius_m**2
         across = 0.5 * polar + self.mass_kg * self.thickness_m**2 / 12.0
         return np.diag([across, across, polar])

@@ -38,4 +38,4 @@ class ShellGas(Parameters):
     intake_ratio: float = Field(ge=0.0, le=1.0)
     """Distance of the intake from the axis, over the radius."""
     intake_angle_rad: float = Field(ge=-2.0 * pi, le=2.0 * pi)
-    """From x towards y."""
+    """Angle from x towards y."""

@@ -74,7 +74,7 @@ class Machine(KindOfParameters):
 
     name: str = Field(min_length=1)
     refrigerant: str | None = Field(None, min_length=1)
-    """By its number, such as R410A; the data sheet states it."""
+    """Refrigerant by its number, such as R410A; the data sheet states it."""
     housing: Housing
     """What moves on the mounts as one rigid body; moving parts included, a suspended block not."""
     mounts: Mounts
@@ -85,7 +85,7 @@ class Machine(KindOfParameters):
     feet: Feet | None = None
     """Anywhere; four in a square, as `mounts` says, where there are none."""
     mount_stiffness: MountStiffness | None = None
-    """Over frequency, of mounts that give none of their own."""
+    """Stiffness over frequency, of mounts that give none of their own."""
     floor: Floor | None = None
     """Compliant floor under the feet; rigid where neither this table nor the next is given."""
     floor_mobility: FloorMobility | None = None
@@ -117,7 +117,7 @@ class Machine(KindOfParameters):
     template: ClassVar[str | None] = None
     """Shipped study with which `new` begins a machine of the kind; none where there is none."""
     template_with_sources: ClassVar[str | None] = None
-    """Such a study with sources of sound."""
+    """Template of a study with sources of sound."""
 
     reads: ClassVar[frozenset[str]] = frozenset(
         {

@@ -54,7 +54,8 @@ class MountStiffness(FileTable):
         return {name: tuple(values.tolist()) for name, values in of_fields}
 
     def dynamic_stiffness(self, frequency_hz: Array) -> ComplexArray:
-        """Along x, y and z, shape (..., 3), N/m; without loss at frequency zero.
+        """Return the stiffness along x, y and z, shape (..., 3), N/m; without loss at frequency
+        zero.
 
         Parameters
         ----------

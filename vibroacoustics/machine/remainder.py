@@ -15,7 +15,7 @@ LEAST_FLAT_DB: Final = 1.0
 UNMODELLED_KEYS: Final = frozenset(
     f"remainder.{name}" for name in ("speed_growth_db", "peak_frequency_hz", "slope_db")
 )
-"""Without effect where a machine has no published level that leaves unmodelled noise."""
+"""Keys without effect where a machine has no published level that leaves unmodelled noise."""
 PEAKS: Final = (
     Regime("unmodelled noise with its peak up to 1 kHz", 0.0, 1000.0),
     Regime("unmodelled noise with its peak from 1 kHz", 1000.0, inf),
@@ -63,11 +63,12 @@ class UnmodelledNoise(Parameters):
     """
 
     speed_growth_db: float = Field(default=30.0, ge=-100.0, le=200.0)
-    """For ten times the speed; below zero where a resonance makes the slower speed the louder."""
+    """Growth for ten times the speed; below zero where a resonance makes the slower speed the
+    louder."""
     peak_frequency_hz: Annotated[float, *PEAKS] = Field(default=1600.0, ge=100.0, le=10000.0)
     """Peak of the A-weighted spectrum in third octaves."""
     slope_db: float = Field(default=4.0, ge=0.0, le=30.0)
-    """For each octave off the peak."""
+    """Slope for each octave off the peak."""
     flat_lowest_db: Annotated[float, PRIOR] = Field(default=-26.0, ge=-40.0, le=10.0)
     flat_highest_db: Annotated[float, PRIOR] = Field(default=4.0, ge=-40.0, le=10.0)
     near_level_db: Annotated[float, PRIOR] = Field(default=-2.0, ge=-30.0, le=5.0)

@@ -29,7 +29,7 @@ class StatorYoke(Parameters):
     """Teeth and windings over the yoke: they move with it and do not stiffen it."""
     loss_factor_ratio: float = Field(ge=0.0, le=1.0)
     fit_stiffness_n_per_m: float = Field(gt=0.0, le=1e15)
-    """Between yoke and wall, outwards, all around together."""
+    """Stiffness between yoke and wall, outwards, all around together."""
 
     def contradictions(self) -> Contradictions:
         if self.thickness_m >= self.mean_radius_m:

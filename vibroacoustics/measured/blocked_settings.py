@@ -35,7 +35,7 @@ class Interface(Parameters):
     rigid_source: bool = False
     """Whether the points move as one rigid body, so that only its force and moment count."""
     speed_rpm: float | None = Field(default=None, ge=60.0, le=60000.0)
-    """At which it ran; its orders are written where it is given."""
+    """Speed at which it ran; its orders are written where it is given."""
     positions: dict[str, Position] = Field(default_factory=dict)
 
 

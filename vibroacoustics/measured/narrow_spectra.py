@@ -19,7 +19,7 @@ from ..study.baseline_files import BaselineContent
 
 BANDS: Final = bands_between(3, LOWEST_HZ, HIGHEST_HZ)
 HIGHEST_ORDER: Final = 100
-"""That is taken out of a spectrum; higher ones count with their band."""
+"""Highest order that is taken out of a spectrum; higher ones count with their band."""
 UNEVEN: Final = 0.01
 """Largest distance of a frequency from its place among even ones, in steps."""
 

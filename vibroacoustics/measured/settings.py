@@ -47,7 +47,7 @@ class NewMount(Parameters):
     stiffness_n_per_m: float | None = Field(default=None, ge=0.0, le=1e12)
     loss_factor_ratio: float = Field(default=0.0, ge=0.0, le=2.0)
     stiffness: MountStiffness | None = None
-    """Over frequency, in place of the constant one."""
+    """Stiffness over frequency, in place of the constant one."""
 
     @model_validator(mode="after")
     def _one_stiffness(self) -> "NewMount":

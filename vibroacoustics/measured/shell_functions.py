@@ -14,7 +14,7 @@ from .grouped import by_key, read_all, unsigned
 from .library import SAME_FREQUENCY
 
 LEAST_LINES: Final = 3
-"""That make a peak."""
+"""Least number of lines that make a peak."""
 
 
 def read_shell_mobilities(settings: MeasuredShell, highest_hz: float) -> ShellMobilities:

@@ -18,7 +18,7 @@ from ..base.arrays import Array
 from ..base.errors import SolverError
 
 STEPS: Final = 256
-"""In a revolution; two crossings of zero within one would be missed."""
+"""Steps in a revolution; two crossings of zero within one would be missed."""
 SETTLING_REVOLUTIONS: Final = 60
 NEWTON_STEPS: Final = 30
 TOLERANCE: Final = 1e-11

@@ -86,7 +86,7 @@ class RigidBody(_ByContent):
 
     @property
     def mass_matrix(self) -> Array:
-        """About the centre of mass, shape (6, 6), kg and kg m²."""
+        """Mass matrix about the centre of mass, shape (6, 6), kg and kg m²."""
         matrix = np.zeros((6, 6))
         matrix[:3, :3], matrix[3:, 3:] = self.mass_kg * np.eye(3), self.inertia_kg_m2
         return matrix

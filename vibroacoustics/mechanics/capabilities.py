@@ -123,4 +123,4 @@ class OldhamRing(Capability):
     stroke_m: float
     """Amplitude of its stroke, the radius of the scroll's orbit."""
     height_m: float
-    """From the centre of mass at rest."""
+    """Height from the centre of mass at rest."""

@@ -118,7 +118,7 @@ class ValvedCylinder(Capability):
     fill: Callable[[Array], Array]
 
     def flows_m3_per_rad(self, samples: int) -> tuple[Array, Array]:
-        """Out of the suction side and into the discharge side, at the pressure there.
+        """Flows out of the suction side and into the discharge side, at the pressure there.
 
         Times the angular frequency they are flows in m³/s; the shaft is taken to turn evenly.
 

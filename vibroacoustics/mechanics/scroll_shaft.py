@@ -26,7 +26,7 @@ class ScrollShaft(Parameters):
     rotor_length_m: float = LENGTH
     rotor_diameter_m: float = LENGTH
     rotor_mass_kg: float = MASS
-    """With the counterweights; its stiffness is neglected."""
+    """Mass of the rotor with the counterweights; its stiffness is neglected."""
     pin_mass_kg: float = Field(ge=0.0, le=100.0)
     """Scroll and brake as a point mass on the crank pin, as in the thesis's model."""
 

@@ -1,4 +1,4 @@
-"""From samples over time to samples over crank angle, without aliasing.
+"""Plan of the conversion of samples over time to samples over crank angle, without aliasing.
 
 With the angle φ(t) in revolutions, y(φ0) = ∫ x(t) h(φ(t) - φ0) φ'(t) dt is the signal over the
 angle after the low-pass h: one kernel, of fixed length in angle, interpolates between the samples
@@ -110,7 +110,7 @@ class AngularPlan:
         return int(np.ceil(begin)) + half, int(np.floor(end)) - half
 
     def position(self, sample: Array) -> Array:
-        """On the grid, of samples."""
+        """Return the position of samples on the grid."""
         angle = self.motion.angle_rad(sample / self.sample_rate_hz)
         return np.asarray(angle * (self.samples_per_revolution / (2.0 * np.pi)))
 

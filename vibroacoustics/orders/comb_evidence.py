@@ -20,7 +20,7 @@ STEADY_WIDTH: Final = 1.9
 _NOISE_LEVEL: Final = 0.7
 """Mean of ln(1 + p / m) for the power p of white noise with the median m of its mean."""
 _CLEAR: Final = 2.3
-"""Above it, of a clear line in a single block: nearly four standard deviations."""
+"""Level of a clear line in a single block: nearly four standard deviations."""
 _DYNAMIC_RANGE: Final = 1e-12
 _LIKELY: Final = 0.78
 """Probability that the first order of the comb is a clear line."""
@@ -33,7 +33,7 @@ _NEIGHBOURHOOD: Final = 0.3
 _TOLERANCE: Final = 1.5e-3
 """Relative distance of a line from its tooth."""
 _TOLERANCE_LINES: Final = 0.35
-"""And in lines of a block."""
+"""Tolerance in lines of a block."""
 _BETWEEN: Final = np.array([1.0, 1.5, 2.0]) / 3.0
 """Where no line should be; see `speed_comb`."""
 

@@ -23,7 +23,7 @@ class OrderMap:
     order: Array
     """Multiples of 1 / revolutions, shape (order,)."""
     revolutions: int
-    """In each block."""
+    """Revolutions in each block."""
     window: Window
     starts: NDArray[np.int64]
     """First sample of the blocks in the signal, shape (block,)."""

@@ -21,7 +21,8 @@ three samples, which a converter's filter rounds, still reaches 70 % of the swin
 _STEEPER: Final = 0.5
 """Time of the falling edge over that of the rising one, below which the falling one is taken."""
 _ROUNDS: Final = 5
-"""In which the threshold follows the height: each reaches pulses of a fifth of the last height."""
+"""Rounds in which the threshold follows the height: each reaches pulses of a fifth of the last
+height."""
 
 
 @dataclass(frozen=True)

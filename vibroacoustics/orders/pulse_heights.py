@@ -15,7 +15,7 @@ _NEIGHBOURS: Final = 5
 _BEYOND: Final = 0.5
 """Height that is expected beyond the first and last pulse, over theirs."""
 _LEAST_SWING: Final = 0.6
-"""Before and behind a further pulse, over that of its neighbours."""
+"""Least swing before and behind a further pulse, over that of its neighbours."""
 _SECOND_LOBE: Final = 0.6
 """Height of the lobe behind the last pulse of an inductive pickup, which has half its swing
 there."""

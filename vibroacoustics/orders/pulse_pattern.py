@@ -8,7 +8,8 @@ from ..base.arrays import Array
 from .pulse_faults import NumberedPulses
 
 LEAST_SAMPLES: Final = 4.0
-"""Between two pulses, below which edges are missed: from half the sample rate on pulses alias."""
+"""Samples between two pulses below which edges are missed: from half the sample rate on pulses
+alias."""
 _QUICKEST: Final = 0.01
 """Share of the pulses that come so close, as where an aliasing encoder's speed seems to turn."""
 _UNEQUAL: Final = 0.02

@@ -15,7 +15,8 @@ from .smoothing import smooth_curve
 from .speed_comb import comb_scores, frame_levels, refine
 
 REVOLUTIONS: Final = 8
-"""In a frame at the lowest speed: the lines of its orders lie four Hann half-widths apart."""
+"""Revolutions in a frame at the lowest speed: the lines of its orders lie four Hann half-widths
+apart."""
 _FRAMES_PER_LENGTH: Final = 4
 _LEAST_FRAMES: Final = 9
 """Three frame lengths."""

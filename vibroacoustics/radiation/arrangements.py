@@ -47,9 +47,9 @@ class ReferenceBox(NamedTuple):
     origin_m: Array
     """Middle of its footprint, on the floor, (3,)."""
     length_m: float
-    """Along x."""
+    """Length along x."""
     width_m: float
-    """Along y."""
+    """Width along y."""
     height_m: float
 
     @property

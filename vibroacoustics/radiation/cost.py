@@ -25,7 +25,7 @@ LOW: Final = 0.7
 HIGH: Final = 1.5
 """Spread of times that are measured once."""
 _STEPS: Final = 4
-"""That are timed, after a first one."""
+"""Steps that are timed, after a first one."""
 _MORE_FREQUENCIES: Final = (2, 6)
 """Times as many as at first are solved: 2.0 to 6.2 in the package's studies."""
 _PASSAGES: Final = (10, 60)

@@ -16,7 +16,8 @@ from .receiver_methods import GIVEN, ReceiverMethod, with_methods
 from .transfer_vectors import frequencies_hz
 
 Radiation = Callable[[Study, Progress, Sequence[SurfaceMotion]], tuple[xr.Dataset, bool]]
-"""From a study and the shell's modes to transfer vectors, and whether they were known already."""
+"""Function of a study and the shell's modes to transfer vectors, and whether they were known
+already."""
 
 
 def given_radiation(

@@ -177,7 +177,8 @@ class NearField:
         return fields
 
     def _to_points(self, parity: Parity, points: Array, frequency_hz: Array) -> ComplexArray:
-        """From a part in the recorded cells to pressures at points, (frequency, cell, point)."""
+        """Green's functions from a part in the recorded cells to points, (frequency, cell,
+        point)."""
         layers = np.concatenate([self.box.inner, self.box.outer])
         matrix = self.recording.join_matrix(parity)
         greens = green_rows(layers, points, frequency_hz, self._walls)

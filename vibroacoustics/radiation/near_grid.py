@@ -26,7 +26,8 @@ No discrete mode's squared frequency times the squared time step is above twice 
 squared Courant number (Gershgorin): 3.24 at 0.3. The scheme is stable below 4.
 """
 PML_CELLS: Final = 16
-"""With fewer, what the layers throw back at low frequencies rings on several times as long."""
+"""Cells of the absorbing layers: with fewer, their echo at low frequencies lasts several times as
+long."""
 PML_ALPHA: Final = 2.0
 _PML_POWER: Final = 3
 BOX_MARGIN_M: Final = 0.04

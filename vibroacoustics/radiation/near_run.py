@@ -22,7 +22,8 @@ _PROGRESS_STEPS: Final = 50
 _MOST_PASSAGES: Final = 250
 """Longest recording after the pulse, in passages of sound through the box's diagonal."""
 _FORECAST_PASSAGES: Final = 60
-"""From then on, a run is refused that by its decay would not die down in the longest recording."""
+"""Passages after which a run is refused that by its decay would not die down in the longest
+recording."""
 _QUIET: Final = 3e-8
 """A run ends at the latest when the pressure on the box has fallen to this share of its largest:
 the weakest patterns are then settled as far as the grid keeps them apart from stronger ones."""
@@ -41,7 +42,7 @@ class Watch:
     frequency: IndexArray
     """Indices of the frequencies that are watched, (watched,)."""
     green: ComplexArray
-    """From the recorded cells to the points, (watched, cell, point)."""
+    """Green's functions from the recorded cells to the points, (watched, cell, point)."""
 
     def pressure(self, spectrum: ComplexArray) -> ComplexArray:
         """Pressure (watched, point) of a spectrum (watched, cell)."""
@@ -55,7 +56,7 @@ class Run:
     name: str
     """Name of the pattern, for progress and errors."""
     flux: Array
-    """Into the wall cells of the upper half of the grid, (cell,), m³/s."""
+    """Flux into the wall cells of the upper half of the grid, (cell,), m³/s."""
     odd: Sequence[int]
     """Axes along which it is odd."""
     frequency_hz: Array

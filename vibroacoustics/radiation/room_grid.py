@@ -18,7 +18,8 @@ COURANT_NUMBER: Final = 0.6
 Measured: 0.3, 0.5 and 0.7 give the same Green's function within 3e-4 of its largest value.
 """
 PML_NODES: Final = 26
-"""With 20, what the layers throw back at 25 Hz moves a rocking body's level by 0.1 dB."""
+"""Nodes of the absorbing layers: with 20, their echo at 25 Hz changes a rocking body's level by 0.1
+dB."""
 PML_ALPHA: Final = 2.0
 _SOURCE_MARGIN_NODES: Final = 3
 """Nodes between a source and the absorbing layer; the box has half an interpolation stencil."""

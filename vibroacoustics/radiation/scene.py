@@ -1,4 +1,4 @@
-"""From parameters to geometry: the radiating body, what stands around it, and the walls."""
+"""Scene of the radiation: the radiating body, what is around it, and the walls."""
 
 import warnings
 from collections.abc import Iterator

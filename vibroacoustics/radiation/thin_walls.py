@@ -19,7 +19,7 @@ _COARSE_PARTS: Final = 4
 """A cell is looked at in this many parts along each axis, coarsely where there are many cells."""
 _MANY_CELLS: Final = 60_000
 _SHORT_WAY: Final = 3
-"""Both sides of an edge or a fin are joined within so many cells: nothing leaks there."""
+"""Cells within which both sides of an edge or a fin are joined: nothing leaks there."""
 _MOST_LOOKED_AT: Final = 400
 _SMALLEST_LEAK: Final = 0.002
 """Share of the cells with wall that may leak: holes of less than that are below a grid's errors."""

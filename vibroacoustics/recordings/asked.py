@@ -15,7 +15,7 @@ from .recorded import MAXIMUM_READING_BYTES, MissingError, TooLargeError, check_
 
 Given = TypeVar("Given", str, float)
 ALL_CHANNELS: Final = "*"
-"""In place of a channel's name; a channel that is named goes before it."""
+"""Key in place of a channel's name; a channel that is named goes before it."""
 
 
 @dataclass(frozen=True)

@@ -192,7 +192,7 @@ def _header(file: BinaryIO, kind: bytes) -> Header:
 
 
 def _with_abscissas(file: BinaryIO, header: Header) -> Header:
-    """With abscissas of the precision that ends at the mark; programs differ in it."""
+    """Header with abscissas of the precision that ends at the mark; programs differ in it."""
     header = replace(header, abscissa_bytes=4)
     double = replace(header, abscissa_bytes=8)
     file.seek(header.start + double.binary_bytes)

@@ -78,7 +78,7 @@ def _policy(style: str, *scripts: str, plays: bool = False) -> str:
 
 
 def content_hash(content: str) -> str:
-    """By which the policy of a page knows its style or a script."""
+    """Return the hash by which the policy of a page knows its style or a script."""
     return f"sha256-{base64.b64encode(hashlib.sha256(content.encode()).digest()).decode()}"
 
 

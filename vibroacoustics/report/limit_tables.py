@@ -21,7 +21,7 @@ _OF_TWO: Final = {
     "A": ("channel", "speed", "channel_order_rms", "limit_margin"),
     "B": ("compared_channel", "compared_speed", "compared_order_rms", "compared_limit_margin"),
 }
-"""By the result: names of its channel, speed, RMS and margin, the columns that it has alone."""
+"""Names of the channel, speed, RMS and margin by result, and the columns that it has alone."""
 _FIELDS: Final = (
     "result", "figure", "speed_rpm", "value", "limit", "unit", "side", "margin", "probability",
 )  # fmt: skip

@@ -89,7 +89,8 @@ class Tone(_Part):
     level_db: float
     """Sound pressure level there, re 20 µPa."""
     excess_db: float
-    """Over the criterion of tone-to-noise or prominence ratio; median of the weighted samples."""
+    """Excess over the criterion of tone-to-noise or prominence ratio; median of the weighted
+    samples."""
     excess_low_db: Level
     """Lower end of its 80 % interval; null where the tone is not audible there."""
     excess_high_db: float
@@ -108,7 +109,7 @@ class RatedWindow(_Part):
     rating_level_high_dba: float
     """Upper end of the 80 % interval."""
     adjustment_db: float
-    """For tones, median."""
+    """Adjustment for tones, median."""
     limit_dba: float
     limit_probability: float
     """Share of the weighted samples that meet the limit."""

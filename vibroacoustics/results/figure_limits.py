@@ -20,7 +20,7 @@ from .limit import EVERY_CHANNEL, PRESSURE_UNIT
 from .order_comparison import ORDER_TOLERANCE, channel_units, listed
 
 PRESSURE: Final = "pressure "
-"""With what channels of a study begin that are microphones."""
+"""Prefix of the channels of a study that are microphones."""
 
 
 class CheckedFigure(NamedTuple):

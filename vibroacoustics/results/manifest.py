@@ -50,7 +50,7 @@ class Entry(BaseModel):
 
 
 Manifest = dict[Name, Entry]
-"""By the name of the dataset."""
+"""Manifest by the name of the dataset."""
 _MANIFEST: Final = TypeAdapter(Manifest)
 
 

@@ -33,7 +33,7 @@ from .provenance import attributes
 _AT_1_KHZ: Final = 30
 _PARTS: Final = ("first", "second")
 _Sounds = dict[str, dict[str, Ingredients]]
-"""By common receiver, then by machine."""
+"""Sounds by common receiver, then by machine."""
 
 
 def results_together(study: Study, runs: Mapping[str, MachineRun]) -> xr.Dataset:

@@ -12,7 +12,7 @@ from ..base.remembered import remembered
 from .ingredients import Ingredients, ingredients, positions
 
 _STEPS: Final = [2e-5, 5e-5, *(float(f"{n}e{k}") for k in range(-4, 6) for n in (1, 2, 5))]
-"""From the threshold of hearing on, Pa."""
+"""Steps from the threshold of hearing on, Pa."""
 _CREST: Final = 5.5
 """Largest value of ten minutes of Gaussian noise over its effective value."""
 

@@ -14,7 +14,7 @@ _TINY: Final = 1e-300
 
 
 def least_phase(size: Array, length: int) -> ComplexArray:
-    """With the least phase that a causal response of these sizes has, by its cepstrum.
+    """Return sizes with the least phase that a causal response of them has, by its cepstrum.
 
     A. V. Oppenheim and R. W. Schafer, Discrete-Time Signal Processing, 3rd edition (2010), 13.5.
 

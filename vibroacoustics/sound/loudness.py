@@ -20,7 +20,7 @@ CENTRES_HZ: Final[Array] = np.array([band.middle_hz for band in bands_between(3,
 _ACROSS: Final = 20
 _SILENT_DB: Final = -60.0
 _QUIET_SONE: Final = 0.1
-"""Below it sharpness is not judged."""
+"""Loudness below which sharpness is not judged."""
 _BARK: Final[Array] = np.arange(1, 241) / 10.0
 """Critical-band rates at which sharpness reads the specific loudness, Bark (DIN 45692)."""
 _SHARPNESS_WEIGHT: Final[Array] = _BARK * np.where(

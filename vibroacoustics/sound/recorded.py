@@ -36,9 +36,10 @@ FOOT: Final = 0.01
 """Power of a peak over that of the loudest in its critical band: a weaker one may be its foot in
 the segments that reach beyond the recording, and keeps its mean."""
 _HOPS: Final = 8
-"""Per segment: the squares of windows (harmonics up to the sixth) then add up to a constant."""
+"""Hops per segment: the squares of windows (harmonics up to the sixth) then add up to a
+constant."""
 _FADE_S: Final = 0.05
-"""At both ends, where a step would be heard as noise of all frequencies."""
+"""Fade at both ends, where a step would be heard as noise of all frequencies."""
 
 
 @dataclass(frozen=True)

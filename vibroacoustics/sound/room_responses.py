@@ -19,7 +19,7 @@ from .rendering import SAMPLE_RATE_HZ, SEED
 FADE: Final = HALF_BAND**2
 """Highest frequency over that of the radiation: a third octave, in which the response fades out."""
 FADING_S: Final = 0.05
-"""After the record: what filters delay is not cut off."""
+"""Time after the record: what filters delay is not cut off."""
 LOWEST_HZ: Final = (10.0, 20.0)
 """Nothing below the first, all from the second on: what is computed of a room at a few hertz over
 the square of the frequency is rounding."""
@@ -31,7 +31,7 @@ _DECAYS_FROM_HZ: Final = 125.0
 _BLOCK: Final = 4096
 _ROUNDS: Final = 8
 _MOST_GAIN: Final = 2.0
-"""Over that without correlation: bands that need nearly none get next to none."""
+"""Largest gain over that without correlation: bands that need nearly none get next to none."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ class _Received(NamedTuple):
 
 
 def _received(room: WaysOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
-    """In blocks of frequencies; above the radiation's highest one as at that."""
+    """Received sound in blocks of frequencies; above the radiation's highest one as at that."""
     parts = []
     for start in range(0, hertz.size, _BLOCK):
         block = slice(start, start + _BLOCK)
@@ -181,7 +181,7 @@ def _weighted(
 
 
 def _faded(hertz: Array, highest_hz: float) -> Array:
-    """From 0 to 1 over the lowest octave, to 0 again above the highest frequency."""
+    """Fade from 0 to 1 over the lowest octave, to 0 again above the highest frequency."""
     rise = np.log(hertz / LOWEST_HZ[0]) / np.log(LOWEST_HZ[1] / LOWEST_HZ[0])
     fall = np.log(hertz / highest_hz) / np.log(FADE)
     return np.asarray(

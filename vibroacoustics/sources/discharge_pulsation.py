@@ -36,7 +36,7 @@ class DischargePulsation(Source):
 
     @classmethod
     def why_not(cls, machine: Machine) -> str | None:
-        """There is no discharge tube between a block and its shell."""
+        """Say that there is no discharge tube between a block and its shell."""
         suspended = machine.suspension
         if suspended is None or suspended.discharge_tube is None:
             return "needs a block on springs with a discharge tube, suspension.discharge_tube"

@@ -109,7 +109,7 @@ class ScrollGasForces(Source):
 
 
 def _flows(case: Case, cycle: ScrollGasCycle, highest: int) -> dict[Port, ComplexArray]:
-    """Into dome and annulus, where the gas has inertia and the machine has the tables."""
+    """Flows into dome and annulus, where the gas has inertia and the machine has the tables."""
     machine, flows = case.machine, dict[Port, ComplexArray]()
     if cycle.port_flow_kg_per_s is None:
         return flows

@@ -76,7 +76,7 @@ class OldhamKeyForces(Source):
     needs: ClassVar[type[Capability]] = OldhamRing
     drives_shell: ClassVar[bool] = True
     revolutions: int = Field(default=8, ge=1, le=1000)
-    """Over which the forces are taken."""
+    """Revolutions over which the forces are taken."""
 
     @classmethod
     def tables_read(cls, machine: Machine) -> Mapping[str, type[Parameters]]:

@@ -19,7 +19,7 @@ from ..mechanics.ports import HOUSING
 from ..orders import order_spectrum
 
 MODES: Final = 20
-"""With one node across the axis; the last is at 60 times the first one's frequency."""
+"""Modes with one node across the axis; the last is at 60 times the first one's frequency."""
 
 
 @register
@@ -37,7 +37,7 @@ class GasInShell(Source):
 
     @classmethod
     def why_not(cls, machine: Machine) -> str | None:
-        """There is no gas round a block."""
+        """Say that there is no gas around a block."""
         if machine.suspension is None:
             return "needs a block on springs in a shell, suspension"
         return super().why_not(machine)

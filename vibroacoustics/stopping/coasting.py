@@ -25,9 +25,9 @@ class Peaks(NamedTuple):
 
     force_n: float
     tilting_moment_n_m: float
-    """About a horizontal axis."""
+    """Moment about a horizontal axis."""
     roll_moment_n_m: float
-    """About z."""
+    """Moment about z."""
 
 
 def peaks(force_n: Array, moment_n_m: Array) -> Peaks:
@@ -49,7 +49,7 @@ class AfterStop(NamedTuple):
 
 @dataclass(frozen=True)
 class RunDown:
-    """From steady running over switch-off at time zero to rest; T uniform times.
+    """Run-down from steady running over switch-off at time zero to rest; T uniform times.
 
     Attributes
     ----------
@@ -195,7 +195,7 @@ def _check(parts: Sequence[MovingPart], shifted: Collection[str], speed: float) 
 
 
 def flight_s(valve: CheckValve) -> float:
-    """From rest over the lift, √(2 m s/F)."""
+    """Return the flight time from rest over the lift, √(2 m s/F)."""
     return float(np.sqrt(2.0 * valve.mass_kg * valve.lift_m / valve.closing_force_n))
 
 

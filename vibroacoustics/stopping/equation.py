@@ -114,7 +114,7 @@ class Coasting:
         shifted: Collection[str],
         gas_torque_n_m: Array,
     ) -> "Coasting":
-        """With the reduced inertia of the parts over a revolution."""
+        """Return the coasting with the reduced inertia of the parts over a revolution."""
         angle = 2.0 * np.pi * np.arange(ANGLES) / ANGLES
         fixed = inertia_over_angle([part for part in parts if part.source not in shifted], angle)
         shifted_inertia = inertia_over_angle(

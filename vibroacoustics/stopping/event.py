@@ -17,7 +17,7 @@ from .coasting import RunDown
 from .through_shell import StopThroughShell
 
 FADE_S: Final = 1.0
-"""In which the steady load is faded in, so slowly that the mounts do not ring."""
+"""Time in which the steady load is faded in, so slowly that the mounts do not ring."""
 STEADY_S: Final = 1.5
 """Twelve Fast time constants: the level is settled within 3e-5 dB."""
 REST_S: Final = (8.0, 16.0, 32.0, 64.0)
@@ -129,7 +129,7 @@ def _response(
     body: MachineOnMounts,
     pressure_per_velocity: Callable[[Array], ComplexArray],
 ) -> Transient:
-    """To a load that is faded in and followed by rest until the motion on the mounts has
+    """Response to a load that is faded in and followed by rest until the motion on the mounts has
     decayed."""
     rate = LOAD_SAMPLES * clock.rate_hz
     fade = _fade(course.shape[-1], clock.rate_hz)

@@ -126,7 +126,7 @@ def _phases(events: Sequence[StoppingEvent], time_s: Array) -> dict[str, Array]:
     phases = (time_s < 0.5 * time_s[0], time_s >= 0.0)
 
     def greatest(values: Array) -> Array:
-        """Over the times of each phase, shape (phase, ...)."""
+        """Return the greatest value over the times of each phase, shape (phase, ...)."""
         return np.stack([values[..., times].max(axis=-1) for times in phases])
 
     square = greatest(_of_events(events, "pressure") ** 2)

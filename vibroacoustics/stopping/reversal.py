@@ -71,7 +71,7 @@ class Jamming:
     damping: float
 
     def force_n(self, angle: float, speed: float) -> float:
-        """Around the shaft, forwards."""
+        """Return the force around the shaft, forwards."""
         radius, stiffness = self.table.wall_radius_m, self.table.contact_stiffness_n_per_m1p5
         depth = max(-radius * self.gap(angle), 0.0)
         return float(dry_force(depth, -radius * speed, stiffness, self.damping))

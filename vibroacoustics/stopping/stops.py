@@ -55,7 +55,7 @@ class Stops:
         return cls(machine.table(Stopping), parts, machine, after)
 
     def run_down(self, speed_rpm: float, rate_hz: float, steady_revolutions: int) -> RunDown:
-        """From a speed to rest.
+        """Return the run-down from a speed to rest.
 
         Parameters
         ----------

@@ -19,7 +19,7 @@ from ..transfer.transient import LOAD_SAMPLES
 from .coasting import VALVE, RunDown
 
 FADE_OUT_S: Final = 0.2
-"""In which what stays after the stop is faded out: no mode of a shell is as slow."""
+"""Time in which what stays after the stop is faded out: no mode of a shell is as slow."""
 RING_OUT_S: Final = 0.3
 """Then, until the shell is still."""
 
@@ -72,7 +72,7 @@ class StopThroughShell:
         return pressure_over_time(self.shell, self.microphones, events, rate)[:, :samples]
 
     def loads(self, run: RunDown, first: int) -> dict[Port, Array]:
-        """On the parts from a sample on, shape (component, times), N and N m."""
+        """Return the loads on the parts from a sample on, shape (component, times), N and N m."""
         angle = (run.crank_angle_rad + run.shift.angle)[first:]
         of_gas = gas_on_parts(self.machine, self.speed_rpm, angle)
         loads = {port: run.gas_share[first:] * load for port, load in of_gas.items()}

@@ -21,7 +21,7 @@ _BY_QUANTITY: Final = {
     "dead_time_s": "us",
     "grade_m_per_s": "mm_per_s",
 }
-"""By the end of a field's name, the first that fits."""
+"""Words by the end of a field's name, the first that fits."""
 _BY_UNIT: Final = {
     "m": "mm",
     "rad": "deg",

@@ -62,7 +62,7 @@ class BaselineOrders(Parameters):
     level_db: tuple[float, ...]
     """re 20 µPa, a level for each order."""
     phase_rad: tuple[float | None, ...]
-    """None where it is not known."""
+    """Phase, None where it is not known."""
 
     def contradictions(self) -> Contradictions:
         if not self.order[0] > 0.0:
@@ -82,7 +82,7 @@ class BaselineSettings(Parameters):
     """Files of the baseline, and what they do not say themselves."""
 
     file: tuple[str, ...] = Field(min_length=1)
-    """In a study file a name, or a list of names."""
+    """File: in a study file a name, or a list of names."""
     microphones: dict[str, BaselineMicrophone] = Field(default_factory=dict)
     """Names by receiver; those of the files need no entry."""
     tacho_angle_rad: float | None = Field(default=None, ge=-7.0, le=7.0)

@@ -62,7 +62,7 @@ class Wanted(Parameters):
     speeds: Statistic = "worst"
     receivers: Statistic = "mean"
     samples: Statistic | None = None
-    """Over the samples of machine and tolerances; 0.9 is met by nine of ten.
+    """Statistic over the samples of machine and tolerances; 0.9 is met by nine of ten.
 
     Without it the median of a study with uncertainty, else nine pieces of ten.
     """
@@ -112,7 +112,7 @@ class Design(Parameters):
     option: tuple[str, ...] = Field(min_length=1, max_length=100)
     """Options of the study among which a design chooses; in a file also one name."""
     variables: dict[str, DesignVariable] = Field(default_factory=dict, max_length=64)
-    """By dotted key of an option's or the machine's value, with its unit."""
+    """Variables by dotted key of an option's or the machine's value, with its unit."""
     objectives: dict[str, Objective] = Field(min_length=1, max_length=16)
     constraints: dict[str, Constraint] = Field(default_factory=dict, max_length=32)
     tolerances: dict[str, Tolerance] = Field(default_factory=dict, max_length=64)

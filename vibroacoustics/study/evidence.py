@@ -24,4 +24,4 @@ class Evidence(Parameters):
 
     forces: tuple[PublishedForce, ...] = ()
     spectrum: MeasuredSpectrum | None = None
-    """It weighs the samples together with the published level."""
+    """Spectrum that weights the samples together with the published level."""

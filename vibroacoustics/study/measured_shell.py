@@ -24,9 +24,9 @@ class WallPoint(Hit):
     """A point of the wall; its direction is that of the outward normal, as the file calls it."""
 
     angle_rad: float = Field(ge=-2.0 * pi, le=2.0 * pi)
-    """From x towards y."""
+    """Angle from x towards y."""
     height_m: float = Field(ge=-2.0, le=2.0)
-    """From the centre of mass."""
+    """Height from the centre of mass."""
 
 
 class PartPoint(Hit):

@@ -19,7 +19,7 @@ class ForcePoint(Hit):
     x_m: float | None = Field(default=None, ge=-10.0, le=10.0)
     y_m: float | None = Field(default=None, ge=-10.0, le=10.0)
     z_m: float | None = Field(default=None, ge=-10.0, le=10.0)
-    """From the centre of mass at rest."""
+    """Height from the centre of mass at rest."""
 
     def contradictions(self) -> Contradictions:
         stated = [name for name in _POSITION if getattr(self, name) is not None]
@@ -40,7 +40,7 @@ class MeasuredSoundPath(Parameters):
     units: dict[str, str] = Field(default_factory=dict)
     points: dict[str, ForcePoint] = Field(min_length=1)
     microphones: dict[str, MicrophoneNode] = Field(min_length=1)
-    """By the study's receiver."""
+    """Microphones by the study's receiver."""
 
     def contradictions(self) -> Contradictions:
         kinds = {point.foot is None for point in self.points.values()}

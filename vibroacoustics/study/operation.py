@@ -22,10 +22,11 @@ class Operation(Parameters):
     speed_rpm: tuple[Annotated[float, _SHOWN_SPEED], ...] = Field(
         min_length=1, max_length=MOST_SPEEDS
     )
-    """In a file also a table of start, stop and step."""
+    """Speeds; in a file also a table of start, stop and step."""
     crank_angle_samples: int = Field(default=256, ge=64, le=65536)
     maximum_order: int | None = Field(default=None, ge=2, le=1000)
-    """None for as many at each speed as the highest frequency of the radiation holds."""
+    """Maximum order; None for as many at each speed as the highest frequency of the radiation
+    holds."""
     keep_time_series: bool | None = None
     """Forces and moments over crank angle in the results; none for up to 100 speeds only."""
     supply_frequency_hz: tuple[Annotated[float, _SHOWN_SUPPLY], ...] | None = None

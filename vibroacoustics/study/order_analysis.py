@@ -106,7 +106,7 @@ class TacholessSpeed:
     """
 
     channel: str | None
-    """None: the recording's only channel."""
+    """Channel; None: the recording's only channel."""
     minimum_rpm: float
     maximum_rpm: float
     comb: tuple[float, ...] = DEFAULT_COMB

@@ -83,7 +83,7 @@ class StudyRoom(Parameters):
     standing_height_m: float = Field(default=0.0, ge=0.0, le=LONGEST_M)
     """Top of what the machine stands on, above the floor."""
     maximum_frequency_hz: float = Field(default=1000.0, ge=250.0, le=1000.0)
-    """Up to which waves are computed; above, the diffuse field."""
+    """Frequency up to which waves are computed; above, the diffuse field."""
     walls: dict[RoomSide, Material] = Field(default_factory=dict)
     furniture: dict[str, Furniture] = Field(default_factory=dict)
     patches: dict[str, RoomPatch] = Field(default_factory=dict)

@@ -19,7 +19,7 @@ class Covering(Parameters):
 
     absorption_ratio: tuple[Ratio, Ratio, Ratio, Ratio, Ratio, Ratio]
     name: str = ""
-    """In the library."""
+    """Name in the library."""
     source: str = ""
 
 
@@ -71,4 +71,4 @@ _SCHEMA: Final = {
     ]
 }
 Material = Annotated[Covering, BeforeValidator(_by_name), WithJsonSchema(_SCHEMA)]
-"""In files a name of the library, or a table of absorption by octave."""
+"""Material: in files a name of the library, or a table of absorption by octave."""

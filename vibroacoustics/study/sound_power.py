@@ -9,7 +9,7 @@ from ..base.parameters import Contradictions, Parameters
 
 HEMISPHERES: Final = ("iso3744-hemisphere-10", "iso3744-hemisphere-20")
 MINIMUM_BACKGROUND_MARGIN_DB: Final = 6.0
-"""Below, a measurement does not qualify (ISO 3744:2010, 8.2.3)."""
+"""Margin below which a measurement does not qualify (ISO 3744:2010, 8.2.3)."""
 MAXIMUM_POINTS: Final = 20_000
 """Most points of a map or a directivity; each is one point of the Green's function."""
 
@@ -25,7 +25,7 @@ class SoundPowerSettings(Parameters):
     radius_m: float = Field(default=1.0, ge=1.0, le=16.0)
     """Radius of the hemisphere (7.2.3: not below 1 m, nor below twice the source's extent)."""
     distance_m: float = Field(default=1.0, ge=0.25, le=16.0)
-    """From the machine's reference box to the measurement box (7.2.4)."""
+    """Distance from the machine's reference box to the measurement box (7.2.4)."""
     background_margin_db: float | None = Field(
         default=None, ge=MINIMUM_BACKGROUND_MARGIN_DB, le=100.0
     )

@@ -41,7 +41,7 @@ class StudyTables(Parameters):
     """Operating point of the machine's file at which its overall noise holds; none for the values
     of the study."""
     catalogue_machine: AnyMachine | None = None
-    """At that point; none where it is the study's. Filled in by `load_study`."""
+    """Machine at that point; none where it is the study's. Filled in by `load_study`."""
     radiation: RadiationSettings
     scoring: Scoring
     given: dict[str, dict[str, float]] = Field(default={})

@@ -141,7 +141,7 @@ class BendingShell:
         )
 
     def _of_all_parts(self, observers: Observers, frequency_hz: Array) -> ComplexArray:
-        """Per load on the parts, shape (observer, part times component, frequency)."""
+        """Response per load on the parts, shape (observer, part times component, frequency)."""
         if self.frame is None:
             forces, every = self.path.forces_of_parts(), np.arange(frequency_hz.size)
             return self.of_modal_forces(observers, forces, frequency_hz, every, None)

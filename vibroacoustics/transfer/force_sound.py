@@ -20,7 +20,7 @@ class OfReceivers(Protocol):
     """Pressure per velocity that is computed for some receivers alone."""
 
     def to(self, rows: Sequence[int]) -> PressurePerVelocity:
-        """To these receivers."""
+        """Return the pressure at these receivers."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class ForceSound:
         return per_velocity
 
     def to(self, rows: Sequence[int] | slice) -> "ForceSound":
-        """To some of the receivers alone."""
+        """Return the sound at some of the receivers alone."""
         chosen = rows if isinstance(rows, slice) else list(rows)
         return replace(
             self,
@@ -84,7 +84,7 @@ class ForceSound:
         )
 
     def _at(self, values: ComplexArray, frequency_hz: Array) -> ComplexArray:
-        """At some frequencies, on straight lines between those that were measured."""
+        """Values at some frequencies, on straight lines between those that were measured."""
         flat = values.reshape(-1, values.shape[-1])
         interpolated = [np.interp(frequency_hz, self.frequency_hz, row) for row in flat]
         return np.array(interpolated).reshape(*values.shape[:-1], frequency_hz.size)

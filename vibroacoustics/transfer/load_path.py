@@ -1,4 +1,4 @@
-"""From the loads of all sources in one case to what is observed of the machine."""
+"""Load path from the loads of all sources in one case to what is observed of the machine."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -27,7 +27,7 @@ from .tube import tube_stiffness
 MACHINE, SHELL = "machine", "shell"
 """Names of the body on the feet, without and with a block on springs in it."""
 HIGHEST_MODE_HZ: Final = 1e5
-"""Above every natural frequency on the mounts alone."""
+"""Frequency above every natural frequency on the mounts alone."""
 KEPT_MACHINES: Final = 64
 """Machines whose bushings are kept assembled: cases of a study share their mounts."""
 
@@ -147,7 +147,7 @@ class MachineOnMounts:
 
     @property
     def _highest_mode_hz(self) -> float:
-        """Above every natural frequency, also of bodies on stiff bushings."""
+        """Frequency above every natural frequency, also of bodies on stiff bushings."""
         return max(HIGHEST_MODE_HZ, 2.0 * float(self.isolation.natural_modes()[0][-1]))
 
     def response(

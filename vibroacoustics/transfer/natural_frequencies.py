@@ -19,7 +19,7 @@ from .frame.on_shell import FrameOnShell
 from .path import ShellPath
 
 _FREE_HZ: Final = 1.0
-"""Below it parts and shell move without strain."""
+"""Frequency below which parts and shell move without strain."""
 Named = dict[str, float]
 
 

@@ -1,4 +1,4 @@
-"""From the loads of every case to its sound at the receivers."""
+"""Received sound from the loads of every case."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -38,7 +38,7 @@ class Transmission:
     shell: ShellPath | None
 
     def to(self, receivers: Sequence[int]) -> "Transmission":
-        """To some of the receivers alone, the dimension kept."""
+        """Return the transmission to some of the receivers alone, the dimension kept."""
         return replace(self, microphones=self.microphones.to(list(receivers)))
 
     def received(self, cases: Cases) -> dict[CaseKey, ReceivedSound]:

@@ -38,9 +38,9 @@ class Rod(Parameters):
     length_m: float = LENGTH
     mass_kg: float = MASS
     centre_of_mass_m: float = Field(ge=0.0, le=2.0)
-    """From the piston pin."""
+    """Position of the centre of mass from the piston pin."""
     inertia_kg_m2: float = INERTIA
-    """About the axis of the crankshaft's direction through the centre of mass."""
+    """Inertia about the axis of the crankshaft's direction through the centre of mass."""
 
     @property
     def piston_pin_inertia_kg_m2(self) -> float:

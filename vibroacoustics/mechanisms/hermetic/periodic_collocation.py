@@ -30,7 +30,7 @@ NEWTON_STEPS: Final = 80
 STEP_TOLERANCE: Final = 1e-10
 """Last Newton step over the size of each state; the convergence is quadratic before it."""
 ROUNDING: Final = 1e-8
-"""Below this a step that is no longer a tenth of the one before is made of rounding errors: stiff
+"""Size below which a step that is no longer a tenth of the one before is rounding error: stiff
 shafts in thin films have a floor of a few 1e-10."""
 
 

@@ -13,10 +13,10 @@ LINK = Field(gt=0.0, le=10.0)
 ERROR = Field(default=0.0, ge=-1e-3, le=1e-3)
 
 SMALLEST_MARGIN_M: Final = 1e-9
-"""Below it a four-bar that is no parallelogram is at a change point to rounding: angular
+"""Margin below which a four-bar that is no parallelogram is at a change point to rounding: angular
 accelerations grow without bound and so do their rounding errors."""
 LARGEST_MISFIT: Final = 0.1
-"""Over the crank: three mini-cranks are taken to first order in the errors."""
+"""Misfit over the crank: three mini-cranks are taken to first order in the errors."""
 
 
 @dataclass(frozen=True)

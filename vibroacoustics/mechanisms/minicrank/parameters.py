@@ -30,7 +30,8 @@ class Masses(Parameters):
     """Relative change of the motor's torque per relative change of speed."""
 
     def of_all(self, minicranks: int) -> "Masses":
-        """With all mini-cranks as one, less what their own counterweights balance."""
+        """Return the masses of all mini-cranks as one, less what their own counterweights
+        balance."""
         unbalanced_share = 1.0 - self.minicrank_balance_ratio
         return self.model_copy(
             update={

@@ -65,14 +65,14 @@ class OldhamScrollTables(Machine):
     opening: ScrollOpening | None = None
     """Where a pocket opens with inertia."""
     leakage: ScrollLeakage | None = None
-    """Between the pockets then; none where they are tight."""
+    """Leakage between the pockets then; none where they are tight."""
     suction_pockets: SuctionPockets | None = None
     """Whose pressure then acts on the scrolls; none where it is that of the suction."""
     keys: OldhamKeys | None = None
     motor: CapacitorMotor | None = None
-    """At its own line frequency; a study names those of its speeds."""
+    """Motor at its own line frequency; a study names those of its speeds."""
     synchronous_motor: SynchronousMotor | None = None
-    """In the other motor's place, on an inverter; a study names one of them."""
+    """Motor in the other motor's place, on an inverter; a study names one of them."""
     air_gap: AirGap | None = None
     """Air gap of either motor."""
     stator_yoke: StatorYoke | None = None
@@ -86,9 +86,9 @@ class OldhamScrollTables(Machine):
     suction_annulus: SuctionAnnulus | None = None
     """Gas around the parts, out of which the pockets fill; none where it is silent."""
     discharge_muffler: DischargeMuffler | None = None
-    """In the discharge tube; its curves alone need it."""
+    """Muffler in the discharge tube; its curves alone need it."""
     turning_back: TurningBack | None = None
-    """After a stop, where a study asks for it."""
+    """Turning back after a stop, where a study asks for it."""
     check_valve: CheckValve | None = None
     shaft: ScrollShaft | None = None
     frame: Frame | None = None

@@ -85,22 +85,22 @@ class Cycle:
 
     @property
     def pressure_pa(self) -> Array:
-        """In the first cylinder."""
+        """Pressure in the first cylinder."""
         return self.charges[0].pressure_pa
 
     @property
     def gas_force_n(self) -> Array:
-        """On the first piston."""
+        """Force on the first piston."""
         return self.charges[0].gas_force_n
 
     @property
     def friction(self) -> Friction:
-        """In the first cylinder's pairs."""
+        """Friction in the first cylinder's pairs."""
         return self.frictions[0]
 
     @property
     def forces(self) -> ConstraintForces:
-        """In the first cylinder's joints."""
+        """Forces in the first cylinder's joints."""
         return self.joints[0]
 
     @property

@@ -32,7 +32,7 @@ class Cylinder(NamedTuple):
 
     @property
     def lead_rad(self) -> float:
-        """By which its crank angle from top dead centre runs ahead of the shaft's."""
+        """Angle by which its crank angle from top dead centre runs ahead of the shaft's."""
         return self.throw_rad - self.bank_rad
 
     def frame(self, shaft: CrankFrame) -> CrankFrame:
@@ -61,7 +61,7 @@ class CylinderBanks(Parameters):
     throw_positions_m: tuple[float, ...]
     """Middle of each crank pin along the shaft."""
     rod_pitch_m: float = Field(ge=0.0, le=1.0)
-    """Between the rods of neighbouring banks on one pin."""
+    """Distance between the rods of neighbouring banks on one pin."""
     counterweight_kg_m: float = Field(default=0.0, ge=0.0, le=1e3)
     """Mass moment of the weights opposite each crank pin, in its plane."""
 

@@ -27,7 +27,7 @@ class PistonAndRod(Parameters):
     small_end_to_centre_m: float = Field(ge=0.0, le=10.0)
     big_end_to_centre_m: float = Field(ge=0.0, le=10.0)
     rod_inertia_kg_m2: float = Field(ge=0.0, le=1e4)
-    """About its centre of mass."""
+    """Inertia about its centre of mass."""
 
     def contradictions(self) -> Contradictions:
         total = self.small_end_to_centre_m + self.big_end_to_centre_m

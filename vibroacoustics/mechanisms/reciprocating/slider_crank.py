@@ -81,7 +81,7 @@ class SliderCrank:
 
     @property
     def displacement_m3(self) -> float:
-        """Without crank offset, which lengthens the stroke a little."""
+        """Displacement without crank offset, which lengthens the stroke a little."""
         return 2.0 * self.crank_radius_m * self.piston_area_m2
 
 

@@ -34,7 +34,7 @@ class Chamber(NamedTuple):
     volume_m3: Array
     """Clearance included."""
     slope_m3: Array
-    """Over the crank angle."""
+    """Slope over the crank angle."""
     gap_m2: Array
     """Effective area to the suction chamber."""
     suction_pa: float
@@ -43,7 +43,7 @@ class Chamber(NamedTuple):
     discharge_density: float
     kappa: float
     port_m2: float
-    """On which the pressure lifts the reed."""
+    """Area on which the pressure lifts the reed."""
     gap_per_lift_m: float
     """Effective area of the valve over its lift."""
     reed_kg: float

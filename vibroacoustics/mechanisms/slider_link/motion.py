@@ -45,7 +45,7 @@ class GaussPanels:
         return np.asarray(self.edges[:-1, None] + self._width * positions).ravel()
 
     def integral(self, values: Array) -> float:
-        """Over all panels.
+        """Return the integral over all panels.
 
         Parameters
         ----------

@@ -24,7 +24,7 @@ class Forces(FileTable):
 
     content: ClassVar[str] = "packed"
     scaling: Literal["inertia"] | None = None
-    """With one speed: every force grows as the speed squared."""
+    """Scaling of a table with one speed: every force grows as the speed squared."""
     recorded_speed_rpm: float | None = Field(default=None, gt=0.0, le=1e5)
     """Speed of a recording over time, which does not say it."""
     speed_rpm: tuple[float, ...] = ()

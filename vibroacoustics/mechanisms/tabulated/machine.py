@@ -35,7 +35,7 @@ class SlidingMass(Parameters):
     amplitude_m: float | None = Field(default=None, gt=0.0, le=1.0)
     """Half its stroke."""
     height_m: float = HEIGHT
-    """Along the shaft, from the origin of the shaft's axes."""
+    """Height along the shaft, from the origin of the shaft's axes."""
 
     def contradictions(self) -> Contradictions:
         if (self.mass_kg is None) != (self.amplitude_m is None):
@@ -79,7 +79,7 @@ class TabulatedMachine(Machine):
     forces: Forces
     shaft_axes: ShaftAxes
     sliding_mass: SlidingMass | None = None
-    """For options that balance it."""
+    """Mass for options that balance it."""
     oldham: Ring | None = None
     """Ring of the machine, for options that add to it."""
     counterweights: BalancePlanes | None = None

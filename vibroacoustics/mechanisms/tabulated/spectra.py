@@ -35,7 +35,7 @@ class Spectra:
     orders: ComplexArray
 
     def between(self, speed_rpm: float) -> ComplexArray:
-        """At a speed in their range, shape (source, component, order).
+        """Return the spectra at a speed in their range, shape (source, component, order).
 
         Each complex order is linear in the speed squared between two speeds of the table: exact
         there, and everywhere for inertia, which grows as the speed squared, and for a force that

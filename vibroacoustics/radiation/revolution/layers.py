@@ -19,7 +19,7 @@ from .ring import DIGITS, ring, rules
 _NEAR: Final = 1.3
 """A point this many lengths of an element off its middle sees its nodes alone."""
 _ON_POINTS: Final = 12
-"""On each side of a point of the element."""
+"""Points on each side of a point of the element."""
 _BESIDE_POINTS: Final = 20
 _CROWDING: Final = 4
 """Power by which nodes crowd at a point of the element."""

@@ -22,7 +22,7 @@ from .side import Addition, RevolutionSide
 _NAME: Final = "boundary elements"
 _ON_BOX: Final = "boundary elements at the box of k-Wave"
 _BOX_MARGIN_M: Final = 0.04
-"""From the body to its box."""
+"""Distance from the body to its box."""
 
 
 class ByRevolution:

@@ -18,12 +18,12 @@ from .mesh import Mesh
 from .radiator import Radiator, WallPressure
 
 _STEP_M: Final = 1e-3
-"""To both sides of the wall, of the normal derivative."""
+"""Step to both sides of the wall for the normal derivative."""
 _MORE_ANGLES: Final = 48
-"""Than twice the orders."""
+"""More angles than twice the orders."""
 
 AtFrequency = Callable[[Radiator, WallPressure], ComplexArray]
-"""From what a frequency gives on the wall to what is added to pressures, (point, pattern)."""
+"""Function of values on the wall at a frequency to the addition to pressures, (point, pattern)."""
 
 
 def over_ground(scene: Scene, points: Array) -> AtFrequency | None:

@@ -44,7 +44,7 @@ class WallPressure:
 
     frequency_hz: float
     orders: list[ComplexArray]
-    """At the nodes per unit of each pattern, Pa, (node, column) of each order."""
+    """Orders at the nodes per unit of each pattern, Pa, (node, column) of each order."""
 
 
 class Radiator:

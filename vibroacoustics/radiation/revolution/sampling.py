@@ -23,7 +23,7 @@ _GAIN: Final = 16.0
 _DEGREE: Final = 5
 
 Solve = Callable[[IndexArray], tuple[ComplexArray, Array]]
-"""From indices of frequencies to pressures and their errors, (index, receiver, pattern)."""
+"""Function of indices of frequencies to pressures and their errors, (index, receiver, pattern)."""
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ def _trend(frequency_hz: Array, delay_s: Array) -> ComplexArray:
 
 
 def _spline(frequency_hz: Array, smooth: ComplexArray, wanted_hz: Array) -> ComplexArray:
-    """Through both halves of the spectrum."""
+    """Spline through both halves of the spectrum."""
     two_sided_hz = np.concatenate([-frequency_hz[::-1], frequency_hz])
     values = np.concatenate([smooth[::-1].conj(), smooth])
     degree = min(_DEGREE, two_sided_hz.size - 1)

@@ -24,7 +24,7 @@ from .radiator import Radiator, WallPressure
 from .sampling import Sampled, first_solved, interpolated, sample
 
 _ELEMENTS: Final = 20
-"""On the meridian, at least."""
+"""Least number of elements on the meridian."""
 _ELEMENTS_PER_WAVE: Final = 1.5
 _GRADINGS: Final = 2
 _COARSENING: Final = 1.25
@@ -33,14 +33,14 @@ _ERROR: Final = 0.75
 _QUADRATURE: Final = 3e-8
 """Error of the rules that both meshes share, over the largest pressure."""
 _CLOSEST_M: Final = 1e-3
-"""To the wall that pressures are asked for."""
+"""Least distance from the wall to points with pressures."""
 _SOLVED: Final = 3
 """Times as many as at first are solved in all, about; how many is not known before."""
 _FREQUENCIES: Final = 200
 """Whose wall pressures memory is reckoned with."""
 
 Addition = Callable[[int], ComplexArray]
-"""From the index of a tabulated frequency to what is added to pressures, (point, pattern)."""
+"""Function of the index of a tabulated frequency to the addition to pressures, (point, pattern)."""
 
 
 class RevolutionSide:
@@ -83,7 +83,7 @@ class RevolutionSide:
 
     @cached_property
     def radiators(self) -> list[Radiator]:
-        """On the finer mesh and on the coarser one."""
+        """Radiators on the finer mesh and on the coarser one."""
         return [self.finer, Radiator(self._coarser, self._patterns, self.floor_z_m)]
 
     @property

@@ -41,7 +41,7 @@ def sum_on_sides(
 
 @kernel
 def _ends_of_parities(planes: Any) -> None:  # pragma: no cover
-    """From even and odd terms to values at the lower and the upper end, and back but for 1/2."""
+    """Change even and odd terms to values at the lower and the upper end, and back but for 1/2."""
     for i in range(planes.shape[1]):
         for j in range(planes.shape[2]):
             even, odd = planes[0, i, j], planes[1, i, j]

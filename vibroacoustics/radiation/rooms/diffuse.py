@@ -12,7 +12,7 @@ from .cutting import cut, faces
 from .room import OCTAVES_HZ, WAVE_OCTAVES, Room
 
 CROSSOVER_HZ: Final = (400.0, 630.0)
-"""Below, waves alone; above, the diffuse field alone."""
+"""Crossover frequencies: below, waves alone; above, the diffuse field alone."""
 _MOST_MEAN_ABSORPTION: Final = 0.99
 _NEAREST_M: Final = 0.05
 _AIR_TEMPERATURE_K: Final = 293.15
@@ -26,7 +26,7 @@ class DiffuseRoom:
     """What a diffuse field asks of a room."""
 
     absorption_area_m2: Array
-    """By octave from 63 Hz to 4 kHz, (octave,)."""
+    """Absorption area by octave from 63 Hz to 4 kHz, (octave,)."""
     surface_m2: float
     """Surface of walls and blocks."""
     volume_m3: float

@@ -28,7 +28,7 @@ class Piece:
 
     box: int
     bases: tuple[Array, Array, Array]
-    """From terms to points along each axis, (point, term)."""
+    """Bases from terms to points along each axis, (point, term)."""
     near: tuple[tuple[int, int, Array], ...]
     """Sides that matter: axis, end, and what the series lacks along the axis, (point,)."""
     result_rows: IndexArray
@@ -45,7 +45,7 @@ class Lattice:
 
     @property
     def lines(self) -> tuple[Array, Array, Array]:
-        """Along each axis."""
+        """Lines along each axis."""
         return self.x, self.y, self.z
 
     @property

@@ -115,7 +115,7 @@ def _covers(box: AirBox, end: End, face: Face, counts: Sequence[int]) -> bool:
 def _matrices(
     box: AirBox, across: Sequence[int], face: Face, counts: Sequence[int]
 ) -> tuple[Array, Array, Array, Array]:
-    """To the nodes from the left and the right, and back from the left and the right."""
+    """Matrices to the nodes from the left and the right, and back from the left and the right."""
     to_nodes, back = [], []
     for row, axis in enumerate(across):
         width = (face.upper[row] - face.lower[row]) / counts[row]

@@ -14,7 +14,7 @@ from .join_box import JoinBox
 from .record import Record
 
 _STEP_HZ: Final = 50.0
-"""Between the frequencies at which the field is computed, at most; splines run through them."""
+"""Largest step between the frequencies at which the field is computed; splines run through them."""
 _APART: Final = 0.01
 """Distance of the two points of a slope, over the distance from the body to the box."""
 

@@ -37,7 +37,7 @@ MOST_HZ: Final = 1000.0
 _PADDING: Final = 2
 """Lines of the fine grid for each that the record's duration needs."""
 _MORE_LINES: Final = STENCIL_NODES // 2
-"""Above the highest frequency, for interpolation below it."""
+"""More lines above the highest frequency, for interpolation below it."""
 _POSITIONS: Final = 20
 _LEAST_RADIUS_M: Final = 1.0
 """Least radius of the hemisphere, which is twice the characteristic dimension of the machine or

@@ -74,7 +74,7 @@ def room_of(settings: StudyRoom) -> Room:
 
 
 def _material(name: str, covering: Covering) -> Material:
-    """With the octave of 63 Hz as that of 125 Hz (assumed)."""
+    """Material with the octave of 63 Hz as that of 125 Hz (assumed)."""
     values = covering.absorption_ratio
     return Material(covering.name or name, (values[0], *values), covering.source)
 

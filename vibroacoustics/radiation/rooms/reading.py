@@ -87,7 +87,7 @@ def read_pieces(
 
 @kernel
 def _matrix(matrices: Any, piece: Any, axis: int) -> Any:  # pragma: no cover
-    """From terms to points along an axis, (point, term)."""
+    """Matrix from terms to points along an axis, (point, term)."""
     first, count, points = piece[7 + axis], piece[1 + axis], piece[4 + axis]
     return matrices[first : first + points * count].reshape(points, count)
 

@@ -20,7 +20,7 @@ class Pulse:
     step_s: float
 
     def spectrum(self, frequency_hz: Array) -> ComplexArray:
-        """By which recorded spectra are divided, (frequency,)."""
+        """Return the spectrum by which recorded spectra are divided, (frequency,)."""
         phase = np.pi * frequency_hz * self.step_s
         driven: ComplexArray = transform(frequency_hz, self.time_s, self.force)
         driven *= phase / np.tan(phase)

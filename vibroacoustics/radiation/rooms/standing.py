@@ -14,7 +14,7 @@ from .cutting import cut
 from .room import Block, Room
 
 _MARGIN_M: Final = 0.1
-"""From the body to the box around it where nothing is in the way, else half the gap."""
+"""Margin from the body to the box around it where nothing is in the way, else half the gap."""
 LEAST_GAP_M: Final = 0.03
 """Distance between the body and objects beside it."""
 _SAME_LEVEL_M: Final = 1e-6
@@ -27,14 +27,14 @@ class Standing:
     """A machine in its room, in the room's coordinates."""
 
     room: Room
-    """With the machine's body as a block, if it fits."""
+    """Room with the machine's body as a block, if it fits."""
     foot_m: Array
     """Foot of the machine's axis, (3,)."""
     lower: Array
     """Corner of the box around the machine, (3,)."""
     upper: Array
     clearance_m: float
-    """From the body to the nearest side of the box."""
+    """Distance from the body to the nearest side of the box."""
     body_in_room: str
     """What stands for the body among the room's blocks, in words."""
 

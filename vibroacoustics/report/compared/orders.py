@@ -23,7 +23,7 @@ WITHIN_DB: Final = 40.0
 LOUD_DB: Final = 20.0
 """Orders no further below the strongest of their channel and speed are printed."""
 CHANGED_DB: Final = 0.5
-"""So are those that differ by more, no further below than `WITHIN_DB`."""
+"""Difference from which orders are loud too, no further below than `WITHIN_DB`."""
 MOST_ORDERS: Final = 12
 """Printed orders of a channel at a speed: the strongest."""
 _RESULTS: Final = ("channel", "compared")

@@ -51,7 +51,7 @@ def machine_picture(results: xr.Dataset) -> Picture | None:
 
 
 def _side(lines: Outline, feet: Array, acting: Loads) -> list[str]:
-    """Along y: outline, feet, floor, force at the centre of mass, forces into the feet."""
+    """View along y: outline, feet, floor, force at the centre of mass, forces into the feet."""
     floor = np.array([(0.0, lines.floor_z_m)])
     around = np.concatenate([lines.side, feet[:, [0, 2]], floor])
     view = fitted((0, 2), around, (110, 14), (140, 150))
@@ -89,7 +89,7 @@ def _mount(view: View, foot: Array, level: float) -> str:
 def _above(
     lines: Outline, feet: Array, receivers: dict[str, Array], walls: list[tuple[int, float]]
 ) -> list[str]:
-    """Along z: outline, feet, walls, numbered microphones."""
+    """View along z: outline, feet, walls, numbered microphones."""
     points = [point[:2] for point in receivers.values()]
     points += [np.where(np.arange(2) == axis, coordinate, 0.0) for axis, coordinate in walls]
     around = np.concatenate([lines.above, np.array(points).reshape(-1, 2)])

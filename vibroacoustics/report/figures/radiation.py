@@ -1,4 +1,4 @@
-"""Through the mounts to the feet, and from the housing to the sound at the microphones."""
+"""Charts of the mounts, and of the radiation from the housing to the microphones."""
 
 from typing import Final
 

@@ -20,7 +20,7 @@ from ..charts.needs import needs
 from ..sections.sources.words import UNMODELLED
 
 DEPTH_DB: Final = 40.0
-"""From the highest bar down to the foot of all."""
+"""Depth from the highest bar down to the foot of all."""
 _THINNEST_DB: Final = 0.3
 """Sources without a longer part of any bar are not drawn."""
 _GREY: Final = "#b8bfc6"

@@ -17,7 +17,7 @@ SCRIPTS: Final = {
     "run_up": ("weighting.js", "charts.js", "run_up_map.js", "run_up_cuts.js", "run_up.js",
                "run_up_line.js", "run_up_sound.js", "run_up_start.js"),
 }  # fmt: skip
-"""By the name of the panel."""
+"""Scripts by the name of the panel."""
 _STYLES: Final = {"sliders": (), "run_up": ("run_up.css",)}
 _LEFT_OUT: Final = b"<\\"
 """Letters from ( to ~ that are not used, so that 85 remain that mean nothing in HTML and in

@@ -22,7 +22,7 @@ from ..tables import Table
 from . import Section
 
 _TOLERANCE: Final = 0.02
-"""By which a speed may lie outside those that were measured."""
+"""Share by which a speed may lie outside those that were measured."""
 
 
 def baseline_of(results: xr.Dataset) -> dict[str, Any]:

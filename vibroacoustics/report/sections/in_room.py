@@ -1,4 +1,4 @@
-"""In the room: how loud the machine is at listeners, by which path, and what changes it."""
+"""Section on the room: level at listeners, by which path, and what changes it."""
 
 from typing import Final
 

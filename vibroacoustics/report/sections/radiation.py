@@ -1,4 +1,4 @@
-"""From the motion of the housing to the sound at the microphones."""
+"""Section on radiation, from the motion of the housing to the sound at the microphones."""
 
 import json
 

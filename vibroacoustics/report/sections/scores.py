@@ -160,7 +160,8 @@ def ranking_sentence(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> 
 
 
 def _behind(results: xr.Dataset, option: str) -> str:
-    """By which criteria an option that betters forces or sound falls behind the reference."""
+    """Name the criteria by which an option that betters forces or sound falls behind the
+    reference."""
     criteria = criteria_of_advantage(results, REFERENCE_OPTION, option)
     return (
         f" {option} ranks below {REFERENCE_OPTION}, which scores better in "

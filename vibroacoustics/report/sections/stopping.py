@@ -24,7 +24,7 @@ def sentences(results: xr.Dataset) -> tuple[str, ...]:
 
 
 def _greatest(over_time: xr.DataArray) -> tuple[Array, Array]:
-    """Before switch-off and from then on, shape (speed,)."""
+    """Greatest values before switch-off and from then on, shape (speed,)."""
     time = over_time["stopping_time"]
     parts = (over_time.where(during).max("stopping_time") for during in (time < 0.0, time >= 0.0))
     before, after = (np.asarray(part.values) for part in parts)

@@ -47,7 +47,8 @@ class Crossing(NamedTuple):
 
 
 def modes_of(results: xr.Dataset) -> list[Mode]:
-    """On the mounts, of the shell (with its frame), of gas, with the nominal values."""
+    """Return the modes on the mounts, of the shell (with its frame) and of gas, with nominal
+    values."""
     kept_in = {"mounts": ("natural_frequency", "mode"), "shell": ("shell_frequency", "shell_mode"),
                 "gas": ("gas_frequency", "gas_mode")}  # fmt: skip
     modes = [

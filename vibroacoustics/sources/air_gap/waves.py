@@ -145,7 +145,7 @@ def _none() -> dict[Port, ComplexArray]:
 
 
 def _pull(shaft: ScrollShaft, height_m: float) -> dict[Port, Array]:
-    """On the parts per force on the rotor along x and y, shape (component, 2)."""
+    """Pull on the parts per force on the rotor along x and y, shape (component, 2)."""
     share = shaft.rotor_height_m / shaft.main_bearing_height_m
     lower_m = height_m - shaft.rotor_height_m
     loads: dict[Port, Array] = {}

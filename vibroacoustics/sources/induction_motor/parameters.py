@@ -42,4 +42,4 @@ class CapacitorMotor(Parameters):
 
 class TurningRotor(Parameters):
     inertia_kg_m2: float = Field(gt=0.0, le=1e3)
-    """About the shaft's axis, of all that turns with it."""
+    """Inertia about the shaft's axis, of all that turns with it."""

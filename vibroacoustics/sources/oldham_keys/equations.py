@@ -54,7 +54,7 @@ class Drive(NamedTuple):
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def drive_at(time: float, c: Coupling) -> Drive:
-    """At a time from crank angle zero, s; the same for all motions at this time."""
+    """Return the drive at a time from crank angle zero, s; equal for all motions at this time."""
     angle = c.angular_speed * time
     force, moment = spline_value(c.ring_force, angle), spline_value(c.moment, angle)
     return Drive(np.sin(angle), np.cos(angle), force, moment)

@@ -24,9 +24,9 @@ REPEATED: Final = 1e-4
 """Change of forces from one revolution to the next, of the largest, below which they repeat; the
 one that follows is a fifth of it or less. A tenth of it changes no level by more than 0.003 dB."""
 SAMPLE_RATE_HZ: Final = 1e5
-"""At least; of an unloaded ring's 14 N rms at 3500 rpm 0.13 N rms lie above 32 kHz."""
+"""Least sample rate; of an unloaded ring's 14 N rms at 3500 rpm 0.13 N rms lie above 32 kHz."""
 MOST_STEPS: Final = 1000
-"""Between two samples; some seven are usual."""
+"""Most steps between two samples; some seven are usual."""
 STEP_RATIO: Final = 0.2
 """Step times the highest angular frequency of contact; a dry rebound is then right to 0.001 in the
 mean and to 0.01 whatever the phase of the steps."""

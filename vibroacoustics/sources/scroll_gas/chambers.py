@@ -23,7 +23,7 @@ def contacts_at_opening(wraps: ScrollWraps) -> tuple[float, float]:
 
 
 def pair_volume_m3(wraps: ScrollWraps, since_opening: Array) -> Array:
-    """Both pockets of an opened pair until they are one with the chamber, m³.
+    """Volume of both pockets of an opened pair until they are one with the chamber, m³.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ from .suction import SuctionFlow
 AFTER_OPENING: Final = np.pi / 3.0
 """How far the pressure of a pocket is shown beyond its opening, rad."""
 AFTER_CLOSING: Final = np.pi / 18.0
-"""From where a suction pocket is shown, rad: before, the gap's length exceeds its own."""
+"""Angle from which a suction pocket is shown, rad: before, the gap's length exceeds its own."""
 HIGHEST_HZ: Final = 4000.0
 """Highest frequency of plane waves in the chamber, roughly, and of what the radiation takes."""
 

@@ -22,7 +22,7 @@ STEPS: Final = 512
 ALMOST: Final = 1e-6
 """Share of a step."""
 FIRST_TURNS: Final = 4
-"""Beside gas at the discharge pressure, from which the opening's turns begin."""
+"""Turns beside gas at the discharge pressure, from which the opening's turns begin."""
 
 
 class PocketTurn(NamedTuple):
@@ -31,7 +31,7 @@ class PocketTurn(NamedTuple):
     opens_with: float
     """Mass of a pair at its opening, over that of one without leakage."""
     leak_kg_per_s: Array
-    """Out of the opened pair and the chamber that it becomes, over a turn."""
+    """Leakage out of the opened pair and the chamber that it becomes, over a turn."""
 
 
 class TightPockets:
@@ -46,7 +46,7 @@ class TightPockets:
         return self.first
 
     def trapped(self) -> TrappedGas | None:
-        """None where they close with gas at the suction pressure."""
+        """Return None where they close with gas at the suction pressure."""
         if not self._fills:
             return None
         angle = np.array([0.0, self._opens])

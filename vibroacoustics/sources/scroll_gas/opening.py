@@ -35,7 +35,8 @@ STEPS: Final = 2048
 """A turn at least; 200 000 change no pressure by more than 1e-5 of the discharge pressure, no flow
 by more than 5e-4 of its mean."""
 STEPS_PER_S: Final = 50_000.0
-"""At least, as the gas swings in its passages at some kHz, however slowly the shaft turns."""
+"""Least number of steps a second: the gas swings in its passages at some kHz, however slow the
+shaft."""
 MOST_TURNS: Final = 200
 REPEATED: Final = 1e-5
 """Change of the state over a turn, of its own size, below which it repeats."""

@@ -138,9 +138,9 @@ class ScrollLeakage(Parameters):
     """Gaps through which gas flows back from pocket to pocket, for the law `inertia`."""
 
     tip_gap_m: float = Field(ge=0.0, le=1e-3)
-    """Between the tip of a wrap and the plate of the other scroll."""
+    """Gap between the tip of a wrap and the plate of the other scroll."""
     flank_gap_m: float = Field(ge=0.0, le=1e-3)
-    """Between two flanks at their contact."""
+    """Gap between two flanks at their contact."""
     flow_ratio: float = Field(gt=0.0, le=1.0)
     """Share of the flow without losses through either gap."""
 

@@ -132,7 +132,8 @@ def _rotor_frame(phasors: Mapping[int, complex]) -> dict[int, complex]:
 
 
 def _space_vectors(phasors: Mapping[int, complex]) -> dict[int, complex]:
-    """By signed harmonic: those that turn backwards are conjugate, at minus their number."""
+    """Space vectors by signed harmonic: those that turn backwards are conjugate, at minus their
+    number."""
     return {
         k if k % 3 == 1 else -k: value if k % 3 == 1 else np.conj(value)
         for k, value in phasors.items()

@@ -34,7 +34,7 @@ class SynchronousMotor(Parameters):
     """Inductance of the quadrature axis over that of the direct one, which is the magnets': 1 with
     magnets on the rotor's surface, more with magnets in it."""
     current_advance_rad: float = Field(default=0.0, ge=-1.4, le=1.4)
-    """By which the fundamental of the current leads the voltage of the magnets."""
+    """Angle by which the fundamental of the current leads the voltage of the magnets."""
     cogging_torque_n_m: float = Field(ge=0.0, le=1e4)
     """Peak of its first order, without current."""
     cogging_second_ratio: float = RATIO
@@ -44,7 +44,7 @@ class SynchronousMotor(Parameters):
     modulation: Literal["sine", "space-vector"]
     """Reference that the triangular carrier is compared with."""
     dead_time_s: float = Field(ge=0.0, le=1e-3)
-    """In which both switches of a leg are off."""
+    """Time in which both switches of a leg are off."""
 
     @property
     def emf_ratios(self) -> dict[int, float]:

@@ -142,6 +142,6 @@ def _with_judgements(options: Schema) -> None:
 
 
 def _finished(title: str, schema: Schema) -> Schema:
-    """With title and draft in front, and what every value may carry."""
+    """Schema with title and draft in front, and what every value may carry."""
     definitions = {**schema["$defs"], "source": SOURCE, "range": RANGE}
     return {"$schema": DRAFT, "title": title, "type": "object", **schema, "$defs": definitions}

@@ -1,4 +1,4 @@
-"""From the schema of a model in SI to that of the file that fills it."""
+"""Schema of a file from the schema of the model, in SI, that it fills."""
 
 from typing import Any, Final
 

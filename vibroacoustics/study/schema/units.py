@@ -94,7 +94,7 @@ def _is_numeric(schema: Schema) -> bool:
 
 
 def _is_value(schema: Schema) -> bool:
-    """No table and no reference to one."""
+    """Whether it is no table and no reference to one."""
     if "anyOf" in schema:
         return all(map(_is_value, schema["anyOf"]))
     return "$ref" not in schema and schema.get("type", "object") != "object"

@@ -18,7 +18,7 @@ from ...base.constants import (
 from .radiation_efficiency import radiation_efficiency
 
 _SIDES: Final = 2.0
-"""With air in front of them, which takes energy and loads the plate."""
+"""Sides with air in front of them, which takes energy and loads the plate."""
 _NODES: Final = 48
 """Nodes of the rule over directions."""
 
@@ -139,7 +139,7 @@ def wave_power(plate: Plate, frequency_hz: Array, power_w: Array) -> Array:
 
 
 def _distances(position_m: Array) -> Array:
-    """Between feet in the plane of the plate, shape (foot, foot), m."""
+    """Distances between feet in the plane of the plate, shape (foot, foot), m."""
     plane = np.asarray(position_m)[:, :2]
     return np.asarray(np.linalg.norm(plane[:, None] - plane, axis=-1))
 

@@ -49,7 +49,8 @@ def radiation_efficiency(
 def _edges_and_corners(
     frequency: Array, coincidence_hz: float, length_m: float, width_m: float
 ) -> Array:
-    """Below coincidence: strips along the edges and, below half of it, corners."""
+    """Radiation efficiency below coincidence: strips along the edges and, below half of it,
+    corners."""
     c, area = SPEED_OF_SOUND_M_PER_S, length_m * width_m
     ratio = np.clip(np.sqrt(frequency / coincidence_hz), 1e-6, 1.0 - 1e-9)
     complement = 1.0 - ratio**2

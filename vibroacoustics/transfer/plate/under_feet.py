@@ -96,7 +96,7 @@ def _input_power(
     vertical: ComplexArray,
     frequency_hz: Array,
 ) -> Array:
-    """Into the plate; where the machine has a floor of its file or a measured one, into that.
+    """Power into the plate; where the machine has a floor of its file or a measured one, into that.
 
     The motion of one foot by another is known for a plate, for other floors it is not.
     """

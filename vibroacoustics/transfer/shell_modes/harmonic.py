@@ -102,7 +102,8 @@ class Harmonic:
         return np.sqrt(squares[elastic]) / (2.0 * np.pi), self.reduction @ shapes[:, elastic]
 
     def _lowest(self, limit: float) -> tuple[Array, Array]:
-        """At least all motions with squares of angular frequency up to a limit, rigid ones too."""
+        """Lowest motions, at least all with squares of angular frequency up to a limit, rigid ones
+        too."""
         stiffness, mass = self.free_matrices
         start = np.random.default_rng(0).standard_normal(self.kept.size)  # no symmetry
         count = _FIRST_MOTIONS

@@ -23,7 +23,7 @@ from .meridian import Meridian, closed_meridian
 MAXIMUM_ORDER: Final = 64
 """Most waves around the circumference that are looked for."""
 _FOUR_PLACES: Final = np.linspace(-1.0, 1.0, 4)
-"""Along an element; they fix a cubic."""
+"""Positions along an element; they fix a cubic."""
 
 
 class Around(NamedTuple):
@@ -176,7 +176,7 @@ class ElasticShell:
         ]
 
     def _ring_frequency_hz(self, order: int) -> float:
-        """In-plane bending of a free ring: Rayleigh, Theory of Sound (1894), § 233."""
+        """In-plane bending frequency of a free ring: Rayleigh, Theory of Sound (1894), § 233."""
         structure, n = self.structure, order
         speed = np.sqrt(structure.youngs_modulus_pa / structure.density_kg_per_m3)
         factor = n * (n**2 - 1.0) / np.sqrt(n**2 + 1.0)
