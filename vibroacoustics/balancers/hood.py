@@ -49,7 +49,7 @@ class Hood(Option):
         return InsertionLoss(np.array(self.band_hz), np.array(self.insertion_loss_db))
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What a loss by third octaves does not hold."""
+        """Name the effects that an insertion loss by third octaves neglects."""
         return (
             "A hood acts on airborne sound only, alike in all directions. Its insertion loss "
             "is 0 dB outside the given bands. Unmodelled noise is assumed evenly spread over them.",

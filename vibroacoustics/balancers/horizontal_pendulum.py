@@ -78,10 +78,10 @@ class HorizontalPendulum(Option):
         )
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What the arms would hit."""
+        """Say what the arms would hit."""
         return ("Arms in the horizontal plane meet no stops, and the ring is taken as guided.",)
 
     def sentences(self, figures: Figures) -> tuple[str, ...]:
-        """Where the arms settle."""
+        """Say where the arms settle."""
         where = rounding.span(abs(figures["settled_from_across_deg"]), rounding.fixed)
         return (f"The arms settle {where}° from across the stroke; stops are not modelled.",)

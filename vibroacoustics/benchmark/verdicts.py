@@ -9,7 +9,7 @@ from ..base.errors import StorageError
 
 
 class Scored(NamedTuple):
-    """What the scorer says of a submission.
+    """Verdict of the scorer on a submission.
 
     Attributes
     ----------

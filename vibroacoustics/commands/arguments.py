@@ -1,4 +1,4 @@
-"""What the command line's words mean, checked."""
+"""Arguments of the command line, checked."""
 
 from collections.abc import Sequence
 from typing import TypeVar

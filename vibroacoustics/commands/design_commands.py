@@ -141,7 +141,7 @@ def optimise_command(
 def _problem(
     study_file: Path, out: Path | None, plugin: list[Path] | None
 ) -> "tuple[Problem, Path]":
-    """What the study asks, and the folder of its results, which can be written."""
+    """Return the problem of the study, and the folder of its results, which can be written."""
     from ..design.problem import Problem
     from ..design.store.chunks import PLAN_NAME
     from ..study import loading

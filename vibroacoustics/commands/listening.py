@@ -26,7 +26,7 @@ UNITS: Final = {"t": "Pa/(m/s²)", "r": "Pa/(rad/s²)"}
 
 
 class _Sound(NamedTuple):
-    """What a file holds."""
+    """Sound of a file."""
 
     name: str
     pressure_pa: Array

@@ -66,7 +66,7 @@ SCHEMA: Final[dict[str, Any]] = {
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a command gives: words for the terminal, files, and data for other programs.
+    """Outcome of a command: words for the terminal, files, and data for other programs.
 
     Attributes
     ----------

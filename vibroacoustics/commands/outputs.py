@@ -1,4 +1,4 @@
-"""What a run leaves on disk: the dataset, the report, its tables and figures."""
+"""Files of a run on disk: the dataset, the report, its tables and figures."""
 
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -62,7 +62,7 @@ REPORT_FILES: Final = (
     "figures/*.png",
     "figures/*.svg",
 )
-"""What a report may consist of."""
+"""Files of a report."""
 RUN_FILES: Final = (manifest.MANIFEST_NAME, RESULTS_NAME, *REPORT_FILES)
 
 
@@ -276,7 +276,7 @@ def write_analysis(
 
 
 class Target(NamedTuple):
-    """Where the results of a command go: their folder, and what makes a PDF of the page."""
+    """Target of the results of a command: their folder, and what makes a PDF of the page."""
 
     folder: Path
     printer: Printer | None

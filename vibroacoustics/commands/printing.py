@@ -84,7 +84,7 @@ class Printer(NamedTuple):
 
 
 def printer(wanted: bool, paper: str | None, brief: bool = False) -> Printer | None:
-    """What prints, sought before anything is computed or written; None where no PDF is wanted.
+    """Find a printer before anything is computed or written; None where no PDF is wanted.
 
     Raises
     ------

@@ -56,7 +56,7 @@ PRIOR_NAMES: Final = ("flat", "near")
 
 
 ALL_ALIKE: Final = Prior("even", "of none, as no level is published", np.ones_like)
-"""Where no published datum weighs samples."""
+"""Prior where no published datum weights samples."""
 
 
 def priors_of(noise: UnmodelledNoise) -> tuple[Prior, ...]:

@@ -51,7 +51,7 @@ class Changed:
 
 
 def points_of(study: Study, axes: LevelAxes) -> dict[PointKey, MeasuredPoint]:
-    """What was measured at the microphones and speeds of a study; nothing without a baseline."""
+    """Return measurements at the microphones and speeds of a study; nothing without a baseline."""
     if study.baseline is None:
         return {}
     return measured_points(study.baseline, axes.receivers, axes.speeds)

@@ -24,7 +24,7 @@ A_FIRST: Final = tuple(sorted(WEIGHTINGS, key=lambda name: name != "A"))
 
 
 class Measured(NamedTuple):
-    """What a baseline has: third octaves, and orders that count apart from them."""
+    """Third octaves of a baseline, and orders that count apart from them."""
 
     bands: Sequence[Band]
     orders: Sequence[float]

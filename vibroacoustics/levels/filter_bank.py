@@ -113,7 +113,7 @@ def filtered_energy(
 
 
 def band_signal(signal: Array, sample_rate_hz: float, band: Band) -> Array:
-    """What a band's filter lets through of a signal, from rest.
+    """Return the signal behind a band's filter, from rest.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ ROUNDED: Final = 1.01
 
 @dataclass(frozen=True)
 class RoomWays:
-    """How sound comes to the listeners, and how the machine's power follows from positions.
+    """Paths of sound to the listeners, and the machine's power from positions.
 
     Attributes
     ----------

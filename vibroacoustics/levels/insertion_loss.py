@@ -1,4 +1,4 @@
-"""What options leave of the airborne sound: insertion losses by option."""
+"""Insertion losses of options for airborne sound."""
 
 from collections.abc import Mapping
 

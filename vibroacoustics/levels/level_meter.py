@@ -33,7 +33,7 @@ _TICK_S: Final = 0.01
 
 @dataclass(frozen=True)
 class MeterPlan:
-    """How a recording of a length is measured; the same for all its channels.
+    """Plan of the measurement of a recording of a length; the same for all its channels.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a baseline says at the speeds of a study, between those that were measured."""
+"""Values of a baseline at the speeds of a study, between those that were measured."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ _EDGES: Final[Array] = np.array([[band.lower_hz, band.upper_hz] for band in BASE
 
 @dataclass(frozen=True)
 class MeasuredPoint:
-    """What was measured at a microphone, at a speed of the study.
+    """Measurement at a microphone, at a speed of the study.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ PointKey = tuple[str, float]
 def measured_points(
     baseline: Baseline, receivers: Iterable[str], speeds: Sequence[float]
 ) -> dict[PointKey, MeasuredPoint]:
-    """What was measured at each microphone and speed that the baseline covers.
+    """Return the measurement at each microphone and speed that the baseline covers.
 
     Parameters
     ----------

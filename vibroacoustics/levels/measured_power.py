@@ -84,7 +84,7 @@ class MeasuredPower:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """What a grade of ISO 3744 or ISO 3746 needs and was not measured."""
+        """Quantities that a grade of ISO 3744 or ISO 3746 needs and that were not measured."""
         background = ("background",) if np.isnan(self.margin_dba) else ()
         return background if self.has_environment else (*background, "K2")
 

@@ -1,4 +1,4 @@
-"""What the sources leave unexplained of the machine's published level, by speed and option."""
+"""Unmodelled noise: the machine's published level less the sources, by speed and option."""
 
 from collections.abc import Mapping, Sequence
 from typing import Final

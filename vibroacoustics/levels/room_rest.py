@@ -1,4 +1,4 @@
-"""What of the machine's sound no source explains, as a power by third octave for a room."""
+"""Unmodelled noise of the machine as a power by third octave for a room."""
 
 import numpy as np
 import xarray as xr

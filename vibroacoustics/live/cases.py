@@ -71,7 +71,7 @@ def _moving_case(numbers: Numbers, lines: Lines, moving: Moving, speed: int) -> 
 
 
 def _left(lines: Lines, none: int) -> ComplexArray:
-    """What the model without an option leaves of measured orders, (receiver, line), Pa.
+    """Measured orders less the model without an option, (receiver, line), Pa.
 
     A difference of peaks where the phase is known, else of energies, as `changed_orders` has it.
     """

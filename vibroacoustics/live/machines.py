@@ -19,7 +19,7 @@ from ..transfer import MachineOnMounts, on_mounts
 
 @dataclass(frozen=True)
 class Machines:
-    """What the options of a run make of its machine.
+    """Machines with the options of a run.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class Machines:
         return self.different.index(on_mounts(self.machine[option]))
 
     def amplitude_factor(self, option: str, frequency_hz: Array) -> Array:
-        """What the option's insertion loss leaves of a pressure at each frequency."""
+        """Return the factor of the option's insertion loss on a pressure at each frequency."""
         loss = self.option[option].insertion_loss()
         return np.ones_like(frequency_hz) if loss is None else loss.amplitude_factor(frequency_hz)
 

@@ -89,7 +89,7 @@ class Moving:
 
 
 def moving_of(results: xr.Dataset) -> Moving | None:
-    """What can move; none where the page's model is not that of the run."""
+    """Return what can move; none where the page's model is not that of the run."""
     measured = (parameters(results).get("measured") or {}).get("sound")
     if measured or "distance" not in results["transfer_vector"].coords:
         return None

@@ -1,4 +1,4 @@
-"""What turns loads of the moving parts into sound, as the results hold it."""
+"""Transmission of loads of the moving parts to sound, as the results hold it."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -85,7 +85,7 @@ def transmission_of(results: xr.Dataset, machines: Machines) -> Transmission:
 
 
 def beside(all_together: ComplexArray, part: ComplexArray) -> ComplexArray:
-    """What there is beside a part of it, zero where it is rounding."""
+    """Return the difference of a sum and a part of it, zero where it is rounding."""
     others = all_together - part
     return np.where(np.abs(others) > SAME * np.abs(all_together), others, 0.0)
 

@@ -1,4 +1,4 @@
-"""How well a rotor is balanced."""
+"""Balance quality of a rotor."""
 
 from math import pi
 

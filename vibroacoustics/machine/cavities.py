@@ -45,7 +45,7 @@ class DischargeDome(Parameters):
             )
 
     def why_not_in(self, shell: Shell) -> str | None:
-        """Why a shell cannot have it; None where it can."""
+        """Say why a shell cannot have it; None where it can."""
         size = shell.cylinder
         wall = size.height_m - 2.0 * size.dome_height_m
         if self.depth_m >= wall:
@@ -87,7 +87,7 @@ class SuctionAnnulus(Parameters):
             )
 
     def why_not_in(self, shell: Shell) -> str | None:
-        """Why a shell cannot have it; None where it can."""
+        """Say why a shell cannot have it; None where it can."""
         size = shell.cylinder
         bottom = size.dome_height_m - shell.centre_of_mass_height_m
         top = size.height_m - size.dome_height_m - shell.centre_of_mass_height_m

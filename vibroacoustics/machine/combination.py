@@ -139,7 +139,7 @@ def together(names: Sequence[str], each: Sequence[Added]) -> Added:
 
 
 def _why_not(first: Added, other: Added) -> str | None:
-    """Why two options exclude each other; None where they do not."""
+    """Say why two options exclude each other; None where they do not."""
     if first.rings and other.rings:
         return "both add a second Oldham ring; join one of them only"
     if first.on_ring is not None and other.on_ring is not None and not _alike(first, other):

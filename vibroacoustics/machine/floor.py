@@ -94,7 +94,7 @@ class FloorMobility(FileTable):
         return {"foot": foot, **{name: tuple(each.tolist()) for name, each in values.items()}}
 
     def why_not_under(self, feet: Sequence[str]) -> str | None:
-        """Why the file does not fit the feet of a machine; none where it does."""
+        """Say why the file does not fit the feet of a machine; none where it does."""
         if not any(self.foot):
             return None
         without = [foot for foot in feet if foot not in self.foot]

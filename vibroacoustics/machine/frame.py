@@ -90,7 +90,7 @@ class Frame(Parameters):
     """Bodies, bolts, faces, bearings and contacts; the shaft is a table of its own."""
 
     keys_on: Literal["fixed-scroll", "bearing-housing"]
-    """Which part has the slots that stand."""
+    """Part with the fixed slots."""
     radially_compliant: bool
     """The drive lets the flanks close: their contact takes the radial gas force."""
     axially_compliant: bool

@@ -39,7 +39,7 @@ class Option(KindOfParameters):
     """
 
     needs: ClassVar[type[Capability] | None] = None
-    """What a machine must have for it."""
+    """Tables that a machine must have for it."""
     changes_machine: ClassVar[bool] = False
     """Whether its table `change` gives values of the machine, filled in as the field `machine`."""
     to_be_built: ClassVar[bool] = True
@@ -73,7 +73,8 @@ class Option(KindOfParameters):
         return changed.carrying(self.attached(changed))
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
-        """What the option adds, among it the figure `added_mass_kg`; nothing where not overridden.
+        """Return what the option adds, with the figure `added_mass_kg`; nothing where not
+        overridden.
 
         Parameters
         ----------
@@ -88,7 +89,7 @@ class Option(KindOfParameters):
         return Added(figures={"added_mass_kg": 0.0})
 
     def insertion_loss(self) -> InsertionLoss | None:
-        """What it takes off the airborne sound; none where nothing."""
+        """Return the insertion loss for airborne sound; none where there is none."""
         return None
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
@@ -96,7 +97,7 @@ class Option(KindOfParameters):
         return ()
 
     def sentences(self, figures: Figures) -> tuple[str, ...]:
-        """What its reported figures mean, for the report."""
+        """Explain its reported figures, for the report."""
         return ()
 
 

@@ -1,4 +1,4 @@
-"""What no source explains of a machine's sound: how it goes with speed and frequency."""
+"""Unmodelled noise of a machine: its growth with speed and its spectrum."""
 
 from math import inf
 from typing import Annotated, Final

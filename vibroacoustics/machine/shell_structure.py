@@ -64,7 +64,7 @@ class ShellStructure(Parameters):
 
 
 class ShellVariation(Parameters):
-    """How the real shell may differ from the empty closed cylinder of the model."""
+    """Differences of the real shell from the empty closed cylinder of the model."""
 
     mobility_change_db: float = Field(ge=-40.0, le=40.0)
     """Added to the level of every path through the shell."""

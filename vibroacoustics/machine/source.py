@@ -84,7 +84,7 @@ CaseKey = tuple[float, str]
 
 
 class Source(KindOfParameters):
-    """Who drives the machine: what a study's table says of it, its loads and its words.
+    """Source of vibration and sound: its table in a study, its loads and its words.
 
     A further one is one folder of `sources`, or a file of a third party, whose class is registered.
 
@@ -105,7 +105,7 @@ class Source(KindOfParameters):
     tables: ClassVar[Mapping[str, type[Parameters]]] = {}
     """Tables of the machine that it reads."""
     needs: ClassVar[type[Capability] | None] = None
-    """What a machine must have for it beside the tables."""
+    """Capabilities that a machine must have for it beside the tables."""
     drives_shell: ClassVar[bool] = False
     """Whether it loads parts in an elastic shell."""
     label: ClassVar[str] = ""
@@ -115,7 +115,7 @@ class Source(KindOfParameters):
 
     @classmethod
     def why_not(cls, machine: Machine) -> str | None:
-        """Why a machine cannot have this source; None where it can."""
+        """Say why a machine cannot have this source; None where it can."""
         if cls.needs is not None and machine.capability(cls.needs) is None:
             return f"needs {cls.needs.words}; the machine is {machine.kind}"
         for name, table in cls.tables_read(machine).items():
@@ -129,7 +129,7 @@ class Source(KindOfParameters):
         return cls.tables
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
-        """What the source does in one case.
+        """Return the loads of the source in one case.
 
         Parameters
         ----------
@@ -161,7 +161,7 @@ class Source(KindOfParameters):
         return None
 
     def curves(self, case: Case) -> Iterable[Curve]:
-        """What goes on inside the source in one case.
+        """Yield inner curves of the source in one case.
 
         Parameters
         ----------

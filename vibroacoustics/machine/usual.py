@@ -1,4 +1,4 @@
-"""Which values are usual for a machine: outside, a decimal point or a unit may be wrong."""
+"""Usual values of a machine: outside, a decimal point or a unit may be wrong."""
 
 import re
 import tomllib
@@ -45,7 +45,7 @@ class Usual:
 
 @dataclass(frozen=True)
 class Scale:
-    """What sizes of parts are compared with.
+    """Scale for sizes of parts.
 
     Attributes
     ----------
@@ -120,7 +120,8 @@ def of_mounts(table: str, mass_kg: float, number: int) -> Iterator[Usual]:
 
 
 def doubt_of_forces(mass_kg: float, force_n: float, speed_rad_per_s: float) -> str:
-    """What is doubtful in a force at order 1: how far it moves the machine; empty where nothing.
+    """Say what is doubtful in a force at order 1, from the motion of the machine; empty where
+    nothing.
 
     Parameters
     ----------
@@ -140,7 +141,7 @@ def doubt_of_forces(mass_kg: float, force_n: float, speed_rad_per_s: float) -> s
 def doubt_of_mass(
     table: str, force_n: float, mass_kg: float, radius_m: float, speed_rpm: float
 ) -> str:
-    """What is doubtful in a moving mass beside a table of forces; empty where nothing.
+    """Say what is doubtful in a moving mass beside a table of forces; empty where nothing.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ from .settings import Measured, Point
 
 @dataclass(frozen=True)
 class Bench:
-    """What was measured, each function once, and which of them is where.
+    """Measurements, each function once, and which of them is where.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a file for `blocked-forces` may say."""
+"""Settings of a file for `blocked-forces`."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -27,7 +27,8 @@ class Position(Parameters):
 
 
 class Interface(Parameters):
-    """Where a source hands its forces on, and what they are inverted from and validated at."""
+    """Interface at which a source hands its forces on, and the nodes of inversion and
+    validation."""
 
     points: tuple[str, ...] = Field(min_length=1)
     responses: tuple[str, ...] = Field(min_length=1)
@@ -54,7 +55,7 @@ class BlockedForces(Parameters):
         return self
 
     def _problems(self) -> Iterator[str]:
-        """What names something that is not there or does not fit, or nothing."""
+        """Yield names that do not exist or do not fit, or nothing."""
         interface, measured = self.blocked_forces, self.measured
         in_both_tables = set(measured.points) & set(measured.microphones)
         if in_both_tables:

@@ -49,7 +49,7 @@ def force_variables(
 def inversion_variables(
     condition: Array, truncation: float, errors: Array, frequency_hz: Array
 ) -> Variables:
-    """How well the inversion is conditioned, and what its truncation was chosen by."""
+    """Return the condition of the inversion, and the errors that its truncation was chosen by."""
     tried = {"tried_truncation": list(TRIED)}
     return {
         "condition_number": stamp("condition_number", condition, {"frequency": frequency_hz}),

@@ -12,7 +12,7 @@ from .settings import Change, Prediction
 
 @dataclass(frozen=True)
 class Elements:
-    """What a change puts between points.
+    """Elements of a change between points.
 
     Attributes
     ----------

@@ -35,7 +35,7 @@ class Measurement:
 
 @dataclass(frozen=True)
 class InSitu:
-    """What was measured, each function once, and which of them is where.
+    """Measurements, each function once, and which of them is where.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Where the microphones of a sound power measurement stand."""
+"""Measurement surface of a sound power measurement: positions of its microphones."""
 
 from dataclasses import dataclass
 

@@ -49,7 +49,7 @@ class OrderRatio:
 
 @dataclass(frozen=True)
 class OptionRatios:
-    """What an option changes in a response.
+    """Ratios of responses with an option to those without it.
 
     Attributes
     ----------
@@ -198,7 +198,7 @@ def _square(results: xr.Dataset, name: str, option: str) -> Array:
 
 
 def _reason(order: float, before: ComplexArray, after: ComplexArray) -> str:
-    """Why a line that the option changes stays as it is; empty where it can be changed."""
+    """Say why a line that the option changes stays as it is; empty where it can be changed."""
     if not order > 0.0:
         return "no shaft order"
     if np.any(before == 0.0):

@@ -1,4 +1,4 @@
-"""What is computed from a recording: orders and levels, tracked orders, a map over the speed."""
+"""Results of a recording: orders and levels, tracked orders, a map over the speed."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -173,7 +173,7 @@ def _at_once(
     what: str,
     compute: Callable[[xr.DataArray, float, CrankMotion], xr.Dataset],
 ) -> xr.Dataset:
-    """What is computed from all channels but those of the speed, with where it comes from."""
+    """Results of all channels but those of the speed, with their provenance."""
     with provenance.naming(recording.attrs):
         of_shaft = recorded_speed(LabelledBlocks(recording), speed)
         signal = channels_without_speed(recording["signal"], speed)

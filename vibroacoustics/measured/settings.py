@@ -1,4 +1,4 @@
-"""What a file for `predict` may say."""
+"""Settings of a file for `predict`."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -42,7 +42,7 @@ class Measured(Parameters):
 
 
 class NewMount(Parameters):
-    """What takes the place of a mount; of stiffness zero where it is removed."""
+    """Mount in place of another; of stiffness zero where it is removed."""
 
     stiffness_n_per_m: float | None = Field(default=None, ge=0.0, le=1e12)
     loss_factor_ratio: float = Field(default=0.0, ge=0.0, le=2.0)
@@ -118,7 +118,7 @@ class Prediction(Parameters):
         return self
 
     def _problems(self) -> Iterator[str]:
-        """What names something that is not there, or nothing."""
+        """Yield names that do not exist, or nothing."""
         points = self.measured.points
         named: list[tuple[str, tuple[str, ...]]] = [
             (f"mounts.{name}.ends", mount.ends) for name, mount in self.mounts.items()

@@ -1,4 +1,4 @@
-"""What a balancing option adds to a machine."""
+"""Additions of a balancing option to a machine."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -65,7 +65,7 @@ class FurtherRing:
 
 @dataclass(frozen=True)
 class Added:
-    """What an option adds at one speed.
+    """Additions of an option at one speed.
 
     Attributes
     ----------

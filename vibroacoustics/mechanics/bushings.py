@@ -154,7 +154,7 @@ class Bushing(_ByContent):
             )
 
     def added_stiffness(self, frequency_hz: Array | float) -> ComplexArray:
-        """What stiffness over frequency adds to the constant one, shape (..., 3), N/m.
+        """Return what stiffness over frequency adds to the constant one, shape (..., 3), N/m.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What a machine has that an option can work on: its shaft's axes, a slider, an Oldham ring."""
+"""Capabilities of a machine for options: its shaft's axes, a slider, an Oldham ring."""
 
 from dataclasses import dataclass
 from typing import ClassVar, Final, NamedTuple
@@ -81,7 +81,7 @@ class Capability:
     """
 
     words: ClassVar[str]
-    """What it is, as a refusal names it."""
+    """Words for it in a refusal."""
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class Slider(Capability):
     height_m: float
     """Height of the plane in which it slides, along the shaft from the frame's origin."""
     planes: BalancePlanes
-    """Where weights can sit on the shaft; heights along the shaft from the frame's origin."""
+    """Planes for weights on the shaft; heights along the shaft from the frame's origin."""
     frame: CrankFrame
 
 

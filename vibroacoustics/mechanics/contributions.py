@@ -64,7 +64,7 @@ class Contributions:
     by_motion: ComplexArray
 
     def behind(self, loss: InsertionLoss | None) -> "Contributions":
-        """What an insertion loss leaves of it."""
+        """Return the contributions behind an insertion loss."""
         if loss is None:
             return self
         factors = [loss.power_factor(noise.frequency_hz) for noise in self.noise]

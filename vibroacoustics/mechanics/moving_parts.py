@@ -168,7 +168,7 @@ def wrench(parts: Sequence[MovingPart], rotation: Rotation) -> Wrench:
 
 
 def wrenches_of_parts(parts: Sequence[MovingPart], rotation: Rotation) -> dict[str, Wrench]:
-    """What moving parts do to the housing, by source in the order of the parts.
+    """Return the wrenches of moving parts on the housing, by source in the order of the parts.
 
     Parameters
     ----------

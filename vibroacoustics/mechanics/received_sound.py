@@ -40,7 +40,7 @@ class ReceivedSound:
     noise: tuple[NoisePower, ...]
 
     def behind(self, loss: InsertionLoss | None) -> "ReceivedSound":
-        """What an insertion loss leaves of it."""
+        """Return the sound behind an insertion loss."""
         if loss is None:
             return self
         noise = [

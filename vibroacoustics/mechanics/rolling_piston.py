@@ -1,4 +1,4 @@
-"""What a rolling piston does inside its shell, as sources ask for it."""
+"""Time histories of a rolling piston for sources."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -31,7 +31,7 @@ _PIECE: Final = 2**18
 
 @dataclass(frozen=True)
 class AngularPlan:
-    """How a recording of a length becomes samples over the crank angle.
+    """Plan of the conversion of a recording of a length to samples over the crank angle.
 
     Attributes
     ----------

@@ -27,7 +27,7 @@ STEADY_RATIO: Final = 0.02
 
 @dataclass(frozen=True)
 class OrdersOfBlocks:
-    """What is found in the blocks of a recording.
+    """Orders in the blocks of a recording.
 
     Attributes
     ----------

@@ -35,7 +35,7 @@ _TOLERANCE: Final = 1.5e-3
 _TOLERANCE_LINES: Final = 0.35
 """Tolerance in lines of a block."""
 _BETWEEN: Final = np.array([1.0, 1.5, 2.0]) / 3.0
-"""Where no line should be; see `speed_comb`."""
+"""Orders at which no line should be; see `speed_comb`."""
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,7 @@ class PulseFault:
 
     kind: Literal["missing", "double"]
     time_s: float
-    """When it came, or should have come."""
+    """Time at which it came, or should have come."""
 
 
 @dataclass(frozen=True)

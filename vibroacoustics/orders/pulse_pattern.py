@@ -1,4 +1,4 @@
-"""What tacho pulses say of their wheel: teeth left out, unequal pitches, too few samples."""
+"""Pattern of tacho pulses: missing teeth, unequal pitches, too few samples."""
 
 from typing import Final
 

@@ -11,7 +11,7 @@ from ..base.errors import ParameterError
 LARGEST_GAP: Final = 0.05
 """Distance of neighbouring speeds between which a ratio is interpolated, over the lower speed."""
 _BEYOND: Final = 0.005
-"""How far beyond the lowest and highest speed a ratio is constant, over the speed."""
+"""Share beyond the lowest and highest speed to which a ratio is constant."""
 
 
 def ratio_over_speed(speed_rpm: Array, ratio: ComplexArray, wanted_rpm: Array) -> ComplexArray:

@@ -119,7 +119,8 @@ def synchronous_average(channel: xr.DataArray, revolutions: RevolutionAverage) -
 
 
 def fault_times(faults: Sequence[PulseFault]) -> xr.Dataset:
-    """When pulses of the tacho were missing or double; empty without faults."""
+    """Return the times at which pulses of the tacho were missing or double; empty without
+    faults."""
     if not faults:
         return xr.Dataset()
     names = [f"{number} {fault.kind}" for number, fault in enumerate(faults, 1)]

@@ -65,7 +65,7 @@ class RecordedSpeed:
 
     motion: CrankMotion
     source: str
-    """Where the speed comes from, in words."""
+    """Source of the speed, in words."""
     angle_zero: str = NO_ANGLE_ZERO
     """The mark on the shaft at which the crank angle is zero."""
     faults: tuple[PulseFault, ...] = ()
@@ -73,7 +73,7 @@ class RecordedSpeed:
     """`jitter` of a tacho in periods, or `confidence` without one."""
 
     def attributes(self) -> dict[str, Any]:
-        """What the results say of the speed."""
+        """Return attributes of the results on the speed."""
         return {
             "speed_source": self.source,
             "angle_zero": self.angle_zero,

@@ -46,7 +46,7 @@ _LOST: Final = 8.0
 
 @dataclass(frozen=True)
 class SpeedCheck:
-    """How sure a speed is, from the order spectrum that it makes.
+    """Certainty of a speed, from the order spectrum that it makes.
 
     Attributes
     ----------

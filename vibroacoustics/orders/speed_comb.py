@@ -1,4 +1,4 @@
-"""How well the orders of a shaft explain short spectra, over candidates of its speed."""
+"""Likelihood of the orders of a shaft in short spectra, over candidates of its speed."""
 
 from typing import Final
 
@@ -13,7 +13,7 @@ from ..base.arrays import Array
 _NOISE_LEVEL: Final = 0.5963473623231941
 """Mean of ln(1 + p) for the power p of white noise, exponentially distributed: e E1(1)."""
 _BETWEEN: Final = np.array([1.0, 1.5, 2.0]) / 3.0
-"""Where the comb looks between two teeth. Twice the shaft's speed leaves lines at a half, three
+"""Orders of the comb between two teeth. Twice the shaft's speed leaves lines at a half, three
 times at a third and two thirds: without them these speeds would explain rich spectra as well."""
 _DYNAMIC_RANGE: Final = 1e-12
 """Least floor over the strongest line: 120 dB, more than a 24-bit converter has."""

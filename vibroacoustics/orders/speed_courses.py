@@ -50,7 +50,7 @@ class Course:
 
 @dataclass(frozen=True)
 class Search:
-    """What is looked for, and where.
+    """Settings of the search for a speed.
 
     Attributes
     ----------

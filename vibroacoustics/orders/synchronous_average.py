@@ -1,4 +1,4 @@
-"""What repeats with the shaft: its average over the revolutions."""
+"""Synchronous average of a signal over the revolutions of the shaft."""
 
 from dataclasses import dataclass
 

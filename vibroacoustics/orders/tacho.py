@@ -27,7 +27,7 @@ class TachoResult:
     jitter: float
     """Standard deviation of the pulses about the motion, in pulse periods."""
     notes: tuple[str, ...] = ()
-    """What the pulses say of the wheel: teeth left out, unequal pitches, much jitter."""
+    """Notes on the wheel from its pulses: missing teeth, unequal pitches, much jitter."""
 
 
 def tacho_motion(

@@ -19,7 +19,7 @@ Vectors = dict[str, Array | ComplexArray]
 
 
 def solver(task: Task) -> str:
-    """What computes, in words."""
+    """Name the solver in words."""
     room = f"k-wave-python {kwave_version()}" if task.kwave else closed_form(task.settings)
     return f"{machine_side(task.settings)}, {room}"
 

@@ -100,7 +100,7 @@ class ByCutCells:
         return vectors, [radiated.pressure for radiated in others]
 
     def attributes(self) -> dict[str, Any]:
-        """What the result says about its solution."""
+        """Return attributes of the result on its solution."""
         grid = self.near[0].grid
         return {
             "solver": solver(self._task),

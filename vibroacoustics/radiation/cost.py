@@ -1,4 +1,4 @@
-"""What a computation of the radiation will take: memory counted, time measured in small parts."""
+"""Cost of a computation of the radiation: memory counted, time measured in small parts."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -33,7 +33,7 @@ _PASSAGES: Final = (10, 60)
 
 
 class Cost(NamedTuple):
-    """What work will take.
+    """Cost of work.
 
     Attributes
     ----------

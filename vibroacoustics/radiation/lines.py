@@ -1,4 +1,4 @@
-"""Where straight lines through a body run inside it: the basis of the cut cells."""
+"""Parts of straight lines within a body: the basis of the cut cells."""
 
 from typing import Any, Final
 

@@ -94,9 +94,10 @@ class MachineSide:
         self._fluxes = in_threads([partial(grid.wall_fluxes, moving) for grid in near])
         finer, coarser = (list(map(self._nothing, microphones)) for _ in near)
         self.closed = [Radiated(*pair) for pair in zip(finer, coarser, strict=True)]
-        """What each of the microphones gets with Green's functions in closed form."""
+        """Pressure at each of the microphones with Green's functions in closed form."""
         self.in_room = self._nothing(room.microphones) if room else None
-        """What the microphones of the room get on the finer grid, (point, pattern, frequency)."""
+        """Pressure at the microphones of the room on the finer grid, (point, pattern,
+        frequency)."""
         for batch in self._batches():
             self._radiate(batch)
 

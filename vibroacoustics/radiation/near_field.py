@@ -75,7 +75,7 @@ class NearField:
 
     @cached_property
     def recording(self) -> Recording:
-        """What the upper half of the mirrored axes records of the box."""
+        """Recording of the box in the upper half of the mirrored axes."""
         return recording(self.grid, self.box)
 
     def field_bytes(self, frequencies: int, parts: int) -> float:
@@ -97,7 +97,7 @@ class NearField:
         return cut_cells(self._body, self.grid)
 
     def wall_fluxes(self, patterns: Sequence[Pattern]) -> Array:
-        """What each pattern pushes into the wall cells, (pattern, wall); see `wall_flux.py`.
+        """Return the flux of each pattern into the wall cells, (pattern, wall); see `wall_flux.py`.
 
         The surface's points that stand on a wall of the room move nothing.
         """

@@ -66,7 +66,7 @@ class NearGrid:
 
     @cached_property
     def upper_half(self) -> "NearGrid":
-        """What lies above the middle planes of the mirrored axes; these count as walls."""
+        """Grid above the middle planes of the mirrored axes; these count as walls."""
         edges, start, stop = list(self.edges), list(self.box_start), list(self.box_stop)
         for axis in self.mirrored:
             middle = self.shape[axis] // 2

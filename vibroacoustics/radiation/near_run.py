@@ -51,7 +51,7 @@ class Watch:
 
 @dataclass(frozen=True)
 class Run:
-    """What a run takes besides the grid's geometry."""
+    """Inputs of a run besides the grid's geometry."""
 
     name: str
     """Name of the pattern, for progress and errors."""

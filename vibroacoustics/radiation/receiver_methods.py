@@ -13,7 +13,7 @@ _HIGH: Final = "above, the grid of k-Wave would be too large"
 
 
 class ReceiverMethod(NamedTuple):
-    """What computes the sound pressure at a microphone.
+    """Method of the sound pressure at a microphone.
 
     Attributes
     ----------

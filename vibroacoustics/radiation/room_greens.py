@@ -70,7 +70,7 @@ def _positions(task: Task) -> dict[str, Array]:
 
 
 def _workers(box: Box, task: Task) -> int:
-    """How many k-Wave runs the processors and the memory of what they run on carry at a time."""
+    """Number of k-Wave runs that processors and memory allow at a time."""
     spacing_m, walls = room_spacing_m(box, task), task.scene.walls
     largest = max(
         memory_bytes(

@@ -37,7 +37,7 @@ _LARGEST_PATTERN_FILE_BYTES: Final = 100 * 2**20
 
 @dataclass(frozen=True)
 class Scene:
-    """What radiates and scatters on the machine side, about the machine's centre of mass."""
+    """Radiating and scattering bodies on the machine side, about the machine's centre of mass."""
 
     machine: Body
     """The moving surface."""
@@ -45,7 +45,7 @@ class Scene:
     """Those of a cabinet, which stand still."""
     walls: tuple[Mirror, ...]
     outdoors: Outdoors | None = None
-    """What takes the place of the hard floor on the way to the microphones."""
+    """Surroundings in place of the hard floor on the path to the microphones."""
 
     @property
     def upright_walls(self) -> tuple[Mirror, ...]:

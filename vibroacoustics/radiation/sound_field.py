@@ -31,7 +31,7 @@ Clear = Callable[[Array], NDArray[np.bool_]]
 
 @dataclass(frozen=True)
 class SoundField:
-    """Where the sound field is asked for besides the microphones; nothing by default."""
+    """Points of the sound field besides the microphones; nothing by default."""
 
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
@@ -41,7 +41,7 @@ class SoundField:
 
     @classmethod
     def of_study(cls, study: Study) -> "SoundField":
-        """What a study asks for; map and directivity at the first order of its speeds."""
+        """Return the points of a study; map and directivity at the first order of its speeds."""
         has_map = study.map is not None or study.directivity is not None
         lines = tuple(map(shaft_frequency_hz, study.operation.speed_rpm)) if has_map else ()
         return cls(study.sound_power, study.map, study.directivity, lines)
@@ -78,7 +78,7 @@ class FieldPart:
 
     @property
     def microphones(self) -> Microphones:
-        """What is asked of the method of radiation."""
+        """Points that the method of radiation computes."""
         return Microphones(
             self.points.reshape(-1, 3)[self.clear], self.frequencies, len(RIGID_BODY_DOFS)
         )

@@ -1,4 +1,4 @@
-"""What a method of radiation is given, and what it is asked for."""
+"""Task of a method of radiation: its inputs and its microphones."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -27,7 +27,7 @@ class Microphones:
     """(point, 3), m."""
     frequencies: slice = field(default_factory=lambda: slice(None))
     patterns: int | None = None
-    """How many of them, from the first on; None: all."""
+    """Number of them, from the first on; None: all."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Task:
 
     @property
     def table(self) -> slice:
-        """Where the frequencies of the table are."""
+        """Frequencies of the table among all."""
         return slice(0, self.tabulated)
 
     @property
@@ -63,7 +63,7 @@ class Task:
 
     @property
     def kwave_rows(self) -> list[int]:
-        """Which of the microphones k-Wave computes."""
+        """Microphones that k-Wave computes."""
         return [row for row, name in enumerate(self.positions) if name in self.kwave]
 
     @property

@@ -55,7 +55,7 @@ def check_walls(body: Body, grid: NearGrid, spacing_m: float) -> None:
 
 
 def solid_parts(body: Body, grid: NearGrid) -> tuple[Solid, IndexArray, int]:
-    """Which parts of the cells around a body hold some of it.
+    """Return the parts of the cells around a body that hold some of it.
 
     With the first of these cells and the number of parts along each axis of a cell.
 

@@ -101,7 +101,7 @@ def task_of(
     motions: Sequence[SurfaceMotion] = (),
     kwave_receivers: Collection[str] | None = None,
 ) -> Task:
-    """What a method of radiation is given; see `transfer_vectors`."""
+    """Return the task of a method of radiation; see `transfer_vectors`."""
     surroundings = scene(shell, settings)
     extra = [
         *file_patterns(settings.body, surroundings.machine),

@@ -1,4 +1,4 @@
-"""What the moving surface pushes into each wall cell of the machine side's grid."""
+"""Flux of the moving surface into each wall cell of the machine side's grid."""
 
 from collections.abc import Iterable, Sequence
 from typing import Final

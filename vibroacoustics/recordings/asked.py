@@ -1,4 +1,4 @@
-"""What is asked of a recording's file, and whether the file can be read at all."""
+"""Request for a recording's file, and whether the file can be read at all."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -20,7 +20,7 @@ ALL_CHANNELS: Final = "*"
 
 @dataclass(frozen=True)
 class Asked:
-    """What is asked of a file: how its channels are to be read, in the user's words.
+    """Request for a file: how its channels are to be read, in the user's words.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ class Asked:
             raise MissingError("; ".join([str(error), *self._further_missing()])) from None
 
     def _further_missing(self) -> list[str]:
-        """What a file without a sample rate lacks beside it: units and calibration."""
+        """Data that a file without a sample rate lacks beside it: units and calibration."""
         provisional = {"sample_rate_hz": 1.0, "samples": [0, 2], "hashed": False}
         try:
             self.chosen_units(read_in_child(self.request() | provisional)[0])
@@ -159,7 +159,7 @@ def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) 
 def _of_channels(
     option: str, stated: Mapping[str, Given], names: Sequence[str]
 ) -> dict[str, Given]:
-    """What is given by channel, that for all of them spread out.
+    """Values by channel, that for all of them spread out.
 
     Raises
     ------

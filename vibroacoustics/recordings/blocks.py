@@ -41,7 +41,7 @@ class FileBlocks:
     channel_units: Sequence[str]
     calibration_factors: Sequence[float]
     remarks: dict[str, str] = field(default_factory=dict)
-    """What the user must know: of the file, and of overloads the first of each channel."""
+    """Remarks for the user: of the file, and of overloads the first of each channel."""
     stored: Samples | None = None
     """Samples of the file, not in SI units, shape (channel, time); None where not yet read."""
     further: Mapping[str, Any] = field(default_factory=dict)

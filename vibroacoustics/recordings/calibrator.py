@@ -28,7 +28,7 @@ LEVELS_DB: Final = (60.0, 140.0)
 
 @dataclass(frozen=True)
 class CalibratorReading:
-    """What the recording of a calibrator gives.
+    """Reading of the recording of a calibrator.
 
     Attributes
     ----------

@@ -119,7 +119,7 @@ def cut(recording: Recorded, request: Request) -> Recorded:
 
 
 def _error_header(request: Request, error: VibroacousticsError) -> dict[str, Any]:
-    """What the user shall see of an error; of a plug-in that misses a module, what to install."""
+    """Words on an error for the user; of a plug-in that misses a module, what to install."""
     missing = error.__cause__
     if isinstance(error, FaultError) and isinstance(missing, ModuleNotFoundError):
         return _refusal(needed(_reader(request), str(missing.name)))

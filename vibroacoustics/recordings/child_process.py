@@ -61,7 +61,7 @@ def read_in_child(request: Mapping[str, Any]) -> tuple[dict[str, Any], Array]:
 
 
 def _receive(stream: io.BufferedReader) -> tuple[dict[str, Any], Array] | None:
-    """What the child writes; None where it ended before all was written."""
+    """Read what the child writes; None where it ended before all was written."""
     line = stream.readline()
     if not line.endswith(b"\n"):
         return None

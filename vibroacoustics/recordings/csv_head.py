@@ -72,7 +72,7 @@ _TIME_NAMES: Final = {"time", "t"}
 
 @dataclass(frozen=True)
 class Head:
-    """What is above the numbers.
+    """Head above the numbers.
 
     Attributes
     ----------

@@ -56,7 +56,7 @@ class Segment:
 
     @property
     def remarks(self) -> list[str]:
-        """What the user must know of the sampling interval."""
+        """Remarks for the user on the sampling interval."""
         digits = len(self.interval.lower().partition("e")[0].partition(".")[2])
         exponent = int(self.interval.lower().partition("e")[2] or 0)
         rounding = 0.5 * float(f"1e{exponent - digits}") / self.interval_s

@@ -10,7 +10,7 @@ from ..base.unit_spelling import plain_unit
 
 
 class Quantity(NamedTuple):
-    """What a channel measures: kind, SI unit of its samples in our form, factor to that unit."""
+    """Measured quantity: kind, SI unit of its samples in our form, factor to that unit."""
 
     kind: str
     unit: str
@@ -54,7 +54,7 @@ _BY_SPELLING: Final = {plain_unit(unit): measured for unit, measured in QUANTITI
 
 
 def quantity(unit: str) -> Quantity:
-    """What a unit in a file or from a user means.
+    """Return the quantity of a unit in a file or from a user.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def quantity(unit: str) -> Quantity:
 
 
 def find_quantity(unit: str) -> Quantity | None:
-    """What a unit means, or None where it is not in the list."""
+    """Return the quantity of a unit, or None where it is not in the list."""
     return _BY_SPELLING.get(plain_unit(unit))
 
 

@@ -82,7 +82,7 @@ def readers_by_suffix() -> dict[str, Reader]:
 
 
 def needed(reader: Reader, module: str) -> str:
-    """What to install where a reader misses a module."""
+    """Say what to install where a reader misses a module."""
     if READERS.origin(reader.name) is None:
         extra = _EXTRAS.get(reader.package, "io")
         return f"needs {module}: pip install vibroacoustics[{extra}]"

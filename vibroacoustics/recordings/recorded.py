@@ -1,4 +1,4 @@
-"""What a reader of one format is asked for and what it hands back, with the checks they share."""
+"""Request to a reader of one format and its answer, with the checks they share."""
 
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -32,7 +32,7 @@ MINIMUM_SAMPLES: Final = 2
 
 @dataclass(frozen=True)
 class Request:
-    """What to read: the file, some of its channels, a sample rate that overrides the file's; or
+    """Request: the file, some of its channels, a sample rate that overrides the file's; or
     the modes of a structure.
 
     Attributes

@@ -28,7 +28,7 @@ _OCEAN_SONICS: Final = re.compile(
 
 @dataclass(frozen=True)
 class Wave:
-    """What stands before and behind the samples of a WAV file.
+    """Chunks before and behind the samples of a WAV file.
 
     Attributes
     ----------

@@ -93,7 +93,7 @@ def recorded_avoid_table(channel: str, ranges: Sequence[Range]) -> Table | None:
 
 
 def rule_words(results: xr.Dataset) -> str:
-    """How speeds to avoid were chosen, and what the rule cannot see."""
+    """Say how speeds to avoid were chosen, and the limits of the rule."""
     speed = np.sort(results["speed"].values)
     step = float(np.diff(speed).max())
     return (

@@ -1,4 +1,4 @@
-"""What a section of the report consists of: one list of blocks makes HTML, Markdown and JSON.
+"""Blocks of a section of the report: one list makes HTML, Markdown and JSON.
 
 All are frozen and hold finished text; `block` names the kind of block in templates and JSON.
 `Table` is a block too.
@@ -97,7 +97,7 @@ class Live:
 
 @dataclass(frozen=True)
 class Light:
-    """What an option does to one quantity: a coloured sign, the change, its band.
+    """Effect of an option on one quantity: a coloured sign, the change, its band.
 
     Attributes
     ----------

@@ -64,7 +64,7 @@ def _blind(parts: Sequence[Part]) -> list[bool]:
 
 
 def _policy(style: str, *scripts: str, plays: bool = False) -> str:
-    """What a browser may do with the page: show its style and figures, run its scripts alone.
+    """Policy of a page for browsers: show its style and figures, run its scripts alone.
 
     Sounds are played from the folder of the page.
     """

@@ -1,4 +1,4 @@
-"""What k-Wave computed, and how far the closed form of the image sources is from it, in words."""
+"""Sentences on k-Wave: the room it computed, and the difference from image sources."""
 
 from typing import Final
 
@@ -16,7 +16,7 @@ _STRONG: Final = 1e-3
 
 
 def kwave_sentence(results: xr.Dataset) -> str:
-    """Where k-Wave computed the room, and the difference of the two methods there."""
+    """Say where k-Wave computed the room, and how both methods differ there."""
     by_kwave = computed_by_kwave(results)
     if not by_kwave.size:
         reasons = sorted({reason for _, reason in receiver_methods(results).values()} - {""})

@@ -1,4 +1,4 @@
-"""What a report says of the things of plug-ins that it cannot show."""
+"""Lines of a report on things of plug-ins that it cannot show."""
 
 import json
 from collections.abc import Sequence

@@ -42,7 +42,7 @@ class _Checked(NamedTuple):
 
     @property
     def subject(self) -> str:
-        """What it is, in a sentence."""
+        """Subject in a sentence."""
         of = f" in {self.result}" if self.result else ""
         return f"order {self.order:g} of {self.channel} at {self.speed_rpm:.0f} rpm{of}"
 
@@ -54,7 +54,7 @@ def limits_data(checked: xr.Dataset) -> DataTable:
 
 
 def limits_words(checked: xr.Dataset) -> list[str]:
-    """How many orders exceed their limit, and what was not checked."""
+    """Say how many orders exceed their limit, and what was not checked."""
     left_out = checked.attrs.get(NOT_CHECKED)
     not_checked = [f"not checked, no such order or speed: {left_out}"] if left_out else []
     return [_verdict(_worst(checked)), *not_checked]
@@ -91,7 +91,7 @@ def _cells(row: _Checked) -> tuple[str, ...]:
 
 
 def _verdict(worst: list[_Checked]) -> str:
-    """How many exceed, and which one most."""
+    """Say how many exceed, and which one most."""
     if not worst:
         return "No order with a limit is known."
     least = min(worst, key=lambda row: row.margin_db)
@@ -147,13 +147,13 @@ def _shown(value: float, unit: str) -> str:
 
 
 def broken_lines(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> list[str]:
-    """What is broken, a line each; none where all limits hold."""
+    """Name what is broken, a line each; none where all limits hold."""
     orders = broken_orders(checked) if "order_limit" in checked else []
     return [*orders, *(_broken(row) for row in figures if not row.is_within)]
 
 
 def limit_blocks(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> list[Block]:
-    """What is broken, and every limit with its margin; nothing without limits."""
+    """Return what is broken, and every limit with its margin; nothing without limits."""
     if not figures and "order_limit" not in checked:
         return []
     broken = broken_lines(checked, figures)
@@ -166,7 +166,7 @@ def limit_blocks(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> list[
 
 
 def limits_sentence(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> str:
-    """How many limits are broken."""
+    """Say how many limits are broken."""
     count = len(broken_lines(checked, figures))
     if not count:
         return "Every limit holds."

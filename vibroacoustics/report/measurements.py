@@ -207,7 +207,7 @@ def _number(
 
 
 def _truncations(predicted: xr.Dataset) -> Table:
-    """Which truncation was taken, beside the error that each one is expected to make."""
+    """Truncation that was used, beside the error that each one is expected to make."""
     taken, errors = predicted["truncation"], predicted["truncation_error"]
     rows = [
         (option, *_truncated(taken.sel(option=option), errors.sel(option=option)))

@@ -1,4 +1,4 @@
-"""What each option does, in sentences that are made from its numbers."""
+"""Verdict on each option, in sentences that are made from its numbers."""
 
 from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
@@ -66,7 +66,7 @@ def judge(worse: bool, better: bool) -> str:
 
 
 def _reason(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift], judgement: str) -> str:
-    """What makes the option better or worse, with its size."""
+    """Reason for which the option is better or worse, with its size."""
     if judgement == NO_CHANGE:
         least = shifts[0].least
         return f"levels < {least.level_db:g} dB, forces < {100.0 * least.force_ratio:g} %"
@@ -85,7 +85,8 @@ def _reason(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift], judgement: 
 
 
 def _worse_in(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift]) -> tuple[str, ...]:
-    """What the option makes worse; the line elsewhere if it is not worse here already."""
+    """Quantities that the option makes worse; the line elsewhere if it is not worse here
+    already."""
     worse = [quantity_shift.quantity.words for quantity_shift in shifts if quantity_shift.worsens]
     louder = [name for name, line_shift in elsewhere.items() if line_shift.worsens]
     if louder and LINE.words not in worse:

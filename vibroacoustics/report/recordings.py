@@ -180,7 +180,7 @@ def _avoid(mapped: xr.Dataset) -> list[Block]:
 
 
 def orders_facts(results: xr.Dataset) -> list[str]:
-    """Where the speed comes from, and how finely orders are resolved."""
+    """Say where the speed comes from, and how finely orders are resolved."""
     attrs = results.attrs
     facts = [
         f"speed: {attrs['speed_source']}",
@@ -224,7 +224,7 @@ def levels_data(results: xr.Dataset) -> DataTable:
 
 
 def _left_out_s(results: xr.Dataset, weighting: str) -> float:
-    """What a level omits at either end: the run-in of the weighting's filter."""
+    """Time that a level omits at either end: the run-in of the weighting's filter."""
     return 0.0 if weighting == "Z" else float(results.attrs.get("levels_left_out_s", 0.0))
 
 
@@ -309,7 +309,7 @@ _TRACKED_COLUMNS: Final[Columns] = (
 
 
 def tracked_table(tracked: xr.Dataset) -> Table:
-    """Where each order of a channel is largest."""
+    """Return where each order of a channel is largest."""
     size = abs(tracked["tracked_order"])
     loudest = size.isel(track_time=size.argmax("track_time"))
     rows = records(data_table(("channel", "order"), _tracked(tracked, loudest)))
@@ -336,7 +336,7 @@ def _tracked(tracked: xr.Dataset, size: xr.DataArray) -> dict[str, xr.DataArray]
 
 
 def tracked_facts(tracked: xr.Dataset) -> list[str]:
-    """Where the speed comes from, and what passes around each order."""
+    """Say where the speed comes from, and what passes around each order."""
     attrs = tracked.attrs
     return [
         f"speed: {attrs['speed_source']}",

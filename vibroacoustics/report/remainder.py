@@ -36,7 +36,7 @@ def measured_rpm(results: xr.Dataset) -> float | None:
 
 
 def total_sentence(results: xr.Dataset) -> str:
-    """What the total holds beside what is modelled."""
+    """Say what the total holds beside the modelled sources."""
     if overall_noise(results) is None:
         return "No level of the machine is published: the total is that of what is modelled."
     return "The total holds the part that is not modelled (see assumptions)."

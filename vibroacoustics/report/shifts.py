@@ -1,4 +1,4 @@
-"""How an option shifts one quantity against the reference, as numbers and in words."""
+"""Shifts of one quantity by an option against the reference, as numbers and in words."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -72,7 +72,7 @@ def _make_private(cache_folder: Folder) -> None:
 
 
 def contents() -> tuple[list[Entry], int]:
-    """What is cached, and how large the cache may get, bytes; the folder is not made.
+    """Return the entries of the cache, and its size limit, bytes; the folder is not made.
 
     Raises
     ------
@@ -104,7 +104,7 @@ def mark_used(cache_folder: Folder, name: str) -> None:
 
 
 def entries(cache_folder: Folder) -> list[Entry]:
-    """What is cached, the least recently used first."""
+    """Return the entries of the cache, the least recently used first."""
     listed = []
     for name in os.listdir(cache_folder.descriptor):
         status = cache_folder.status(name)  # none where another process takes it away
@@ -126,7 +126,7 @@ def _study(cached: Folder, name: str) -> str:
 
 
 def limit_bytes(cache_folder: Folder) -> int:
-    """How large the cache may get: as set, else 2 GB."""
+    """Return the size limit of the cache: as set, else 2 GB."""
     try:
         return max(int(cache_folder.read_bytes(LIMIT_NAME, _MAXIMUM_LIMIT_BYTES)), 0)
     except (OSError, StorageError, ValueError):

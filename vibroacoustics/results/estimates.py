@@ -170,7 +170,7 @@ def effective_samples(results: xr.Dataset) -> float:
 
 
 class SampleNumbers(NamedTuple):
-    """How many samples there are.
+    """Numbers of samples.
 
     Attributes
     ----------

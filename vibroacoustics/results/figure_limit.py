@@ -84,7 +84,7 @@ class FigureLimit(Refusing):
 
     @property
     def subject(self) -> str:
-        """What it limits, as `band 500 Hz of front`."""
+        """Subject of the limit, such as `band 500 Hz of front`."""
         if self.criterion:
             return f"criterion {self.criterion}"
         if self.order is not None:
@@ -94,7 +94,7 @@ class FigureLimit(Refusing):
         return f"total of {self.channel}"
 
     def margin(self, value: float) -> float:
-        """What is left to the limit, in its unit; below zero where it is broken."""
+        """Margin to the limit, in its unit; below zero where it is broken."""
         return self.limit - value if self.side == HIGHEST else value - self.limit
 
     def in_unit(self, rms: float, level_db: float) -> float:

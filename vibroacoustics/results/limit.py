@@ -15,7 +15,7 @@ PRESSURE_UNIT: Final = "Pa"
 
 
 class Refusing:
-    """What limits have in common: where each comes from, and refusals that say so."""
+    """Base of limits: where each comes from, and refusals that say so."""
 
     origin: str
 

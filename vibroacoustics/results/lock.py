@@ -99,7 +99,7 @@ def is_held(folder: Folder, name: str) -> bool:
 
 
 def holder(folder: Folder, name: str) -> str:
-    """Who holds the lock, in words."""
+    """Name the holder of the lock, in words."""
     try:
         by = json.loads(folder.read_bytes(name, _MAXIMUM_BYTES))
         return f"process {by['process']} on {by['host']}, since {by['since']}"

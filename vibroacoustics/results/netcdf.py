@@ -49,7 +49,7 @@ def write_netcdf(results: xr.Dataset, path: Path) -> None:
 
 
 def _why_not_written(path: Path, error: RuntimeError | OSError) -> OSError:
-    """What the system says when more is written to a file that netCDF could not write."""
+    """Words of the system when more is written to a file that netCDF could not write."""
     try:
         with path.open("ab") as file:
             file.write(bytes(_PROBE_BYTES))

@@ -272,7 +272,7 @@ def values_at(result: xr.DataArray, selection: Mapping[str, Any]) -> NDArray[Any
 
 
 def _negligible(result: xr.DataArray, selection: Mapping[str, Any]) -> NDArray[np.bool_]:
-    """Where an order is nothing beside the largest with its unit; order 0 does not count."""
+    """Orders that are negligible beside the largest with their unit; order 0 does not count."""
     size = abs(result.where(result["order"] > 0.0, 0.0))
     largest = size.max(("speed", "order")).groupby("channel_unit").max()
     largest_of_unit = largest.sel(channel_unit=result["channel_unit"]).drop_vars("channel_unit")

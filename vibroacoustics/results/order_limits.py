@@ -129,7 +129,7 @@ def _allowed(values: xr.Dataset, limits: Sequence[Limit]) -> tuple[Array, list[s
 
 
 def _subject(limit: Limit) -> str:
-    """What a limit is for, as `order 2 of ring from 0 to 3600 rpm`."""
+    """Subject of a limit, such as `order 2 of ring from 0 to 3600 rpm`."""
     named = f"order {limit.order:g} of {limit.channel}"
     if limit.speed_from_rpm == 0.0 and np.isinf(limit.speed_to_rpm):
         return named
@@ -137,7 +137,7 @@ def _subject(limit: Limit) -> str:
 
 
 def _holds(values: xr.Dataset, limit: Limit) -> NDArray[np.bool_]:
-    """Where a limit holds (channel, speed, order)."""
+    """Points at which a limit holds (channel, speed, order)."""
     speed, order = np.rint(values["speed"].values), values["order"].values  # measured: 2899.99
     at_speed = (speed >= limit.speed_from_rpm) & (speed <= limit.speed_to_rpm)
     at_order = np.abs(order - limit.order) < ORDER_TOLERANCE

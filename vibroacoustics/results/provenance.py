@@ -1,4 +1,4 @@
-"""Where a result comes from: software, versions, parameters, time."""
+"""Provenance of a result: software, versions, parameters, time."""
 
 import subprocess
 from collections.abc import Iterator, Mapping

@@ -22,7 +22,7 @@ from ..base.vocabulary import (
 _RULES: Final = tomllib.loads(
     resources.files(__package__).joinpath("run_variables.toml").read_text("utf-8")
 )
-"""Which variables a run has, and with what; the file explains each table."""
+"""Conditions on the variables of a run; the file explains each table."""
 COORDINATES_OF: Final[dict[str, list[str]]] = _RULES["coordinates_of"]
 ADDED_MASS: Final = "added_mass_kg"
 """Figure that every option has."""
@@ -39,7 +39,7 @@ LABELS: Final[dict[str, tuple[str, ...]]] = {
     "figure": (ADDED_MASS,),
     "stopping_phase": ("steady", "stopping"),
 }
-"""What a dimension must hold; others are free."""
+"""Labels that a dimension must hold; others are free."""
 AMONG: Final = {"path_speed": "speed", "path_order": "order"}
 """Dimensions whose values are some of those of another."""
 IN_ORDER: Final = ("axis", "dof")

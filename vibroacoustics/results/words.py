@@ -23,7 +23,7 @@ _RIGID_UNDER_BODIES: Final = (
 def words(
     study: Study, loads: Mapping[CaseKey, Mapping[str, Loads]], results: xr.Dataset
 ) -> dict[str, Any]:
-    """What machine and options say of themselves, as JSON values."""
+    """Return the words of machine and options, as JSON values."""
     inner_sources = bool(study.sources)
     options = study.options.items()
     left_out = [

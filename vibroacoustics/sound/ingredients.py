@@ -1,4 +1,4 @@
-"""What the sound of an option is made of, at a microphone or in a room: lines and noise."""
+"""Ingredients of the sound of an option, at a microphone or in a room: lines and noise."""
 
 from dataclasses import dataclass, replace
 from typing import Any, Final

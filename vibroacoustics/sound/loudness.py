@@ -31,7 +31,7 @@ _SHARPNESS_WEIGHT: Final[Array] = _BARK * np.where(
 
 @dataclass(frozen=True)
 class Loudness:
-    """What an ear makes of a sound.
+    """Loudness and sharpness of a sound.
 
     Attributes
     ----------
@@ -127,7 +127,7 @@ def sharpness(core: Array, loudness_sone: Array) -> Array:
 
 
 def filter_gain(frequency_hz: Array) -> Array:
-    """What third-octave filters let through of powers, shape (frequency, band).
+    """Return the gain of third-octave filters for powers, shape (frequency, band).
 
     Butterworth's of third order, 1/(1 + ((f/f_m - f_m/f)/b)^6), with b such that white noise comes
     out with the power of its band; a tone near an edge counts in two bands, as it does in a meter.

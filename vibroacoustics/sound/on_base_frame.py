@@ -23,7 +23,7 @@ Lined = dict[str, complex]
 
 @dataclass(frozen=True)
 class FrameSound:
-    """What a base frame changes of the sound of the machines on it.
+    """Change of the sound of the machines on a base frame.
 
     Attributes
     ----------

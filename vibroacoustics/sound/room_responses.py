@@ -36,7 +36,7 @@ _MOST_GAIN: Final = 2.0
 
 @dataclass(frozen=True)
 class WaysOfRoom:
-    """How a machine's rigid motions come to listeners as sound.
+    """Paths of a machine's rigid motions to listeners as sound.
 
     Attributes
     ----------
@@ -124,7 +124,7 @@ def _decaying(
 
 
 class _Received(NamedTuple):
-    """What comes of a unit acceleration before the shares of the methods.
+    """Response to a unit acceleration before the shares of the methods.
 
     Attributes
     ----------
@@ -191,7 +191,7 @@ def _faded(hertz: Array, highest_hz: float) -> Array:
 
 
 def _positions(room: WaysOfRoom) -> int:
-    """How many there are on the hemisphere."""
+    """Number of positions on the hemisphere."""
     return len(room.pressure(np.array([room.highest_hz]))) - room.ways.listeners
 
 

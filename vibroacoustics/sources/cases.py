@@ -74,7 +74,7 @@ def _revolution(
 
 
 def added_by(option: Option, machine: Machine, revolution: Revolution) -> Added:
-    """What an option adds, with the mass of the bodies that it attaches.
+    """Return what an option adds, with the mass of the bodies that it attaches.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ def curves(
     speed_rpm: float | None = None,
     option: str = REFERENCE_OPTION,
 ) -> xr.Dataset:
-    """What goes on inside a machine: pressures, films, friction, torques, critical speeds.
+    """Return inner curves of a machine: pressures, films, friction, torques, critical speeds.
 
     Parameters
     ----------

@@ -243,7 +243,7 @@ def gas_tables(machine: Machine) -> Mapping[str, type[Parameters]]:
 
 
 def _why_no_opening(machine: Machine) -> str | None:
-    """Why the machine's pockets cannot open with inertia; none where they can, or do not."""
+    """Say why the machine's pockets cannot open with inertia; none where they can, or do not."""
     gas = machine.table(ScrollGas)
     if not gas.opens_with_inertia:
         return None

@@ -1,4 +1,4 @@
-"""What the sources of a scroll do to the parts in its shell, over crank angle."""
+"""Loads of the sources of a scroll on the parts in its shell, over crank angle."""
 
 from collections.abc import Sequence
 from typing import Final

@@ -40,7 +40,7 @@ def peaks(force_n: Array, moment_n_m: Array) -> Peaks:
 
 
 class AfterStop(NamedTuple):
-    """What may follow the first rest."""
+    """Events that may follow the first rest."""
 
     table: TurningBack
     gas: TrappedGas
@@ -162,7 +162,7 @@ def _further(
 
 
 def _end_s(rest_s: float, reversal: Reversal | None, after: AfterStop | None) -> float:
-    """When shaft and valve stand."""
+    """Time at which shaft and valve stand."""
     ends = [rest_s]
     if reversal is not None and reversal.end_s is not None:
         ends.append(reversal.end_s)

@@ -116,7 +116,7 @@ def _of_turning_back(runs: Sequence[RunDown]) -> dict[str, Any]:
 
 
 def _courses(events: Sequence[StoppingEvent]) -> dict[str, Array]:
-    """What is kept over time."""
+    """Time histories that are kept."""
     names = ("shaft_speed", "force", "moment", "pressure", "fast_level")
     return {f"stopping_{name}": _of_events(events, name) for name in names}
 

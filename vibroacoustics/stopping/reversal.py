@@ -107,7 +107,7 @@ class Reversal:
 
     @property
     def end_s(self) -> float | None:
-        """When the shaft stands for good."""
+        """Time at which the shaft stands for good."""
         return self.stretches[-1].end_s if self.stretches else None
 
 

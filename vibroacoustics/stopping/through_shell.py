@@ -26,7 +26,7 @@ RING_OUT_S: Final = 0.3
 
 @dataclass(frozen=True)
 class StopThroughShell:
-    """What the stop of one machine does to its shell.
+    """Response of the shell to the stop of one machine.
 
     Attributes
     ----------

@@ -70,7 +70,7 @@ class BaselineOrders(Parameters):
 
 
 class BaselineMicrophone(Parameters):
-    """What a microphone is called in the files."""
+    """Name of a microphone in the files."""
 
     channel: str | None = None
     """Channel of a recording."""
@@ -92,7 +92,7 @@ class BaselineSettings(Parameters):
     window: Literal["hann", "rectangular", "flat_top"] = "hann"
     """Window of narrow-band spectra."""
     spectra: Literal["peak", "rms"] = "peak"
-    """What spectra of phasors are in."""
+    """Scale of the spectra of phasors."""
     tolerance_db: float = Field(default=1.5, ge=0.1, le=10.0)
     """Standard deviation of measured levels, for the weights of samples."""
 
@@ -158,7 +158,7 @@ class Baseline(BaselineSettings):
 
 
 class MeasuredSound(Parameters):
-    """What was measured of the machine, in place of what is assumed."""
+    """Sound that was measured of the machine, in place of what is assumed."""
 
     baseline: Baseline | None = None
     floor: MeasuredFloor | None = None
@@ -169,7 +169,8 @@ class MeasuredSound(Parameters):
     """Hammer tests, which weigh the samples."""
 
     def problems(self, receivers: Sequence[str], speeds: Sequence[float]) -> Iterator[str]:
-        """Why it does not fit a study: microphones that it has not, no speed that is covered."""
+        """Yield why it does not fit a study: microphones that it has not, no speed that is
+        covered."""
         yield from () if self.sound is None else self.sound.problems(receivers)
         if self.baseline is None:
             return

@@ -34,7 +34,7 @@ class BaselineFile:
 
 @dataclass(frozen=True)
 class BaselineContent:
-    """What a file holds.
+    """Content of a file.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ BASELINE_READERS: Final[Registry[BaselineReader]] = Registry(
 def read_baseline(
     settings: BaselineSettings, paths: Sequence[Path], receivers: Sequence[str]
 ) -> BaselineContent:
-    """What all files of a baseline hold together.
+    """Read what all files of a baseline hold together.
 
     Third octaves that a file states take the place of those that come from a narrow band at the
     same microphone.

@@ -16,7 +16,7 @@ from .record import ParameterRecord
 from .toml_files import leaves
 
 BESIDE = frozenset({"title", "given"})
-"""What the table of a combination may say."""
+"""Keys of the table of a combination."""
 
 
 def is_combination(name: str, table: Any) -> bool:

@@ -1,4 +1,4 @@
-"""What holds between the tables of a study."""
+"""Consistency between the tables of a study."""
 
 from collections.abc import Callable, Iterable
 from functools import partial
@@ -18,7 +18,7 @@ from .scoring import check_given, check_scales
 from .tables import StudyTables
 
 LEAST_ORDERS: Final = 2
-"""Which every result holds."""
+"""Orders that every result holds."""
 ROUNDING: Final = 1e-9
 
 

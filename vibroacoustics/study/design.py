@@ -37,7 +37,7 @@ class DesignVariable(Parameters):
 
 
 class Tolerance(Parameters):
-    """How far a value lies from what is meant, evenly spread, in the unit of its key."""
+    """Tolerance about the intended value, evenly spread, in the unit of its key."""
 
     ratio: float | None = Field(default=None, gt=0.0, lt=1.0)
     """Share of the value, to both sides."""
@@ -93,7 +93,7 @@ class Constraint(Wanted):
 
 
 class Search(Parameters):
-    """How the best designs are looked for."""
+    """Search for the best designs."""
 
     population: int = Field(default=64, ge=8, le=10_000)
     """Designs a generation."""

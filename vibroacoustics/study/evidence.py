@@ -1,4 +1,4 @@
-"""What is published or measured of a machine, to hold results against."""
+"""Evidence on a machine, published or measured, to compare results with."""
 
 from pydantic import Field
 

@@ -12,7 +12,7 @@ _POSITION = ("x_m", "y_m", "z_m")
 
 
 class ForcePoint(Hit):
-    """Where a hammer hit: the machine at a position, or the floor under a foot."""
+    """Point at which a hammer hit: the machine at a position, or the floor under a foot."""
 
     foot: str | None = None
     """Its name; none on the machine."""
@@ -59,7 +59,7 @@ class MeasuredSoundPath(Parameters):
         return next(iter(self.points.values())).foot is not None
 
     def problems(self, receivers: Sequence[str]) -> Iterator[str]:
-        """Why it does not fit a study."""
+        """Yield why it does not fit a study."""
         for name in receivers:
             if name not in self.microphones:
                 yield f"measured.sound.microphones.{name}: is missing, the study has this receiver"

@@ -1,4 +1,4 @@
-"""How a recording's orders are to be found."""
+"""Settings of the analysis of a recording's orders."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Where the microphones stand."""
+"""Positions of the microphones."""
 
 from math import hypot
 

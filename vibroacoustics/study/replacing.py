@@ -18,7 +18,7 @@ _MACHINE: Final = ("machine", "override")
 
 
 def replaced(written: Written, values: Mapping[str, Any]) -> Written:
-    """What a study's file would say with other values.
+    """Return what a study's file would say with other values.
 
     Parameters
     ----------

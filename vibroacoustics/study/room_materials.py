@@ -1,4 +1,4 @@
-"""What covers walls and furniture of a room: absorption by octave, and the package's library."""
+"""Covers of walls and furniture of a room: absorption by octave, and the package's library."""
 
 import tomllib
 from functools import cache

@@ -145,7 +145,7 @@ def with_sample(machine: Machine, nominal: Machine, sample: Sample) -> Machine:
 
 
 def _derived(machine: Machine, changed: Mapping[str, float], sample: Sample) -> dict[str, float]:
-    """What follows from the sampled values of a machine, in the order of `derived`.
+    """Values that follow from the sampled values of a machine, in the order of `derived`.
 
     They are not checked before: sampled values may contradict a given one that follows from them.
     """
@@ -208,7 +208,7 @@ def _by_table(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, dict
 
 
 def _why_not(study: Study, sample: Sample) -> str | None:
-    """Why the machine or a source cannot take a sample; none where they can."""
+    """Say why the machine or a source cannot take a sample; none where they can."""
     try:
         machine = with_sample(study.machine, study.machine, sample)
     except ParameterError as error:

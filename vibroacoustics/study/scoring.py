@@ -33,7 +33,7 @@ class CriterionScale(Parameters):
     best: float
     worst: float
     title: str = Field(default="", max_length=60)
-    """What reports show in place of the criterion's words; these where empty."""
+    """Title in reports in place of the criterion's words; these where empty."""
     label: str = ""
     """Plain words of a given criterion; those of its name where empty."""
     unit: str = ""

@@ -1,4 +1,4 @@
-"""What is asked of the sound field besides the microphones: sound power, map, directivity."""
+"""Settings of the sound field besides the microphones: sound power, map, directivity."""
 
 from math import ceil, pi
 from typing import Annotated, Final, Literal

@@ -1,4 +1,4 @@
-"""What stands around the machine: floor or ground, walls, a cabinet, a barrier."""
+"""Surroundings of the machine: floor or ground, walls, a cabinet, a barrier."""
 
 from typing import Final, Literal
 

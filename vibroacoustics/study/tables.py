@@ -47,7 +47,7 @@ class StudyTables(Parameters):
     given: dict[str, dict[str, float]] = Field(default={})
     """Values of criteria that are judged, not computed, by option and criterion."""
     titles: Titles = Titles()
-    """What reports show in place of names."""
+    """Titles in reports in place of names."""
     evidence: Evidence = Evidence()
     """Published values beside which the report sets the results."""
     sound_power: SoundPowerSettings | None = None
@@ -66,7 +66,7 @@ class StudyTables(Parameters):
     base_frame: BaseFrame | None = None
     """Frame on which they all stand; the floor where there is none."""
     sources: dict[str, AnySource] = Field(default_factory=dict)
-    """Who drives the machine beside its moving parts."""
+    """Sources that drive the machine beside its moving parts."""
     uncertainty: Uncertainty = Uncertainty()
     shell_modes: MeasuredModes | None = None
     """Measured modes of the shell, in place of the computed ones."""
@@ -75,12 +75,12 @@ class StudyTables(Parameters):
     held_ranges: tuple[HeldRange, ...] = ()
     """Ranges of the values that are not sampled, with the reason."""
     design: Design | None = None
-    """What a sweep or a search varies; a run takes the options as they are given."""
+    """Variables of a sweep or a search; a run takes the nominal options."""
     measured: MeasuredSound | None = None
-    """What was measured of the machine's sound, in place of its overall noise."""
+    """Measured sound of the machine, in place of its published level."""
     records: tuple[ParameterRecord, ...] = ()
     coarsened: tuple[str, ...] = ()
-    """What was made coarser for a first look, and the error that is expected."""
+    """Settings that were made coarser for a first look, and the error that is expected."""
     left_out: tuple[str, ...] = Field(default=(), exclude=True)
     """A line on what runs without: what failed when the study was read, sources not wanted."""
     source_file: str = ""

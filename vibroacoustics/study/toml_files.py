@@ -29,7 +29,7 @@ _BRACKET: Final = re.compile(r"[\[\]{}]")
 
 
 class Written(NamedTuple):
-    """What a study's file says, with that of the study it extends.
+    """Content of a study's file, with that of the study it extends.
 
     Attributes
     ----------

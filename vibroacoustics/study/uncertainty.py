@@ -1,4 +1,4 @@
-"""What is not known: ranges of values, and how many sets of values are sampled from them."""
+"""Uncertainty: ranges of values, and how many sets of values are sampled from them."""
 
 from pydantic import Field
 

@@ -18,13 +18,13 @@ MOST_LINES: Final = 40
 
 
 class FileKeys(Protocol):
-    """What the wording needs to know of the file that was read."""
+    """Content of the file that was read, as far as the wording needs it."""
 
     file_keys: dict[tuple[str, ...], tuple[str, Any]]
     """Key and value as written, by the path of the SI field."""
 
     problems: list[str]
-    """What the reader refuses."""
+    """Problems that the reader refuses."""
 
     def file_and_key(self, keys: tuple[str, ...]) -> str:
         """File and dotted key, as written, of a path of keys."""

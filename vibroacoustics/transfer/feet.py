@@ -15,7 +15,7 @@ from ..mechanics.bushings import Bushing
 
 @dataclass(frozen=True)
 class Stand:
-    """What a machine stands on.
+    """Mounts and floor under a machine.
 
     Attributes
     ----------

@@ -34,7 +34,7 @@ KEPT_MACHINES: Final = 64
 
 @dataclass(frozen=True)
 class Response:
-    """What a load on a body does, complex peaks.
+    """Response of a body to a load, complex peaks.
 
     Attributes
     ----------

@@ -23,7 +23,7 @@ from .path import ShellPath
 
 @dataclass(frozen=True)
 class Transmission:
-    """What turns loads into sound, whatever values are sampled.
+    """Transmission of loads to sound, whatever values are sampled.
 
     Attributes
     ----------

@@ -19,7 +19,7 @@ within 0.3 % at a tenth of it, where a stop sounds."""
 
 @dataclass(frozen=True)
 class Transient:
-    """What a load does, from its first sample on.
+    """Response to a load, from its first sample on.
 
     Attributes
     ----------

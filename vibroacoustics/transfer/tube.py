@@ -95,7 +95,7 @@ def tube_end_reactions(
     youngs_modulus_pa: float,
     poisson_ratio: float,
 ) -> tuple[ComplexArray, ComplexArray]:
-    """What forces at the points of a clamped tube without mass do to its two ends.
+    """Return the reactions at both ends of a clamped tube without mass to forces at its points.
 
     The far end, freed, would move by the flexibility of the pieces up to each loaded point; its
     clamp takes the force that this motion needs, the near end the rest.

@@ -33,7 +33,7 @@ def wall_points(angle_rad: Array, height_m: Array, radius_m: float) -> tuple[Arr
 
 @dataclass(frozen=True)
 class ShellMobilities:
-    """What was measured, each mobility once, repeats averaged.
+    """Measured mobilities, each once, repeats averaged.
 
     Attributes
     ----------

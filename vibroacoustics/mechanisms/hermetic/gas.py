@@ -73,7 +73,7 @@ def valve_angles(machine: HermeticTables) -> tuple[float, float]:
 
 
 def _outwards(machine: HermeticTables, crank_angle: Array) -> NDArray[np.bool_]:
-    """Where the piston moves away from the head."""
+    """Samples at which the piston moves away from the head."""
     top, bottom = dead_centres(machine)
     since_top = np.mod(crank_angle - top, 2.0 * np.pi)
     return np.asarray((since_top > 0.0) & (since_top < bottom - top))

@@ -100,7 +100,7 @@ class HermeticTables(Machine):
     crank_height_m: float = HEIGHT
     """Height of the crank's centre, where the upper bearing is, from the centre of mass at rest."""
     counterweights: BalancePlanes
-    """Where weights can sit on the shaft; heights from the crank's centre."""
+    """Planes for weights on the shaft; heights from the crank's centre."""
     piston: Piston
     rod: Rod
     crank: Crank

@@ -227,7 +227,7 @@ def mechanism_motion(
     second_rates: Values,
     gas_force_n: Values,
 ) -> MechanismMotion:
-    """What rod and piston, the crank's eccentric mass and its weight do to the crank.
+    """Return the effects of rod and piston, the crank's eccentric mass and its weight on the crank.
 
     Eq. 16 of the paper gives the crank's mass the acceleration of its centre and so leaves the
     unbalance out; here it has that of its centre of mass.

@@ -1,4 +1,4 @@
-"""What a steady cycle of the hermetic compressor is made of: motion, joint forces, energy."""
+"""Results of a steady cycle of the hermetic compressor: motion, joint forces, energy."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -62,7 +62,7 @@ def motion_of(equations: ShaftEquations, angle: Array, states: Array) -> Mechani
 
 
 def support_reaction(equations: ShaftEquations, angle: Array, states: Array) -> Array:
-    """What holds x, y, β and Γ of the crank where the case holds them (Estupiñan fig. 7).
+    """Return the reaction that holds x, y, β and Γ of the crank where fixed (Estupiñan fig. 7).
 
     Returns
     -------

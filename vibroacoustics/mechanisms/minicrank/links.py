@@ -53,7 +53,7 @@ class Links:
 
 
 def closing_margins(links: Links) -> tuple[float, float]:
-    """What the links have to spare in the two collinear positions of crank and bracket, m.
+    """Return the margins of the links in the two collinear positions of crank and bracket, m.
 
     Both must hold for the crank to turn: l1 + l2 ≤ l3 + l4 and l1 + l4 ≤ l3 + l2 (Zhao et al.
     2013, eq. 19 and 20; the paper's "or" is an error). A negative margin is the clearance that
@@ -69,7 +69,7 @@ def closing_margins(links: Links) -> tuple[float, float]:
 
 
 def why_open(links: Links) -> str | None:
-    """Why rigid links with one mini-crank let the crankshaft not turn; None where they do."""
+    """Say why rigid links with one mini-crank stop the crankshaft; None where they do not."""
     margin = min(*closing_margins(links), links.slack_m)
     if links.is_parallelogram or margin >= SMALLEST_MARGIN_M:
         return None
@@ -79,7 +79,7 @@ def why_open(links: Links) -> str | None:
 
 
 def why_misfit(links: Links) -> str | None:
-    """Why three mini-cranks cannot hold the scroll by small strains; None where they can."""
+    """Say why three mini-cranks cannot hold the scroll by small strains; None where they can."""
     misfit = abs(links.minicrank_m - links.crank_m) + abs(links.bracket_m - links.scroll_m)
     if misfit <= LARGEST_MISFIT * links.crank_m:
         return None
@@ -125,7 +125,7 @@ class FourBar(Parameters):
 
 
 def _spare_m(machine: Any) -> float:
-    """What the mini-crank is longer than the crank, less what closing needs; rigid links only."""
+    """Length of the mini-crank beyond the crank, less what closing needs; rigid links only."""
     bar: FourBar = machine.four_bar
     if bar.minicranks != 1:
         return inf

@@ -63,7 +63,7 @@ class OldhamScrollTables(Machine):
     wraps: ScrollWraps | None = None
     gas: ScrollGas | None = None
     opening: ScrollOpening | None = None
-    """Where a pocket opens with inertia."""
+    """Opening of a pocket with inertia."""
     leakage: ScrollLeakage | None = None
     """Leakage between the pockets then; none where they are tight."""
     suction_pockets: SuctionPockets | None = None

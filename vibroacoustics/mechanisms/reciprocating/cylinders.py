@@ -15,7 +15,7 @@ from ...mechanics.rotation import Rotation
 
 
 class Cylinder(NamedTuple):
-    """Where one cylinder stands on its crankshaft.
+    """Position of one cylinder on its crankshaft.
 
     Attributes
     ----------

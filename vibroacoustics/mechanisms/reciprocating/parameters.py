@@ -89,7 +89,7 @@ class ReciprocatingTables(Machine):
     cylinders: CylinderBanks | None = None
     """Banks and crank throws; none is one cylinder."""
     counterweights: BalancePlanes
-    """Where weights can sit on the crank; heights along the shaft from the cylinder's axis."""
+    """Planes for weights on the crank; heights along the shaft from the cylinder's axis."""
 
     @property
     def banks(self) -> CylinderBanks:

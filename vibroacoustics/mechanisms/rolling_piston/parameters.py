@@ -186,7 +186,7 @@ class RotaryShaft(Parameters):
 
 
 class Drive(Parameters):
-    """How the motor's torque goes with the speed."""
+    """Slope of the motor's torque over the speed."""
 
     supply: Literal["mains", "inverter"]
     motor_slope_ratio: float = Field(ge=-3.0, le=1.0)

@@ -132,7 +132,7 @@ def friction_w(machine: RollingPistonTables, cycle: RollingPistonCycle) -> float
 
 
 def rolling_courses(machine: RollingPistonTables, speed_rpm: float, samples: int) -> RollingCourses:
-    """What the rolling pistons do inside the shell over a turn; see `RollingCourses`.
+    """Return the time histories of the rolling pistons over a turn; see `RollingCourses`.
 
     Parameters
     ----------

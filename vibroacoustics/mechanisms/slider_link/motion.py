@@ -171,7 +171,7 @@ def _converged(
 
 
 def _motor_answer(panels: GaussPanels, error: Array, steepness: float) -> Array:
-    """What the motor takes back of a change of φ̇²/2: the periodic v of v' + s v = s error.
+    """Response of the motor to a change of φ̇²/2: the periodic v of v' + s v = s error.
 
     Only a preconditioner: where e^(2π s) would grow too large a smaller s does.
     """

@@ -158,7 +158,7 @@ class SliderLinkTables(Machine):
     """The shell is at suction pressure [p_0]."""
     motor: Motor
     counterweights: BalancePlanes
-    """Where further weights can sit on the shaft."""
+    """Planes for further weights on the shaft."""
     centre_of_mass_offset_m: float = Field(ge=-0.2, le=0.2)
     """Block's centre of mass from the shaft's axis, along x [x_c]."""
     suspension: Suspension

@@ -75,7 +75,7 @@ class Forces(FileTable):
             raise ParameterError(f"{self.file}: {error}{hint}") from None
 
     def doubt_at(self, speed_rpm: float) -> str:
-        """What is doubtful at a speed: how far the table's speeds are; empty where nothing."""
+        """Say what is doubtful at a speed: how far the table's speeds are; empty where nothing."""
         below = [speed for speed in self.speed_rpm if speed <= speed_rpm]
         above = [speed for speed in self.speed_rpm if speed >= speed_rpm]
         if self.scaling is not None:

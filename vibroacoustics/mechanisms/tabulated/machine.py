@@ -83,7 +83,7 @@ class TabulatedMachine(Machine):
     oldham: Ring | None = None
     """Ring of the machine, for options that add to it."""
     counterweights: BalancePlanes | None = None
-    """Where weights can sit on the shaft."""
+    """Planes for weights on the shaft."""
 
     def contradictions(self) -> Contradictions:
         if self.sliding_mass is not None and self.counterweights is None:
@@ -119,7 +119,7 @@ class TabulatedMachine(Machine):
 
     @property
     def capabilities(self) -> tuple[Capability, ...]:
-        """What the tables name for options to work on."""
+        """Capabilities that the tables name for options."""
         named: list[Capability] = []
         if self.sliding_mass is not None and self.counterweights is not None:
             named.append(self._slider(self.sliding_mass, self.counterweights))

@@ -13,7 +13,7 @@ _UNIT: Final = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)
 
 
 class ShaftAxes(Parameters):
-    """Where the shaft is: crank angle counts from the stroke, positive about the shaft."""
+    """Position of the shaft: crank angle counts from the stroke, positive about the shaft."""
 
     lines_to_add: ClassVar[str] = (
         'add the lines [shaft_axes], stroke = "x", shaft = "z" with the directions of this '

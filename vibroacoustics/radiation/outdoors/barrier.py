@@ -39,7 +39,7 @@ class Barrier:
         return bool(self.sign * (point[self.axis] - self.position_m) > 0.0)
 
     def edge_points(self, points: Array, receiver: Array) -> Array:
-        """Where the shortest way from points (point, 3) to a receiver crosses the edge."""
+        """Return where the shortest path from points (point, 3) to a receiver crosses the edge."""
         before, behind = self._to_edge(points), self._to_edge(receiver)
         edge = points + (receiver - points) * (before / (before + behind))[..., None]
         edge[..., self.axis], edge[..., 2] = self.position_m, self.top_m

@@ -13,7 +13,7 @@ from .barrier import Barrier
 
 @dataclass(frozen=True)
 class Outdoors:
-    """What sound meets on its way from the machine.
+    """Ground and barrier on the path of the sound from the machine.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ def _mirrored(points: Array, ground_z_m: float) -> Array:
 
 
 def _parities(walls: Sequence[Mirror]) -> Array:
-    """Which coordinates each image of `images` turns round, (image, 3)."""
+    """Return which coordinates each image of `images` inverts, (image, 3)."""
     turned = np.zeros((1, 3))
     for wall in walls:
         turned = np.concatenate([turned, turned + np.eye(3)[wall.axis]])

@@ -83,14 +83,14 @@ class ByRevolution:
         return pressure[:, : microphones.patterns]
 
     def _over_ground(self, points: Array, frequency_hz: Array) -> Addition | None:
-        """What ground and barrier add at points, by index of the frequency; none on a floor."""
+        """Addition of ground and barrier at points, by index of the frequency; none on a floor."""
         by_wall = over_ground(self._task.scene, points)
         if by_wall is None:
             return None
         return lambda index: self.side.added(float(frequency_hz[index]), by_wall)
 
     def attributes(self) -> dict[str, Any]:
-        """What the result says about its solution."""
+        """Return attributes of the result on its solution."""
         side = self.side
         fine, coarse = (radiator.mesh for radiator in side.radiators)
         return {
@@ -164,7 +164,7 @@ def addition(
     greens: Sequence[BoxField],
     expected: Sequence[BoxField],
 ) -> Addition:
-    """What k-Wave's Green's functions add to each microphone's pressure at a frequency."""
+    """Return what k-Wave's Green's functions add to each microphone's pressure at a frequency."""
     points = np.concatenate([box.inner, box.outer])
     pairs = len(box.inner)
     couples = list(zip(greens, expected, strict=True))

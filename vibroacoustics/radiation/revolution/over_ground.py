@@ -1,4 +1,4 @@
-"""What ground and barrier change of the sound of a body of revolution on a hard floor.
+"""Change of the sound of a body of revolution on a hard floor by ground and barrier.
 
 The wall's pressure is that over the hard floor. Over it and its velocity the difference of both
 Green's functions is integrated; that has no singularity above the ground, as its sources are images
@@ -27,7 +27,8 @@ AtFrequency = Callable[[Radiator, WallPressure], ComplexArray]
 
 
 def over_ground(scene: Scene, points: Array) -> AtFrequency | None:
-    """What is added to the pressure over the hard floor at points (point, 3); none on a floor."""
+    """Return the addition to the pressure over the hard floor at points (point, 3); none on a
+    floor."""
     outdoors = scene.outdoors
     if outdoors is None:
         return None

@@ -31,7 +31,7 @@ class OrderColumns:
     """Columns of one order that some patterns have."""
 
     pattern: IndexArray
-    """Which pattern each column belongs to, (column,)."""
+    """Pattern of each column, (column,)."""
     sine: IndexArray
     """0 where the column is the cosine's, 1 where it is the sine's, (column,)."""
     velocity: Array

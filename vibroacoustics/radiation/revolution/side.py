@@ -112,7 +112,7 @@ class RevolutionSide:
         return self.radiators[0].pressures(self._walls(frequency_hz)[0], points)
 
     def added(self, frequency_hz: float, by_wall: AtFrequency) -> ComplexArray:
-        """What the finer mesh's wall adds besides, (point, pattern), Pa."""
+        """Return the further pressure by the finer mesh's wall, (point, pattern), Pa."""
         return by_wall(self.radiators[0], self._walls(frequency_hz)[0])
 
     def _walls(self, frequency_hz: float) -> list[WallPressure]:

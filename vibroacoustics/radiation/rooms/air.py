@@ -101,7 +101,7 @@ class Air:
 
     @property
     def plan(self) -> Layout:
-        """Where in `terms` and `flux` everything stands."""
+        """Layout of `terms` and `flux`."""
         return self._layout
 
     @property
@@ -110,7 +110,8 @@ class Air:
         return self._flux
 
     def operator(self, terms: Array) -> Array:
-        """What a step of the air without resistance takes from a series: 2 now - before - M now.
+        """Return the change of a series in a step of the air without resistance: 2 now - before - M
+        now.
 
         Walls are nothing but their mass of air: whatever passive stands behind it lowers the
         largest eigenvalue of M.

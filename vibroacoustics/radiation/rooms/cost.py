@@ -1,4 +1,4 @@
-"""What the waves of a study's room will take: a few steps of its air are timed."""
+"""Cost of the waves of a study's room: a few steps of its air are timed."""
 
 from math import ceil
 from typing import Final

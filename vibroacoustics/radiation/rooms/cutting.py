@@ -158,7 +158,7 @@ def _walls_of_side(room: Room, box: AirBox, side: End, lines: list[Array]) -> It
 
 
 def _lines_across(room: Room, box: AirBox, axis: int, other: int) -> Array:
-    """Where a side of a box across `axis` is cut along another axis."""
+    """Cuts of a side of a box across `axis` along another axis."""
     from .room import SIDES
 
     edges = [edge for block in room.blocks for edge in (block.lower[other], block.upper[other])]

@@ -23,7 +23,7 @@ LONGEST_S: Final = 5.0
 
 @dataclass(frozen=True)
 class DiffuseRoom:
-    """What a diffuse field asks of a room."""
+    """Room for a diffuse field."""
 
     absorption_area_m2: Array
     """Absorption area by octave from 63 Hz to 4 kHz, (octave,)."""

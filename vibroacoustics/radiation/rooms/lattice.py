@@ -61,7 +61,7 @@ class Lattice:
 
 
 def holding(boxes: Sequence[AirBox], point: Array, name: str = "room") -> int:
-    """Which box of air holds a point, the first of those that share it.
+    """Return the box of air that holds a point, the first of those that share it.
 
     Raises
     ------

@@ -13,7 +13,7 @@ from .cutting import AirBox, End, Face
 
 @dataclass(frozen=True)
 class Layout:
-    """Where in flat arrays everything of the boxes, their sides and the ends of faces stands.
+    """Layout of the boxes, their sides and the ends of faces in flat arrays.
 
     A side of a box has a plane of terms: sums of the series over its axis, and a flux. An end of a
     face has nodes, where pressures are compared and fluxes act. From terms to nodes leads a matrix
@@ -159,7 +159,7 @@ def angular_frequencies(box: AirBox) -> Array:
 
 
 def flux_gain(omega: Array, time_step_s: float) -> Array:
-    """What a term takes of a flux at a wall: cos²(omega dt/2).
+    """Return the gain of a term by a flux at a wall: cos²(omega dt/2).
 
     With fluxes midway in the steps a term at resonance answers to its mean flux by
     omega/(2 tan(omega dt/2)/dt) sin(omega dt)/(omega dt) too much; this undoes it. It is the
@@ -172,7 +172,8 @@ def flux_gain(omega: Array, time_step_s: float) -> Array:
 def left_out(
     points_m: Array, length_m: float, nodes: int, time_step_s: float
 ) -> tuple[Array, Array]:
-    """What a series lacks of the answer to a flux at its lower end, m; its derivative; (point,).
+    """Return what a series lacks of the answer to a flux at its lower end, m; its derivative;
+    (point,).
 
     Terms far above the frequencies of interest follow a flux at once: the pressure lacks
     P(x)/c dU/dt with P(x) = 2/L sum of cos(n pi x/L)/k² over n >= N, and what `flux_gain` takes

@@ -72,7 +72,8 @@ class MachineField:
     def _spline(
         self, weights: Array, below: ComplexArray, above: ComplexArray, apart: float
     ) -> ComplexArray:
-        """What G and its slope are joined with: coefficients (power, piece, column, pattern).
+        """Spline that G and its slope are joined with: coefficients (power, piece, column,
+        pattern).
 
         Both halves of the spectrum are run through; the pieces above 0 Hz are kept.
         """

@@ -1,4 +1,4 @@
-"""What a run of a room records at lattices of points, and its spectra."""
+"""Record of a run of a room at lattices of points, and its spectra."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from ..pulse import transform
 
 @dataclass(frozen=True)
 class Pulse:
-    """What drove a run: a pulse in the middle of steps, as fluxes are; see `flux_gain`."""
+    """Pulse that drove a run: midway in steps, like fluxes; see `flux_gain`."""
 
     time_s: Array
     force: Array

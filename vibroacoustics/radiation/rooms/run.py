@@ -43,7 +43,7 @@ class RoomResponse:
 
 
 class Runs:
-    """What the runs of a room share: air, time step, points.
+    """Shared data of the runs of a room: air, time step, points.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How finely and how long a room is computed, and the pulse that drives it."""
+"""Resolution and length of the computation of a room, and the pulse that drives it."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -22,7 +22,7 @@ furniture are stable with about as many only."""
 
 @dataclass(frozen=True)
 class RoomSettings:
-    """How finely and how long a room is computed."""
+    """Resolution and length of the computation of a room."""
 
     maximum_frequency_hz: float = 1000.0
     nodes_per_wave: float | None = None

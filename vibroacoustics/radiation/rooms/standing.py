@@ -1,4 +1,4 @@
-"""Where a machine stands in a room: the box around it, and its body among the room's blocks."""
+"""Position of a machine in a room: the box around it, and its body among the room's blocks."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -36,7 +36,7 @@ class Standing:
     clearance_m: float
     """Distance from the body to the nearest side of the box."""
     body_in_room: str
-    """What stands for the body among the room's blocks, in words."""
+    """Words for the body among the room's blocks."""
 
 
 def standing(

@@ -60,7 +60,7 @@ class Walls:
 
     @property
     def arguments(self) -> tuple[Any, ...]:
-        """What `pass_walls` takes after the pressure and the change of the flux."""
+        """Arguments of `pass_walls` after the pressure and the change of the flux."""
         return self.patches, self.coefficients, self.mass, self.flux, self.sums, self.work
 
 

@@ -1,4 +1,4 @@
-"""What a chart needs of the dataset that it is drawn from."""
+"""Needs of a chart of its dataset."""
 
 from collections.abc import Callable
 from functools import wraps

@@ -35,7 +35,7 @@ PALETTE: Final = _palette()
 
 _STROKES: Final = dict(zip(DASHES, ("", "7 4", "8 3 2 3", "2 3"), strict=True))
 _KEY: Final = np.array([[13.0, 0.0]])
-"""Where the legend has the marker of a mark."""
+"""Position of the marker of a mark in the legend."""
 
 
 @singledispatch

@@ -44,7 +44,7 @@ _COLUMNS: Final[Columns] = (
 
 
 def is_pressure(compared: xr.Dataset) -> list[bool]:
-    """Which channels are of sound pressure."""
+    """Return which channels are of sound pressure."""
     return [str(unit) == "Pa" for unit in compared["channel_unit"].values]
 
 
@@ -84,7 +84,7 @@ def known_channels(compared: xr.Dataset) -> list[str]:
 
 
 def summary(compared: xr.Dataset) -> str:
-    """How far the results are apart where they are loud."""
+    """Say how far the results are apart where they are loud."""
     difference = compared["order_difference"].values
     loud = _loud(compared)
     if not loud.any():

@@ -71,7 +71,7 @@ def bar(
 
 
 def axes_cross(position: Sequence[float], right: str, up: str) -> str:
-    """Which axes go right and up."""
+    """Show which axes go right and up."""
     x, y = position
     corner = np.array([x, y])
     return (

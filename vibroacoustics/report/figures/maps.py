@@ -17,7 +17,7 @@ from ..charts.needs import needs
 from ..shown_speeds import few_speeds
 
 DEPTH_DB: Final = 40.0
-"""What is further below the loudest has the same colour, or is the middle of a polar chart."""
+"""Depth: what is further below the loudest has one colour, or is the centre of a polar chart."""
 SILENT_DB: Final = 60.0
 """A motion whose sound is this far below the loudest of its unit counts as silent."""
 UNIT_VELOCITY: Final = 1e-3
@@ -39,7 +39,7 @@ def unit_words(dof: str) -> str:
 
 
 def dof_title(dof: str) -> str:
-    """What moves and how fast, as the head of a panel."""
+    """Return the motion and its size as the head of a panel."""
     words = f": {DOF_WORDS[dof]}" if dof in DOF_WORDS else ""
     return f"{dof}{words}, {unit_words(dof)}"
 

@@ -1,4 +1,4 @@
-"""How the score of each option comes about."""
+"""Charts of the scores of the options."""
 
 from collections.abc import Iterable
 from itertools import cycle

@@ -29,7 +29,7 @@ _LETTERS: Final = np.array(
 
 @cache
 def unpacking_script() -> str:
-    """What unpacks and runs the other script of the page, with the licence of what is in there."""
+    """Return the script that unpacks and runs the other script of the page, with its licences."""
     return f"/*\nuPlot, which this unpacks:\n{_read('uPlot.LICENSE')}*/\n{_read('unpack.js')}"
 
 

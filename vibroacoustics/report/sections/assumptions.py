@@ -71,7 +71,7 @@ def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
 
 
 def _mounts_held(machine: dict[str, Any]) -> tuple[str, ...]:
-    """Where the stiffness of mounts from files ends."""
+    """Ends of the stiffness of mounts from files."""
     feet = (machine.get("feet") or {}).values()
     tables = [machine.get("mount_stiffness"), *(foot and foot["stiffness"] for foot in feet)]
     frequencies = [table["frequency_hz"] for table in tables if table]
@@ -127,7 +127,7 @@ def records_table(results: xr.Dataset) -> Table:
 
 
 def unmodelled_sentence(results: xr.Dataset) -> str:
-    """How the part of the level that the model does not explain is fixed."""
+    """Say how the unmodelled noise is determined."""
     noise = overall_noise(results)
     if noise is None:
         return growth_sentence(results)
@@ -170,7 +170,8 @@ def _point_words(results: xr.Dataset) -> str:
 
 
 def structure_borne_sentence(results: xr.Dataset) -> str:
-    """What removing a line would buy, were it far louder through the feet than through the air."""
+    """Say what removing a line would buy, were it far louder through the feet than through the
+    air."""
     total = quoted_dba(results)
     gain = level_of_power(1.0 - power_of_level(-LOUD_LINE_BELOW_TOTAL_DB))
     return (

@@ -38,7 +38,7 @@ def microphones(results: xr.Dataset) -> list[str]:
 
 
 def summary(results: xr.Dataset) -> str:
-    """Where the baseline comes from and what is done with it."""
+    """Say where the baseline comes from and what is done with it."""
     files = ", ".join(PurePath(name).name for name in baseline_of(results)["file"])
     return (
         f"The sound of the machine without a balancer was measured at "
@@ -50,7 +50,7 @@ def summary(results: xr.Dataset) -> str:
 
 
 def limits(results: xr.Dataset) -> tuple[str, ...]:
-    """What the measurement covers, and its limits."""
+    """Say what the measurement covers, and its limits."""
     sentences = [_of_bands(results), _of_orders(results), _of_speeds(results)]
     sentences += [_of_model(results), _of_others(results), _of_samples(results)]
     return tuple(filter(None, sentences))
@@ -140,7 +140,7 @@ def _position(results: xr.Dataset, name: str, speed: float) -> str:
 
 
 def _of_model(results: xr.Dataset) -> str:
-    """Where the model is louder than what was measured."""
+    """Say where the model is louder than the measurement."""
     louder = (results["baseline_share"] > 1.0).any(["speed", "receiver"])
     bands = [f"{band:g}" for band in results["baseline_band"].values[louder.values]]
     texts = []

@@ -1,4 +1,4 @@
-"""Which input or law would change the headlines of the first screen."""
+"""Inputs or laws that would change the headlines of the first screen."""
 
 from collections.abc import Sequence
 from typing import Final, NamedTuple

@@ -65,7 +65,7 @@ def sones(results: xr.Dataset, listener: str) -> list[str]:
 
 
 def _loudness_words(results: xr.Dataset) -> str:
-    """How the loudness is computed, or what it needs."""
+    """Words on how the loudness is computed, or what it needs."""
     if not hold("room_pressure_line", "noise_band_level")(results):
         return ""
     return _HOW if "loudness_in_room" in results else NO_LOUDNESS
@@ -82,7 +82,7 @@ def loudest_listener(results: xr.Dataset) -> str:
 
 
 def room_sentence(results: xr.Dataset) -> str:
-    """How loud the machine is in the room, which path carries it, which option changes that."""
+    """Say how loud the machine is in the room, which path dominates, which option changes it."""
     name = loudest_listener(results)
     level = _both(results, name)
     limits = [
@@ -136,7 +136,7 @@ def crossover_table(results: xr.Dataset) -> Table:
 
 
 def crossover_sentence(results: xr.Dataset) -> str:
-    """Where the two methods differ by more than is to be passed over, and what follows of it."""
+    """Say where the two methods differ by more than is to be passed over, and what follows."""
     gain = results["room_place_gain"]
     alone = (results["room_gain_difference"] - gain).transpose("listener", "seam_band")
     at_one = [

@@ -52,7 +52,7 @@ def has_motions(results: xr.Dataset) -> bool:
 
 
 def relation(share: float, alone_db: float, total_db: float) -> str:
-    """How a path lies to the sum: share √(total/alone) is the cosine between the two."""
+    """Name the phase of a path to the sum: share √(total/alone) is the cosine between the two."""
     cosine = float(np.clip(share * amplitude_of_level(total_db - alone_db), -1.0, 1.0))
     words = next(text for least, text in _RELATIONS if cosine >= least)
     return f"{words} ({rounding.signed(cosine, 2)})"

@@ -21,7 +21,7 @@ from . import Section
 
 
 def receivers_table(results: xr.Dataset) -> Table:
-    """Where the microphones stand."""
+    """Return the positions of the microphones."""
     receivers = parameters(results)["receivers"]
     methods = receiver_methods(results)
     rows = tuple(
@@ -37,7 +37,7 @@ def receivers_table(results: xr.Dataset) -> Table:
 
 
 def line_difference_sentence(results: xr.Dataset) -> str:
-    """How far k-Wave moves the level of the 1x line."""
+    """Say how far k-Wave changes the level of the 1x line."""
     if "line_difference" not in results:
         return ""
     line = results["order_level"].sel(order=1, weighting="Z")
@@ -67,7 +67,7 @@ def grid_error_sentence(results: xr.Dataset) -> str:
 
 
 def _hundredth_above(value: float) -> str:
-    """What a value is below of, so that a small error never reads as none."""
+    """Upper bound in hundredths, so that a small error never reads as none."""
     return rounding.fixed((np.floor(100.0 * value) + 1.0) / 100.0, 2)
 
 

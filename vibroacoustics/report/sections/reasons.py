@@ -1,4 +1,4 @@
-"""Why the verdict is as it is, and what each option does."""
+"""Reasons for the verdict, and the effect of each option."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -97,7 +97,7 @@ def _shaken_over_the_speeds(results: xr.Dataset, reference: xr.Dataset) -> str:
 
 
 def _unmodelled(results: xr.Dataset) -> str:
-    """Why the total hardly follows the line; that there is none where nothing is published."""
+    """Say why the total hardly follows the line, or that no level is published."""
     if overall_noise(results) is None and measured_rpm(results) is None:
         return growth_sentence(results)
     receiver = catalogue_receiver(results)

@@ -1,4 +1,4 @@
-"""How the options rank, and the published scores."""
+"""Section on the ranks of the options, and the published scores."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -49,7 +49,7 @@ def scores_data(results: xr.Dataset) -> DataTable:
 
 
 def criteria_table(results: xr.Dataset) -> Table:
-    """What is scored: weight, and the values that count as best and worst."""
+    """Return the criteria: weight, and the values that count as best and worst."""
     names = ("criterion_label", "criterion_unit", "weight", "criterion_best", "criterion_worst")
     every = zip(*(results[name].values.tolist() for name in names), strict=True)
     rows = tuple(
@@ -114,7 +114,7 @@ def _names(results: xr.Dataset, dim: str) -> list[str]:
 
 
 def acceptability_words(results: xr.Dataset, winners: Sequence[str]) -> str:
-    """How sure the first rank is; files of older versions have it by the weights alone."""
+    """Say how sure the first rank is; files of older versions have it by the weights alone."""
     whatever = 100.0 * float(results["first_place_share"].sel(option=winners).sum())
     if "rank_acceptability" not in results or not has_samples(results):
         return f". It is first with {whatever:.0f} % of random weights"
@@ -140,7 +140,7 @@ def too_close_words(results: xr.Dataset) -> str:
 
 
 def ranking_sentence(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> str:
-    """Which option the study's weights prefer, and how sure that is."""
+    """Say which option the study's weights prefer, and how sure that is."""
     method = str(results["scoring_method"].values[0])
     of_method = results[["score", "rank"]].sel({"scoring_method": method})
     rank = dict(zip(options(results), of_method["rank"].values.tolist(), strict=True))

@@ -32,7 +32,7 @@ GIVEN_UP: Final = 20.0
 
 
 def test_sentence(results: xr.Dataset) -> str:
-    """What was measured and with which tolerances it is compared."""
+    """Say what was measured and with which tolerances it is compared."""
     about = results["shell_likelihood"].attrs
     unused = f"; {about['unused']} others have nodes without a name" if about["unused"] else ""
     return (
@@ -56,7 +56,7 @@ def peaks_sentence(results: xr.Dataset) -> str:
 
 
 def samples_sentence(results: xr.Dataset) -> str:
-    """How many samples were held against the test, and how many equal ones remain."""
+    """Say how many samples were weighted by the test, and how many equal ones remain."""
     weight = results["shell_likelihood"].values
     effective = effective_number(weight)
     few = " That is few: bands after the test are rough." if effective < GIVEN_UP else ""

@@ -1,4 +1,4 @@
-"""What happens when the machine is switched off, against steady running."""
+"""Section on switching off, compared with steady running."""
 
 from typing import Final
 
@@ -91,7 +91,7 @@ def _limits(results: xr.Dataset) -> str:
 
 
 def _turned_back(results: xr.Dataset) -> tuple[str, ...]:
-    """What follows the first rest, where it is computed."""
+    """Say what follows the first rest, where it is computed."""
     if "stopping_brake_force" not in results:
         return ()
     angle = np.degrees(results["stopping_turned_back_angle"].values)

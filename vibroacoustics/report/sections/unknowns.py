@@ -80,7 +80,7 @@ def dotted(item: Mapping[str, Any]) -> str:
 
 
 def _projection(results: xr.Dataset) -> str:
-    """How far natural frequencies by projection are off."""
+    """Say how far natural frequencies by projection are off."""
     if "projection_error" not in results:
         return ""
     errors = results["projection_error"]

@@ -128,7 +128,7 @@ def recorded_speeds_to_avoid(speed_rpm: Array, level_db: Array, bins: int = BINS
 
 
 def _falls_to(speed_rpm: Array, level_db: Array) -> float:
-    """Where the level is so far below the first one, going on from case; linear in between."""
+    """Speed at which the level has fallen so far, going on from case; linear in between."""
     wanted = level_db[0] - WITHIN_DB
     after = int(np.argmax(level_db <= wanted))
     share = (level_db[after - 1] - wanted) / (level_db[after - 1] - level_db[after])

@@ -38,7 +38,7 @@ class Mode(NamedTuple):
 
 
 class Crossing(NamedTuple):
-    """Where a line meets a mode; its level there, of the modelled one, dB."""
+    """Crossing of a line and a mode; its level there, of the modelled one, dB."""
 
     line: SoundLine
     mode: Mode

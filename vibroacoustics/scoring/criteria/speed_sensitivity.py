@@ -1,4 +1,4 @@
-"""How far the benefit depends on the speed."""
+"""Dependence of the benefit on the speed."""
 
 from typing import Final
 

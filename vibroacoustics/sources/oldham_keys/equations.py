@@ -44,7 +44,8 @@ class Coupling(NamedTuple):
 
 
 class Drive(NamedTuple):
-    """What the shaft's angle sets: its sine and cosine, force on the ring, moment on the scroll."""
+    """Values that the shaft's angle sets: sine and cosine, force on the ring, moment on the
+    scroll."""
 
     sine: float
     cosine: float

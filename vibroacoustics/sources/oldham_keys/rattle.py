@@ -47,7 +47,7 @@ SOURCE: Final = "four keys with clearance, film and friction, our equations"
 
 @dataclass(frozen=True)
 class KeyForces:
-    """What keys and slots do to each other over whole revolutions from crank angle zero.
+    """Forces between keys and slots over whole revolutions from crank angle zero.
 
     Keys 0 and 1 are in the scroll's slots, at y = ±R of the ring; 2 and 3 in the housing's, at
     x = ±R.

@@ -50,7 +50,7 @@ def chamber_volume_m3(wraps: ScrollWraps, at_opening_m3: float, since_opening: A
 
 
 def least_chamber_volume_m3(wraps: ScrollWraps) -> float:
-    """What a chamber must exceed when a pair opens, so that gas is left in it throughout, m³.
+    """Return the least chamber volume when a pair opens, so that gas remains in it, m³.
 
     The chamber shrinks until its contacts reach t = 0, or until it is one with the pair.
     """

@@ -19,7 +19,7 @@ from .pressures import OpenedGas, TrappedGas, pocket_pressure
 from .suction import SuctionFlow
 
 AFTER_OPENING: Final = np.pi / 3.0
-"""How far the pressure of a pocket is shown beyond its opening, rad."""
+"""Angle to which the pressure of a pocket is shown beyond its opening, rad."""
 AFTER_CLOSING: Final = np.pi / 18.0
 """Angle from which a suction pocket is shown, rad: before, the gap's length exceeds its own."""
 HIGHEST_HZ: Final = 4000.0

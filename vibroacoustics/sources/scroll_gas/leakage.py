@@ -26,7 +26,7 @@ FIRST_TURNS: Final = 4
 
 
 class PocketTurn(NamedTuple):
-    """What a turn of the closed pockets does to the opened pair."""
+    """Effect of a turn of the closed pockets on the opened pair."""
 
     opens_with: float
     """Mass of a pair at its opening, over that of one without leakage."""

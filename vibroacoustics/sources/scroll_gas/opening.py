@@ -90,7 +90,7 @@ def opening_constants(
 
 
 def why_no_opening(wraps: ScrollWraps, gas: ScrollGas, opening: ScrollOpening) -> str | None:
-    """Why a pocket cannot open with inertia, at any speed; None where it can."""
+    """Say why a pocket cannot open with inertia, at any speed; None where it can."""
     try:
         opening_constants(wraps, gas, opening, speed_rpm=60.0)
     except ParameterError as error:

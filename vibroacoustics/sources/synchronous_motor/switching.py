@@ -27,7 +27,7 @@ class Sideband(NamedTuple):
 
 
 def reference(modulation: str, ratio: float, angle: Array) -> Array:
-    """What a leg shall give, over half the voltage of the link; shape of the angle.
+    """Return the reference of a leg, over half the voltage of the link; shape of the angle.
 
     Space-vector modulation centres the three legs: minus half of the largest and the least.
     """

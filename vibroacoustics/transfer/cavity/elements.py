@@ -60,7 +60,8 @@ def matrices(profile: Profile, order: int) -> tuple[Array, Array]:
 
 
 def interpolation(profile: Profile, radius_m: float, height_m: float) -> Array:
-    """What each node adds at a place of the space, shape (node,); places beyond are on its edge."""
+    """Return the weight of each node at a point of the space, shape (node,); points beyond are on
+    its edge."""
     ends = profile.radius[::2]
     column = int(np.clip(np.searchsorted(ends, radius_m) - 1, 0, ends.size - 2))
     across = _within(profile.radius[2 * column : 2 * column + 3], radius_m)

@@ -1,4 +1,4 @@
-"""How well bending waves of a plate radiate."""
+"""Radiation efficiency of bending waves of a plate."""
 
 import numpy as np
 

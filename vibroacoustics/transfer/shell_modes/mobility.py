@@ -1,4 +1,4 @@
-"""What drives the shell's modes, and how they answer."""
+"""Mobility of the shell: forces on its modes, and their response."""
 
 import numpy as np
 

@@ -27,7 +27,7 @@ _FOUR_PLACES: Final = np.linspace(-1.0, 1.0, 4)
 
 
 class Around(NamedTuple):
-    """How a motion varies with the angle: `radial` and axial parts, and the one around."""
+    """Variation of a motion with the angle: `radial` and axial parts, and the one around."""
 
     order: int
     angle_rad: float

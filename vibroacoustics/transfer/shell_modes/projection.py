@@ -21,7 +21,7 @@ from .statics import WallFlexibility
 
 @dataclass(frozen=True)
 class ProjectedModes:
-    """What a changed wall does to natural frequencies and modal masses.
+    """Change of natural frequencies and modal masses by a changed wall.
 
     Attributes
     ----------

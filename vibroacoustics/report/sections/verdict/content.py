@@ -125,7 +125,7 @@ def left_out_words(results: xr.Dataset) -> list[Block]:
 
 
 def coarse_words(results: xr.Dataset) -> list[Block]:
-    """What was made coarser for a first look; nothing of a run as its study says."""
+    """Say what was made coarser for a first look; nothing of a run as its study says."""
     coarsened = parameters(results).get("coarsened", ())
     first = "This is a first look, coarser than the study says:"
     blocks: list[Block] = [Text(first), Bullets(tuple(coarsened))] if coarsened else []
