@@ -23,6 +23,7 @@ LISTS: Final = tomllib.loads(Path(__file__).with_name("language.toml").read_text
 HOLDS: Final = {entry["word"] for entry in LISTS["holds"]}
 IS: Final = {entry["word"] for entry in LISTS["is"]}
 PHRASES: Final = [re.compile(entry["pattern"], re.MULTILINE) for entry in LISTS["phrase"]]
+OPENINGS: Final = frozenset(LISTS["openings"])
 EXEMPT: Final = {(entry["path"], entry["what"]) for entry in LISTS["exempt"]}
 ANY_PHRASE: Final = re.compile("|".join(f"(?:{one.pattern})" for one in PHRASES), re.MULTILINE)
 """Most lines hold none: one search tells it."""
@@ -51,6 +52,17 @@ def bindings(tree: ast.AST) -> Iterator[tuple[int, str]]:
             yield line, node.arg
 
 
+def openings(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Line and first word of every docstring, also of those below fields and constants."""
+    for node in ast.walk(tree):
+        body = getattr(node, "body", ())
+        for statement in body if isinstance(body, list) else ():
+            match statement:
+                case ast.Expr(value=ast.Constant(value=str() as text)):
+                    word = re.match(r"\s*([A-Za-z]+)", text)
+                    yield statement.lineno, word[1] if word else ""
+
+
 def prose(code: str) -> Iterator[tuple[int, str]]:
     """Line and text of every comment and every string of words."""
     for token in tokenize.generate_tokens(io.StringIO(code).readline):
@@ -62,7 +74,9 @@ def prose(code: str) -> Iterator[tuple[int, str]]:
 
 def faults_of_code(path: str, code: str) -> Iterator[Fault]:
     """Faults of a Python file."""
-    for line, name in bindings(ast.parse(code)):
+    tree = ast.parse(code)
+    yield from (Fault(path, line, word) for line, word in openings(tree) if word in OPENINGS)
+    for line, name in bindings(tree):
         parts = set(name.strip("_").lower().split("_"))
         for word in sorted(parts & HOLDS) + [name] * (name in IS):
             yield Fault(path, line, word)

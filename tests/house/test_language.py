@@ -41,6 +41,13 @@ def test_each_phrase_is_seen_in_its_example():
         assert list(faults_of_text("a.md", entry["example"])), entry
 
 
+@pytest.mark.parametrize("word", LISTS["openings"])
+def test_each_opening_is_seen_below_a_field_and_a_function(word):
+    code = f'x: int = 1\n"""{word} the axis."""\ndef f():\n    """{word} the axis."""\n'
+    assert [fault.line for fault in faults_of_code("a.py", code) if fault.what == word] == [2, 4]
+    assert not list(faults_of_code("a.py", f'"""Axis. {word} it is."""'))
+
+
 def test_exemptions_are_few_and_each_is_needed():
     assert len(EXEMPT) <= MOST_EXEMPT
     for path, what in EXEMPT:
@@ -69,5 +76,5 @@ def test_ordinary_words_stay_free(code):
 
 def test_docstrings_comments_and_messages_are_read():
     code = '"""Of a change."""\n# it hangs on that\nerror = f"no file is told {x} here"\n'
-    seen = [(fault.line, fault.what) for fault in faults_of_code("a.py", code)]
+    seen = sorted({(fault.line, fault.what) for fault in faults_of_code("a.py", code)})
     assert seen == [(1, "Of"), (2, "hangs on"), (3, "is told")]
