@@ -176,7 +176,7 @@ class ElasticShell:
         ]
 
     def _ring_frequency_hz(self, order: int) -> float:
-        """Bending frequency of a free ring in its plane: Rayleigh, Theory of Sound (1894), § 233."""
+        """Bending frequency of a ring in its plane (Rayleigh, Theory of Sound, 1894, § 233)."""
         structure, n = self.structure, order
         speed = np.sqrt(structure.youngs_modulus_pa / structure.density_kg_per_m3)
         factor = n * (n**2 - 1.0) / np.sqrt(n**2 + 1.0)
