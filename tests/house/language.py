@@ -32,6 +32,11 @@ PROSE: Final = re.compile(r"[A-Za-z]+\s+[A-Za-z]+")
 QUOTED: Final = re.compile(r'"[^"]*"|#.*')
 
 
+ARRAYS: Final = ("Array", "ComplexArray", "IndexArray", "Samples")
+ENTRY: Final = re.compile(r"^([\w*, ]+?) : (.*?)(?=^\S|\Z)", re.DOTALL | re.MULTILINE)
+"""Names and text of an entry of a section of a docstring."""
+
+
 class Fault(NamedTuple):
     """A word or phrase in a line of a file."""
 
@@ -63,6 +68,33 @@ def openings(tree: ast.AST) -> Iterator[tuple[int, str]]:
                     yield statement.lineno, word[1] if word else ""
 
 
+def shapeless(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Line and name of every documented array whose docstring states no shape."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.FunctionDef | ast.ClassDef):
+            continue
+        section = "Parameters" if isinstance(node, ast.FunctionDef) else "Attributes"
+        head, _, body = (ast.get_docstring(node) or "").partition(f"{section}\n---")
+        if "shape" in head:
+            continue
+        arrays = {name for name, kind in annotations(node) if kind in ARRAYS}
+        for names, text in ENTRY.findall(body):
+            if not any(word in text for word in ("(", "shape", "see `")):
+                yield from ((node.lineno, name) for name in names.split(", ") if name in arrays)
+
+
+def annotations(node: ast.FunctionDef | ast.ClassDef) -> Iterator[tuple[str, str]]:
+    """Name and annotation of the parameters of a function or of the fields of a class."""
+    if isinstance(node, ast.FunctionDef):
+        for argument in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs):
+            if argument.annotation:
+                yield argument.arg, ast.unparse(argument.annotation)
+    else:
+        for item in node.body:
+            if isinstance(item, ast.AnnAssign):
+                yield ast.unparse(item.target), ast.unparse(item.annotation)
+
+
 def prose(code: str) -> Iterator[tuple[int, str]]:
     """Line and text of every comment and every string of words."""
     for token in tokenize.generate_tokens(io.StringIO(code).readline):
@@ -76,6 +108,7 @@ def faults_of_code(path: str, code: str) -> Iterator[Fault]:
     """Faults of a Python file."""
     tree = ast.parse(code)
     yield from (Fault(path, line, word) for line, word in openings(tree) if word in OPENINGS)
+    yield from (Fault(path, line, f"{name} without shape") for line, name in shapeless(tree))
     for line, name in bindings(tree):
         parts = set(name.strip("_").lower().split("_"))
         for word in sorted(parts & HOLDS) + [name] * (name in IS):

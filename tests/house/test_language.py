@@ -48,6 +48,14 @@ def test_each_opening_is_seen_below_a_field_and_a_function(word):
     assert not list(faults_of_code("a.py", f'"""Axis. {word} it is."""'))
 
 
+def test_an_array_without_shape_is_seen():
+    section = "Parameters\n    ----------\n    x : force, N"
+    code = f'def f(x: Array):\n    """Sum.\n\n    {section}\n    """\n'
+    assert [fault.what for fault in faults_of_code("a.py", code)] == ["x without shape"]
+    assert not list(faults_of_code("a.py", code.replace("force, N", "force, shape (time,), N")))
+    assert not list(faults_of_code("a.py", code.replace("Sum.", "Sum, shape (time,).")))
+
+
 def test_exemptions_are_few_and_each_is_needed():
     assert len(EXEMPT) <= MOST_EXEMPT
     for path, what in EXEMPT:

@@ -86,7 +86,7 @@ def envelope_maximum(pressure_pa: ComplexArray, axis: int = 0) -> Array:
 
     Parameters
     ----------
-    pressure_pa : complex peaks, lines along the axis
+    pressure_pa : complex peaks, shape (..., line, ...) with the lines along the axis
     axis : axis of the lines
     """
     return np.asarray(np.abs(pressure_pa).sum(axis=axis))
@@ -99,7 +99,7 @@ def envelope_minimum(pressure_pa: ComplexArray, axis: int = 0) -> Array:
 
     Parameters
     ----------
-    pressure_pa : complex peaks, lines along the axis
+    pressure_pa : complex peaks, shape (..., line, ...) with the lines along the axis
     axis : axis of the lines
     """
     size = np.abs(pressure_pa)

@@ -46,8 +46,8 @@ class SourceSound:
     band_hz : middle frequencies of the bands, shape (band,)
     order : shaft orders that were measured, complex peaks, shape (source, receiver, order), Pa
     order_hz : frequency of these orders, shape (order,)
-    beside : mean square like `mutual`, without weighting and these orders, Pa²; empty without a
-        baseline
+    beside : mean square like `mutual`, without weighting and these orders, same shape, Pa²; empty
+        without a baseline
     """
 
     band: Array

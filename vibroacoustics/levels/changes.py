@@ -48,7 +48,7 @@ def change_db(amplitude: Array, reference: int) -> Array:
 
     Parameters
     ----------
-    amplitude : amplitude; values below `FORCE_FLOOR` count as that
+    amplitude : amplitude, shape (..., option); values below `FORCE_FLOOR` count as that
     reference : number of the option
     """
     counted = np.maximum(amplitude, rounding.FORCE_FLOOR)

@@ -39,7 +39,7 @@ def class_1_limits_db(frequency_ratio: Array, bands_per_octave: int) -> tuple[Ar
 
     Parameters
     ----------
-    frequency_ratio : frequency over mid-band frequency, above zero
+    frequency_ratio : frequency over mid-band frequency, above zero, shape (...)
     bands_per_octave : 1 or 3
 
     Returns

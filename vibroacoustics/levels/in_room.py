@@ -139,7 +139,7 @@ def power_of_hemisphere(mean_square: Array, distance_m: float) -> Array:
 
     Parameters
     ----------
-    mean_square : at the distance, Pa²
+    mean_square : mean square at the distance, shape (...), Pa²
     distance_m : from the foot of its axis
     """
     return np.asarray(mean_square * hemisphere_area_m2(distance_m) / AIR_IMPEDANCE_PA_S_PER_M)
@@ -184,7 +184,7 @@ def blended_gains(waves: Array, ways: RoomWays) -> tuple[Array, Array]:
 
     Parameters
     ----------
-    waves : result of `wave_gains`
+    waves : result of `wave_gains`, shape (listener, band)
     ways : to the listeners
 
     Returns

@@ -27,11 +27,11 @@ def crossover_variables(
     Parameters
     ----------
     listeners : their names
-    shown : numbers of the bands
+    shown : numbers of the bands, shape (shown band,)
     waves : mean square per power, shape (listener, shown band), Pa²/W
-    diffuse : gain by direct sound and diffuse field, relative to the power in the open
-    gains_db : which the diffuse field takes over, of the bands and of all above; no part of the
-        curves, whose mean difference over the listeners they are
+    diffuse : gain by direct sound, same shape, and diffuse field, relative to the power in the open
+    gains_db : gain of the diffuse field, shape (shown band + 1,), of the bands and of all above; no
+        part of the curves, whose mean difference over the listeners they are
     """
     bands = [BASELINE_BANDS[number].nominal_hz for number in shown]
     by_waves, by_power = (

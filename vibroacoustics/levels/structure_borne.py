@@ -107,7 +107,7 @@ def level_range(variance: Array, deviation_db: float) -> tuple[Array, Array]:
 
     Parameters
     ----------
-    variance : relative, of the power
+    variance : relative variance of the power, shape (...)
     deviation_db : standard deviation of the level by all else
     """
     in_db = 10.0 / np.log(10.0)

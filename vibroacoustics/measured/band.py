@@ -98,7 +98,7 @@ def chosen_truncation(errors: Array) -> float:
 
     Parameters
     ----------
-    errors : errors of each of `TRIED`
+    errors : errors of each of `TRIED`, shape (truncation,)
     """
     good = errors <= _GOOD_ENOUGH * errors.min()
     return TRIED[int(np.argmax(good))]

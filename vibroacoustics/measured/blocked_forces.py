@@ -27,7 +27,7 @@ class Inverted:
     ----------
     force : along each set of forces, N, shape (frequency, set)
     predicted : m or Pa, shape (frequency, validation)
-    measured : responses while the source ran
+    measured : responses while the source ran, shape (frequency, validation)
     """
 
     force: ComplexArray

@@ -41,9 +41,10 @@ class InSitu:
     ----------
     frequency_hz : shape (frequency,)
     values, error : functions and the RMS of their complex error, shape (function, frequency)
-    compliance, transfer : function of each response and validation by force
-    operating, validation : function of each response and validation
-    forces, responses, validations : sign of each one's direction
+    compliance, transfer : numbers of functions, shapes (response, force) and (validation, force)
+    operating, validation : numbers of functions, shapes (response,) and (validation,)
+    forces, responses, validations : signs of directions, shapes (force,), (response,) and
+        (validation,)
     sets : sets of forces that are solved for, shape (force, set)
     """
 

@@ -61,7 +61,7 @@ class Bilinear:
 
         Parameters
         ----------
-        start : w and w'
+        start : w and w', shape (2,)
         steps : in a revolution
         count : number of steps
         """

@@ -146,9 +146,10 @@ def states_at(
 
     Parameters
     ----------
-    crank_angle : not below zero, rad
-    start : at crank angle zero: angle and rate; and, where they are wanted, the deviations of
-        angle and rate that follow a small change of the first, then of the second starting value
+    crank_angle : crank angle, not below zero, shape (angle,), rad
+    start : state at crank angle zero, shape (component,): angle and rate; and, where they are
+        wanted, the deviations of angle and rate that follow a small change of the first, then of
+        the second starting value
     longest_step : rad
     motion : push, stiffness and damping of the equation of motion, see `pendulum.Drive`
     """

@@ -120,7 +120,7 @@ def sharpness(lines: Lines, orders: Array) -> float:
     Parameters
     ----------
     lines : lines of an order spectrum
-    orders : orders of the comb
+    orders : orders of the comb, shape (order,)
     """
     covered = orders[orders < lines.highest]
     reach = tolerance(lines, covered)
@@ -140,7 +140,7 @@ def evidence(lines: Lines, orders: Array, speeds: Array) -> Array:
     Parameters
     ----------
     lines : lines of a spectrum
-    orders : orders of the comb, rising
+    orders : orders of the comb, rising, shape (order,)
     speeds : shape (speed,), in the unit of the lines' frequency
 
     Returns
@@ -233,7 +233,7 @@ def are_in_place(lines: Lines, frequency: Array) -> NDArray[np.bool_]:
     Parameters
     ----------
     lines : lines of a spectrum
-    frequency : in the unit of the lines' frequency
+    frequency : frequency in the unit of that of the lines, shape (...)
     """
     if lines.frequency.size == 0:
         return np.zeros(frequency.shape, dtype=bool)
@@ -246,7 +246,7 @@ def lines_in_place(lines: Lines, orders: Array) -> tuple[int, int, float]:
     Parameters
     ----------
     lines : lines of an order spectrum
-    orders : orders of the comb
+    orders : orders of the comb, shape (order,)
 
     Returns
     -------

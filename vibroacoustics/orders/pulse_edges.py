@@ -191,14 +191,15 @@ def _crossings(
 
     Parameters
     ----------
-    signal : the next samples; times `sign` they are what goes upward
+    signal : the next samples, shape (sample,); times `sign` they are what goes upward
     first : number of its first sample
     sign : 1 or -1
-    middles : threshold of each sample, or one of all
+    middles : threshold, shape (sample,) or (1,)
     halves : halves of the band about it, of the same shape
-    state : the sample before, over its threshold, not a number at the start; 1 where the signal has
-        been below the lower level since the last crossing; the last crossing of the middle; highest
-        and lowest sample since the last pulse; last sample below the lower level. It is changed
+    state : shape (6,): the sample before, over its threshold, not a number at the start; 1 where
+        the signal has been below the lower level since the last crossing; the last crossing of the
+        middle; highest and lowest sample since the last pulse; last sample below the lower level.
+        It is changed
 
     Returns
     -------

@@ -34,8 +34,8 @@ class Heights:
 
     Attributes
     ----------
-    sample : sample numbers of the pulses
-    height : at each, 0 to 1
+    sample : sample numbers of the pulses, shape (pulse,)
+    height : height of each, 0 to 1, shape (pulse,)
     """
 
     sample: Array
@@ -83,7 +83,7 @@ def continued(numbers: Array, pulses: Array, swings: Array, has_lobes: bool) -> 
 
     Parameters
     ----------
-    numbers : pulses of the round before, in samples
+    numbers : pulses of the round before, shape (pulse,), samples
     pulses, swings : pulses and swings of this round, see `heights_of`
     has_lobes : whether the pulses go to both sides of a rest
     """
@@ -125,7 +125,7 @@ def silent_parts(time: Array, start: float, end: float) -> list[tuple[float, flo
 
     Parameters
     ----------
-    time : time of the pulses, rising, two at least
+    time : time of the pulses, rising, shape (pulse,), two at least
     start, end : start and end of the recording, in the unit of the pulses' time
     """
     borders = np.concatenate([[start], time, [end]])

@@ -39,7 +39,7 @@ class Course:
     Attributes
     ----------
     curve : speed in Hz over time in s, smooth
-    time_s : centres of the frames that it comes from
+    time_s : centres of the frames that it comes from, shape (frame,)
     confidence : confidence of each frame, see `TacholessResult`
     """
 
@@ -56,7 +56,7 @@ class Search:
     ----------
     samples : shape (time,), of a rate that holds the orders
     rate_hz : rate of the samples
-    orders : orders of the comb, rising
+    orders : orders of the comb, rising, shape (order,)
     minimum_hz, maximum_hz : limits of the speed
     change_per_s : largest relative change of the speed, 1/s
     """

@@ -89,7 +89,7 @@ class FieldPart:
         Parameters
         ----------
         pressure : (clear point, dof, frequency), Pa
-        frequency_hz : those of the table and, after them, those of the lines
+        frequency_hz : frequencies of the table, then those of the lines, shape (frequency,)
         """
         shape = (self.points.size // 3, *pressure.shape[1:])
         values = np.full(shape, np.nan, dtype=complex)

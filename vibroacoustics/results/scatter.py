@@ -14,7 +14,8 @@ COVERAGE: Final = 0.95
 
 
 class Scatter(NamedTuple):
-    """Scatter of levels over several runs; not a number where the runs do not show it.
+    """Scatter of levels over several runs, shape (...) each; not a number where the runs do not
+    show it.
 
     Attributes
     ----------

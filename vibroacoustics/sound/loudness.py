@@ -134,7 +134,7 @@ def filter_gain(frequency_hz: Array) -> Array:
 
     Parameters
     ----------
-    frequency_hz : above zero
+    frequency_hz : frequency above zero, shape (frequency,)
     """
     ratio = frequency_hz[:, None] / CENTRES_HZ
     width = (HALF_BAND - 1.0 / HALF_BAND) * np.sinc(1.0 / 6.0)

@@ -28,9 +28,9 @@ class BothMethods(NamedTuple):
     ways : with the gain of the place
     gain : gain of the power at the machine's position, a function of frequencies
     waves : mean square per power, shape (listener, band), Pa²/W
-    shown : numbers of the bands around the crossover
+    shown : numbers of the bands around the crossover, shape (shown band,)
     transfers : waves and diffuse field in these, without the gain
-    gains_db : gains of the position, in these bands and above
+    gains_db : gains of the position in these bands and above, shape (shown band + 1,)
     """
 
     ways: RoomWays

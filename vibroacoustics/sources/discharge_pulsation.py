@@ -79,8 +79,8 @@ def muffler_pressure_pa(
 
     Parameters
     ----------
-    flow_m3_per_s : through the valve by line, Q
-    angular_frequency : angular frequency of the lines, rad/s
+    flow_m3_per_s : flow Q through the valve, shape (line,)
+    angular_frequency : angular frequency of the lines, shape (line,), rad/s
     gas : volume, density, speed of sound
     area_m2 : area of the tube
     """

@@ -108,7 +108,7 @@ def motor_loads(
     ----------
     mechanism : the body with the motor
     roll_moment_n_m : on it, complex peaks, shape (line,)
-    torque_n_m : on the rotor, likewise
+    torque_n_m : torque on the rotor, complex peaks, shape (line,)
 
     Returns
     -------

@@ -35,7 +35,7 @@ def course_of(
     coasting : equation of motion
     motion : angle, speed and acceleration from switch-off to the first rest, shape (3, samples)
     reversal : reversal after it; none where the shaft stays
-    time_s : from switch-off, before it at constant speed
+    time_s : time from switch-off, shape (times,), before it at constant speed
     rest_angle : at the first rest, rad
     speed_rad_per_s : before switch-off
     """

@@ -50,7 +50,7 @@ class StopThroughShell:
         ----------
         run : run of the machine
         first : sample of the run with which the result begins
-        fade : factor of the load, from that sample to the run's end
+        fade : shape (load samples,): factor of the load, from that sample to the run's end
         samples : number of samples of the result
         rate_hz : sample rate of the result
         """
@@ -98,7 +98,7 @@ def brake_on_parts(
     ----------
     table : brake and wall
     force_n : F around the shaft, shape (times,)
-    angle : angle of crank pin and brake, rad
+    angle : angle of crank pin and brake, shape (times,), rad
     height_m : height of the brake
 
     Returns

@@ -71,7 +71,7 @@ class BendingShell:
         observers : with the modes
         port : in the shell
         frequency_hz : shape (frequency,); parts and gas share what is solved at these
-        lines : indices of the loaded ones
+        lines : indices of the loaded ones, shape (line,)
 
         Raises
         ------
@@ -125,7 +125,7 @@ class BendingShell:
         observers : with the modes
         forces : at the lines, shape (mode, load, line or 1)
         frequency_hz : shape (frequency,)
-        lines : indices of the loaded ones
+        lines : indices of the loaded ones, shape (line,)
         frame : that answers the forces
         """
         if frame is not None:

@@ -119,7 +119,7 @@ def displacement(path: LoadPath, moving: ComplexArray, points: Array) -> Complex
     Parameters
     ----------
     path : path of the case
-    moving : result of `amplitudes`
+    moving : see `amplitudes`
     points : about the centre of mass, shape (..., 3), m
     """
     total = moving[-6:-3] + np.cross(moving[-3:], points)

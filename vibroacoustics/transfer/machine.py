@@ -243,7 +243,7 @@ def modes_over_frequency(
     Parameters
     ----------
     stiffness : real part at a frequency in Hz, symmetric
-    mass : symmetric, positive definite
+    mass : mass matrix, symmetric, positive definite, shape (n, n)
     stiffest_hz : frequency that no natural frequency exceeds
     """
 

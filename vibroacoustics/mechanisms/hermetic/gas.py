@@ -47,7 +47,7 @@ def gas_force_n(machine: HermeticTables, crank_angle: Array) -> Array:
     Parameters
     ----------
     machine : pressures in Pa, polytropic exponent
-    crank_angle : θ, rad
+    crank_angle : θ, shape (...), rad
     """
     pressure = machine.gas.valve_cycle.pressure_pa(
         fill(machine, crank_angle), _outwards(machine, crank_angle)

@@ -34,9 +34,9 @@ def short_bearing_force(
     Parameters
     ----------
     bearing : radius, width and clearance in m, viscosity in Pa s
-    eccentricity : ε, over the clearance
-    rate : dε/dt, 1/s
-    slip : u = Ω - 2 dϕ/dt, rad/s
+    eccentricity : ε over the clearance, shape (...)
+    rate : dε/dt, shape (...), 1/s
+    slip : u = Ω - 2 dϕ/dt, shape (...), rad/s
 
     Returns
     -------
@@ -63,9 +63,9 @@ def short_bearing_pressure(
     ----------
     bearing : radius, width and clearance in m, viscosity in Pa s
     angle : φ, rad
-    eccentricity : ε, over the clearance
-    rate : dε/dt, 1/s
-    slip : u = Ω - 2 dϕ/dt, rad/s
+    eccentricity : ε over the clearance, shape (...)
+    rate : dε/dt, shape (...), 1/s
+    slip : u = Ω - 2 dϕ/dt, shape (...), rad/s
 
     Returns
     -------

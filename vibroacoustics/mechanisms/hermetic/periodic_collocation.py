@@ -78,7 +78,7 @@ def periodic_solution(
     Parameters
     ----------
     slope : f and its tangent
-    mesh : ascending angles of one period; kinks of f must be mesh points
+    mesh : ascending angles of one period, shape (steps + 1,); kinks of f must be mesh points
     guess : states at the collocation points, shape (steps, 3, states)
     size : typical magnitude of each state, for the test of convergence, shape (states,)
     allowed : largest fraction of a step that keeps the states where f is defined

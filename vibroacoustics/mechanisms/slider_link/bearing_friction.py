@@ -22,7 +22,7 @@ def short_bearing_friction(eccentricity_ratio: Array, length_per_diameter: float
 
     Parameters
     ----------
-    eccentricity_ratio : from 0 to below 1
+    eccentricity_ratio : eccentricity, from 0 to below 1, shape (...)
     length_per_diameter : l/d
 
     Raises
@@ -78,8 +78,8 @@ def journal_friction_moment(
     Parameters
     ----------
     bearing : lengths in m
-    load_n : load, N
-    velocity : angular velocity, rad/s, above zero
+    load_n : load, shape (...), N
+    velocity : angular velocity, shape (...), rad/s, above zero
     viscosity_pa_s : dynamic viscosity
     """
     diameter = 2.0 * bearing.radius_m
@@ -99,8 +99,8 @@ def journal_friction_coefficient(
     Parameters
     ----------
     bearing : lengths in m
-    load_n : load, N, above zero
-    velocity : angular velocity, rad/s, above zero
+    load_n : load, shape (...), N, above zero
+    velocity : angular velocity, shape (...), rad/s, above zero
     viscosity_pa_s : dynamic viscosity
     """
     moment = journal_friction_moment(bearing, load_n, velocity, viscosity_pa_s)
@@ -115,8 +115,8 @@ def petroff_coefficient(
     Parameters
     ----------
     bearing : lengths in m
-    load_n : load, N
-    velocity : angular velocity, rad/s
+    load_n : load, shape (...), N
+    velocity : angular velocity, shape (...), rad/s
     viscosity_pa_s : dynamic viscosity
     """
     pressure = load_n / (2.0 * bearing.radius_m * bearing.length_m)
@@ -135,8 +135,8 @@ def loaded_coefficient(
     Parameters
     ----------
     bearing : lengths in m
-    load_n : load, N
-    velocity : angular velocity, rad/s
+    load_n : load, shape (...), N
+    velocity : angular velocity, shape (...), rad/s
     viscosity_pa_s : dynamic viscosity
     """
     slenderness = bearing.length_m / (2.0 * bearing.radius_m)

@@ -103,7 +103,7 @@ def crank_forces(
     ----------
     machine : masses in kg, lengths in m
     state : motion of the crank
-    tilting_friction_n_m : M_k, which the slider passes on to the link
+    tilting_friction_n_m : M_k, shape (samples,), which the slider passes on to the link
     """
     mechanism, masses, oil = machine.mechanism, machine.masses, machine.oil
     gas = gas_force(mechanism, machine.gas, state.angle)
@@ -138,7 +138,7 @@ def crank_coefficients(
     Parameters
     ----------
     machine : masses in kg, lengths in m
-    angle : crank angle, rad
+    angle : crank angle, shape (samples,), rad
     contacts : signs of the constraint forces on the piston
     """
     mechanism, masses = machine.mechanism, machine.masses
@@ -169,7 +169,7 @@ def crank_acceleration(
     machine : masses in kg, lengths in m
     state : motion of the crank; its acceleration has shaped the forces
     forces : forces of that motion
-    motor_torque_n_m : M_v
+    motor_torque_n_m : M_v, shape (samples,)
     """
     fourth, fifth, sixth, passed = crank_coefficients(machine, state.angle, forces.contacts)
     resisting = (

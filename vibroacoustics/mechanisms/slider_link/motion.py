@@ -49,7 +49,7 @@ class GaussPanels:
 
         Parameters
         ----------
-        values : at the nodes
+        values : values at the nodes, shape (node,)
         """
         return float(self.running(values)[1][-1])
 
@@ -58,7 +58,7 @@ class GaussPanels:
 
         Parameters
         ----------
-        values : at the nodes
+        values : values at the nodes, shape (node,)
         """
         _, weights, inner = _rule()
         scaled = self._width * values.reshape(-1, NODES)
@@ -78,8 +78,8 @@ class SliderLinkCycle:
     ----------
     state : motion of the crank
     forces : inside the machine
-    motor_torque_n_m : M_v
-    time_s : from crank angle zero
+    motor_torque_n_m : M_v, shape (samples,)
+    time_s : time from crank angle zero, shape (samples,)
     work_j : work of one revolution: put in by the motor, taken by the gas and by each friction
     """
 

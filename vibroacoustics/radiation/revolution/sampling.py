@@ -79,7 +79,7 @@ def interpolated(
     ----------
     table_hz : shape (frequency,)
     delay_s : shape (receiver,)
-    solved : indices of the solved frequencies
+    solved : indices of the solved frequencies, shape (solved,)
     pressure : there, shape (solved, receiver, pattern), Pa
     """
     smooth, beside = _smooth_and_error(table_hz[solved], delay_s, pressure)

@@ -172,7 +172,7 @@ class RevolutionSide:
         ----------
         pressure : result of `spectrum`
         addition : to them
-        points, table_hz : those of the pressures
+        points, table_hz : points (point, 3) and frequencies (frequency,) of the pressures
         name, progress : name and progress of the computation
         """
         indices = first_solved(table_hz)

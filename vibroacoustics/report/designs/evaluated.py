@@ -54,7 +54,7 @@ class Evaluated:
     variables, objectives : columns
     met : which designs meet every constraint, shape (design,)
     front : designs of these of which none is better in every objective, shape (design,)
-    best : numbers of the best few, the first one first
+    best : numbers of the best few, the first one first, shape (best,)
     """
 
     variables: tuple[Column, ...]

@@ -19,7 +19,7 @@ class TwoAxisMotor:
     ----------
     at_rest, per_speed : A and B, shape (5, 5)
     input_vector : b per volt of the line, shape (5,)
-    torque_form : Q, symmetric, N m
+    torque_form : Q, symmetric, shape (5, 5), N m
     line_rad_per_s : angular frequency of the line
     voltage_v : peak of the line voltage
     """
@@ -47,7 +47,7 @@ class TwoAxisMotor:
 
 @dataclass(frozen=True)
 class SpeedResponse:
-    """Motor torque per complex peak of a swing of the speed at ν, N m s, in the shape of ν.
+    """Motor torque per complex peak of a swing of the speed at ν, N m s, shape (...) of ν.
 
     Attributes
     ----------
@@ -175,7 +175,7 @@ def torque_lines(rotor: RotorInMotor, ripple_n_m: ComplexArray) -> TorqueLines:
     Parameters
     ----------
     rotor : under the mean load
-    ripple_n_m : load torque against the rotation, complex peak of orders 1, 2, …
+    ripple_n_m : load torque against the rotation, complex peak of orders 1, 2, …, shape (order,)
     """
     point, speed, twice = rotor.operating_point, rotor.speed_rad_per_s, rotor.twice_line_hz
     orders = np.arange(1, ripple_n_m.size + 1)

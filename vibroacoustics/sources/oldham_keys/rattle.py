@@ -129,7 +129,7 @@ def steady_key_forces(
     speed_rpm : constant speed of the shaft
     moment_n_m : turns the scroll about its centre, counter-clockwise as the shaft turns, over
         uniform crank angles from zero, shape (samples,), or one value in (1,)
-    ring_force_n : force of a balancer on the ring along x, at the same samples
+    ring_force_n : force of a balancer on the ring along x, at the same samples, shape (samples,)
     revolutions : to be returned, after those in which the motion settles; only one of those that
         repeat exactly
 

@@ -28,7 +28,7 @@ def pair_volume_m3(wraps: ScrollWraps, since_opening: Array) -> Array:
     Parameters
     ----------
     wraps : geometry
-    since_opening : crank angle, 0 to π, rad
+    since_opening : crank angle, 0 to π, shape (...), rad
     """
     outer, _ = contacts_at_opening(wraps)
     mean = outer - np.pi - since_opening
@@ -42,7 +42,7 @@ def chamber_volume_m3(wraps: ScrollWraps, at_opening_m3: float, since_opening: A
     ----------
     wraps : geometry
     at_opening_m3 : its volume when a pair opens
-    since_opening : crank angle, 0 to 2π, rad
+    since_opening : crank angle, 0 to 2π, shape (...), rad
     """
     outer, inner = contacts_at_opening(wraps)
     ends_at = np.where(since_opening < np.pi, inner, outer) - since_opening

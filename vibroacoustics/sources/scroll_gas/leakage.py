@@ -136,7 +136,7 @@ def gap_area_m2(wraps: ScrollWraps, leakage: ScrollLeakage, since_closing: Array
     ----------
     wraps : geometry
     leakage : gaps
-    since_closing : crank angle since the closing of the pocket inside, rad
+    since_closing : crank angle since the closing of the pocket inside, shape (...), rad
     """
     contact = np.maximum(contact_angle(wraps, since_closing), contacts_at_opening(wraps)[1])
     tips = np.pi * wraps.base_radius_m * contact * leakage.tip_gap_m

@@ -79,7 +79,7 @@ def leaks_at(
     Parameters
     ----------
     half : half steps since the opening
-    ratio : masses of the pairs 1 to `pairs`, over `mass`
+    ratio : masses of the pairs 1 to `pairs`, over `mass`, shape (pairs,)
     mass : mass of a pair without leakage, kg
     opened : pressure and density of pair 0
     p : pairs
@@ -108,7 +108,7 @@ def leaking_turn(
 
     Parameters
     ----------
-    start : masses of the pairs 1 to `pairs` at the opening, over `mass`
+    start : masses of the pairs 1 to `pairs` at the opening, over `mass`, shape (pairs,)
     mass : mass of a pair without leakage, kg
     opened_pa, opened_density : pressure and density of pair 0 at half steps, shape (2 steps + 1,)
     p : pairs

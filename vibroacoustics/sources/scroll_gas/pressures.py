@@ -18,11 +18,11 @@ class TrappedGas:
     Attributes
     ----------
     since_closing : crank angle, from 0 to the opening, shape (steps,), rad
-    mass_ratio : mass over that which the pair would hold from constant suction pressure without
-        leakage
-    contact_angle : crank angle since the closing of the outer contacts, from 0 to a turn after the
-        opening, when they open too, rad
-    leak_kg_per_s : outwards across both of them, over `contact_angle`
+    mass_ratio : shape (steps,): mass over that which the pair would hold from constant suction
+        pressure without leakage
+    contact_angle : shape (contact steps,): crank angle since the closing of the outer contacts,
+        from 0 to a turn after the opening, when they open too, rad
+    leak_kg_per_s : flow outwards across both of them, shape of `contact_angle`
     """
 
     since_closing: Array
@@ -33,7 +33,8 @@ class TrappedGas:
 
 @dataclass(frozen=True)
 class OpenedGas:
-    """Gas at the discharge over a turn from the opening of a pair of pockets.
+    """Gas at the discharge over a turn from the opening of a pair of pockets, shape (steps + 1,)
+    each.
 
     Attributes
     ----------

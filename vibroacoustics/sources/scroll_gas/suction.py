@@ -28,7 +28,7 @@ PRESSURE, FLOW = range(2)
 
 @dataclass(frozen=True)
 class SuctionFlow:
-    """Filling of a pair of pockets.
+    """Filling of a pair of pockets, shape (steps + 1,) each.
 
     Attributes
     ----------

@@ -72,7 +72,8 @@ class FrameOnShell:
         ----------
         modes : pressure per velocity of the shell's modes, shape (receiver, mode, frequency),
             Pa s/m
-        rigid : pressure of its six rigid motions about the centre of mass, Pa s/m and Pa s/rad
+        rigid : pressure of its six rigid motions about the centre of mass, shape (receiver, 6,
+        frequency), Pa s/m and Pa s/rad
         frequency_hz : shape (frequency,)
         gain : gain of the modes' pressure
         """

@@ -145,7 +145,7 @@ def relative_variance(overlap: Array) -> Array:
 
     Parameters
     ----------
-    overlap : M, above zero
+    overlap : M above zero, shape (...)
     """
     x = np.pi * np.maximum(np.asarray(overlap, dtype=float), _FEW)
     some = np.minimum(x, _MANY)

@@ -121,7 +121,7 @@ class Harmonic:
 
         Parameters
         ----------
-        dofs : among all amplitudes
+        dofs : numbers among all amplitudes, shape (dof,)
         """
         forces = self.reduction.T[:, dofs]
         stiffness, mass = self.free_matrices
