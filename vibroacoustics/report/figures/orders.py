@@ -102,8 +102,8 @@ def level_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
     return Chart(
         "level_orders",
         f"A-weighted level of orders {named} at {mic} for every option and speed.",
-        f"A-weighted level of single orders at {mic}, dB re 20 µPa: 1× and the loudest without and "
-        f"with options, {named}. Orders below {rounding.fixed(floor_db, 0)} dB are not drawn.",
+        f"A-weighted level of orders {named} at {mic}, dB re 20 µPa. They are 1× and the loudest "
+        f"with and without options. Orders below {rounding.fixed(floor_db, 0)} dB are not drawn.",
         _dots(level.sel(order=loud), Axis("Level, dB(A)"), floor_db),
     )
 

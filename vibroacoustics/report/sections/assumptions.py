@@ -153,9 +153,9 @@ def discrepancy_sentence(results: xr.Dataset) -> str:
         f"{settings[f'{name}_deviation_db']:g} dB" for name in ("path", "source", "band", "added")
     )
     return (
-        f"Standard deviations of the samples: {path} common to all sources, {source} of each "
-        f"source, {band_db} of each third octave of it, {added} of an option. They are assumed, "
-        "the same for all options, speeds and microphones."
+        f"Model deviations: {path} common to all sources, {source} of each source, {band_db} of "
+        f"its third octaves, {added} of an option. These standard deviations are assumed, the same for "
+        "all options, speeds and microphones."
     )
 
 

@@ -39,7 +39,7 @@ def agreement_sentence(results: xr.Dataset) -> str:
         UNDECIDED: f"is too uncertain to be compared with the published {published}",
     }[level.verdict]
     return (
-        f"The modelled level before any published datum {words}: E = "
+        f"The modelled level before any published datum {words}. Error E = "
         f"{rounding.signed(level.error)} dB, u = {rounding.fixed(level.uncertainty)} dB."
     )
 

@@ -130,8 +130,9 @@ def resolved_sentence(results: xr.Dataset) -> str:
         for name, count in zip(shares["knowledge"].values, counts, strict=True)
     ]
     return (
-        f"Resolved shares in the variance of the modelled level at {catalogue_receiver(results)}, "
-        f"of {shares.sizes['uncertain_parameter']} uncertain parameters: {', '.join(words)}."
+        "Resolved shares in the variance are of the modelled level at "
+        f"{catalogue_receiver(results)}. Their numbers, of {shares.sizes['uncertain_parameter']} "
+        f"parameters: {', '.join(words)}."
     )
 
 
