@@ -154,8 +154,8 @@ def discrepancy_sentence(results: xr.Dataset) -> str:
     )
     return (
         f"Model deviations: {path} common to all sources, {source} of each source, {band_db} of "
-        f"its third octaves, {added} of an option. These standard deviations are assumed, the same for "
-        "all options, speeds and microphones."
+        f"its third octaves, {added} of an option. These standard deviations are assumed, the "
+        "same for all options, speeds and microphones."
     )
 
 
