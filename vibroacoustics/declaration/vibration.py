@@ -42,8 +42,8 @@ def peak_to_peak(peaks: ComplexArray, orders: Array) -> Array:
     """
     count = int(_ANGLES_PER_ORDER * max(orders.max(initial=1.0), 1.0))
     angle = 2.0 * np.pi * np.arange(count) / count
-    course = (peaks @ np.exp(1j * np.outer(orders, angle))).real
-    return np.asarray(np.ptp(course, axis=-1))
+    history = (peaks @ np.exp(1j * np.outer(orders, angle))).real
+    return np.asarray(np.ptp(history, axis=-1))
 
 
 def vibration(case: xr.Dataset, points_m: Mapping[str, Array]) -> tuple[Vibration, ...]:

@@ -8,8 +8,8 @@ from ..base.arrays import Array
 from .capabilities import Capability
 
 
-class RollingCourses(NamedTuple):
-    """Courses over uniform crank angles of a turn, shape (samples,) each.
+class RollingHistories(NamedTuple):
+    """Time histories over uniform crank angles of a turn, shape (samples,) each.
 
     Attributes
     ----------
@@ -33,13 +33,13 @@ class RollingPiston(Capability):
 
     Attributes
     ----------
-    courses : function of a mean speed in rpm and a least number of samples
+    histories : function of a mean speed in rpm and a least number of samples
     density_kg_per_m3, sound_speed_m_per_s : density and sound speed of the discharged gas
     vane_height_m : mean height of the vanes from the centre of mass at rest
     """
 
     words: ClassVar[str] = "a rolling piston"
-    courses: Callable[[float, int], RollingCourses]
+    histories: Callable[[float, int], RollingHistories]
     density_kg_per_m3: float
     sound_speed_m_per_s: float
     vane_height_m: float

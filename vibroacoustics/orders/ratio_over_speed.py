@@ -35,9 +35,9 @@ def ratio_over_speed(speed_rpm: Array, ratio: ComplexArray, wanted_rpm: Array) -
     used = used_speeds(speed_rpm, float(np.min(wanted_rpm)), float(np.max(wanted_rpm)))
     phase = np.unwrap(np.angle(ratio[:, used]), axis=-1)
     rows = zip(np.abs(ratio[:, used]), phase, strict=True)
-    course = (wanted_rpm, speed_rpm[used])
+    profile = (wanted_rpm, speed_rpm[used])
     values = [
-        np.interp(*course, size) * np.exp(1j * np.interp(*course, turn)) for size, turn in rows
+        np.interp(*profile, size) * np.exp(1j * np.interp(*profile, turn)) for size, turn in rows
     ]
     return np.array(values, dtype=complex).reshape(len(ratio), wanted_rpm.size)
 

@@ -13,8 +13,8 @@ from ..base.errors import ParameterError
 from ..study.order_analysis import DEFAULT_COMB
 from .crank_motion import CrankMotion, from_curve
 from .mains import without_mains
-from .speed_check import SpeedCheck, checked_course
-from .speed_courses import Search, best_courses
+from .speed_check import SpeedCheck, checked_profile
+from .speed_profiles import Search, best_profiles
 
 _OVERSAMPLING: Final = 4
 """Samples per period of the highest order: the frames are straightened by linear interpolation."""
@@ -47,9 +47,9 @@ def tacholess_motion(
 ) -> TacholessResult:
     """Crank motion of a shaft from the orders in a signal, without a tacho.
 
-    Courses of speed that explain short spectra (`best_courses`), and an even speed, are compared in
+    Speed profiles that explain short spectra (`best_profiles`), and an even speed, are compared in
     the order spectra that they make: where the clear lines of a long spectrum lie at the teeth of
-    the comb, and what else explains them (`checked_course`). A sum of the levels at the orders in
+    the comb, and what else explains them (`checked_profile`). A sum of the levels at the orders in
     short spectra alone (Leclere, Andre and Antoni, Mechanical Systems and Signal Processing 81,
     2016) follows strong lines beside the orders: hum, or a gear mesh. The motion reaches from the
     centre of the first frame to that of the last.
@@ -84,9 +84,9 @@ def tacholess_motion(
     search = Search(
         samples, rate, order, minimum_frequency_hz, maximum_frequency_hz, maximum_change_per_s
     )
-    course, check = checked_course(search, best_courses(search))
-    angle = PPoly(2.0 * np.pi * course.curve.c, course.curve.x).antiderivative()
-    return TacholessResult(from_curve(angle), course.time_s, course.confidence, check)
+    profile, check = checked_profile(search, best_profiles(search))
+    angle = PPoly(2.0 * np.pi * profile.curve.c, profile.curve.x).antiderivative()
+    return TacholessResult(from_curve(angle), profile.time_s, profile.confidence, check)
 
 
 def _check(signal: Array, rate: float, minimum: float, maximum: float, orders: Array) -> None:

@@ -1,4 +1,4 @@
-"""A signal over the angle of a course of speed: its lines, frames, and what is left without it."""
+"""A signal over the angle of a speed profile: its lines, frames, and what is left without it."""
 
 from dataclasses import replace
 from functools import cached_property
@@ -13,7 +13,7 @@ from ..base.arrays import Array
 from .comb_evidence import Lines, are_in_place, clear_lines
 from .smoothing import smooth_curve
 from .speed_comb import comb_scores, frame_levels, refine
-from .speed_courses import MOST_LEVEL, Course, Search
+from .speed_profiles import MOST_LEVEL, Search, SpeedProfile
 
 _BLOCKS: Final = 4.0
 """Lengths of a block in the recording; fewer average nothing, more resolve less."""
@@ -27,7 +27,7 @@ _SKIRT: Final = 0.006
 _SKIRT_LINES: Final = 3.0
 _FRAME_REVOLUTIONS: Final = 24
 _SPAN: Final = 0.006
-"""Relative distance over which a course is refined."""
+"""Relative distance over which a speed profile is refined."""
 _TRIALS: Final = 25
 _LOW_ORDERS: Final = 3
 _BEST_ORDERS: Final = 2
@@ -39,21 +39,21 @@ _STANDS_OUT: Final = 0.5
 
 
 class Unrolled:
-    """The signal over the angle of a course, evenly sampled in revolutions.
+    """The signal over the angle of a speed profile, evenly sampled in revolutions.
 
     Parameters
     ----------
     search : with the signal
-    course : whose speed is above zero
+    profile : whose speed is above zero
     """
 
-    def __init__(self, search: Search, course: Course) -> None:
-        self.search, self.course = search, course
+    def __init__(self, search: Search, profile: SpeedProfile) -> None:
+        self.search, self.profile = search, profile
         rate = search.rate_hz
-        first = int(np.ceil(course.time_s[0] * rate))
-        self._at = slice(first, int(course.time_s[-1] * rate))
+        first = int(np.ceil(profile.time_s[0] * rate))
+        self._at = slice(first, int(profile.time_s[-1] * rate))
         self._time_s = np.arange(self._at.start, self._at.stop) / rate
-        turned = course.curve.antiderivative()(self._time_s)
+        turned = profile.curve.antiderivative()(self._time_s)
         self._turned = np.asarray(turned - turned[0])
         self._per_revolution = max(int(self._turned.size / max(self._turned[-1], 1e-9)), 2)
 
@@ -70,7 +70,7 @@ class Unrolled:
 
     @cached_property
     def lines(self) -> Lines:
-        """Clear lines of its spectrum, over the orders of the course."""
+        """Clear lines of its spectrum, over the orders of the speed profile."""
         search = self.search
         middle_hz = float(np.sqrt(search.minimum_hz * search.maximum_hz))
         # Equal for all time histories: only then can their lines be compared with each other.
@@ -126,8 +126,8 @@ class Unrolled:
         stands_out = np.asarray(level.T > _CLEAR_LEVEL)
         return stands_out[np.argsort(-stands_out.mean(axis=1))[:_BEST_ORDERS]]
 
-    def polished(self, revolutions: int = _FRAME_REVOLUTIONS) -> Course:
-        """The course after refining it in frames.
+    def polished(self, revolutions: int = _FRAME_REVOLUTIONS) -> SpeedProfile:
+        """The speed profile after refining it in frames.
 
         Parameters
         ----------
@@ -137,13 +137,13 @@ class Unrolled:
         trials = bins * np.exp(_SPAN * np.linspace(-1.0, 1.0, _TRIALS))
         middle = np.full(when.size, _TRIALS // 2)
         ratio = refine(levels, self.search.orders, trials, middle) / bins
-        knots = self.course.time_s
+        knots = self.profile.time_s
         factor = smooth_curve(when, ratio).curve(np.clip(knots, when[0], when[-1]))
-        spline = CubicSpline(knots, self.course.curve(knots) * factor)
-        return replace(self.course, curve=PPoly(spline.c, spline.x))
+        spline = CubicSpline(knots, self.profile.curve(knots) * factor)
+        return replace(self.profile, curve=PPoly(spline.c, spline.x))
 
     def without_orders(self) -> Search:
-        """The search in what is left of the signal without the orders of the course."""
+        """The search in what is left of the signal without the orders of the speed profile."""
         spectrum = fft.rfft(self._signal)
         order = np.arange(spectrum.size) * (self._per_revolution / self._signal.size)
         for number in self.search.orders[self.search.orders < self.lines.highest]:

@@ -143,8 +143,8 @@ def recorded_spectrum(bands: NarrowBands) -> TonalSpectrum:
     level = total[last] - total[first]
     share, swing_db = np.ones_like(level), np.zeros_like(level)
     for number in np.flatnonzero(level > FOOT * _loudest_near(hertz[peaks], level)):
-        course = _course(bands, peaks[number], first[number], last[number])
-        level[number], share[number], swing_db[number] = course
+        history = _history(bands, peaks[number], first[number], last[number])
+        level[number], share[number], swing_db[number] = history
     return TonalSpectrum(hertz[peaks], level, noise, names, share, swing_db)
 
 
@@ -155,7 +155,7 @@ def _loudest_near(hertz: Array, square: Array) -> Array:
     return np.array([np.max(levels) for levels in near])
 
 
-def _course(bands: NarrowBands, peak: int, first: int, last: int) -> tuple[float, float, float]:
+def _history(bands: NarrowBands, peak: int, first: int, last: int) -> tuple[float, float, float]:
     """Mean square of a tone while it sounds, share of the time, and its swing in dB.
 
     Segments that are louder than the loudest in which the tone stands out are not its own.

@@ -141,9 +141,9 @@ class OldhamKeyForces(Source):
     def _forces(self, case: Case, ring: _Ring) -> KeyForces:
         """Simulated forces of one ring's keys, once for all cases that share them."""
         keys, numbers = ring.keys, (ring.mass_kg, ring.stroke_m)
-        courses = (ring.moment_n_m.tobytes(), ring.force.force_n.tobytes())
+        histories = (ring.moment_n_m.tobytes(), ring.force.force_n.tobytes())
         return case.shared(
-            ("keys", keys, *numbers, case.speed_rpm, self.revolutions, *courses),
+            ("keys", keys, *numbers, case.speed_rpm, self.revolutions, *histories),
             lambda: steady_key_forces(
                 keys,
                 *numbers,

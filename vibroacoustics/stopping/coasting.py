@@ -10,8 +10,8 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..machine.stopping import CheckValve, Stopping, TurningBack
 from ..mechanics.moving_parts import MovingPart
-from .course import Course, course_of
 from .equation import Coasting, Shift, wrench_along
+from .history import TimeHistory, history_of
 from .integration import coast
 from .reversal import Reversal, TrappedGas, turn_back
 
@@ -129,30 +129,30 @@ def run_down(
     first = -int(steady_revolutions * 2.0 * np.pi / speed_rad_per_s * sample_rate_hz)
     end = _end_s(rest_s, reversal, after)
     time = np.arange(first, np.ceil(end * sample_rate_hz)) / sample_rate_hz
-    course = course_of(coasting, motion, reversal, time, rest_angle, speed_rad_per_s)
+    history = history_of(coasting, motion, reversal, time, rest_angle, speed_rad_per_s)
     shift = coasting.shift(np.maximum(time, 0.0))
-    unshifted = course.angle, course.speed, course.acceleration
+    unshifted = history.angle, history.speed, history.acceleration
     ahead = tuple(angle + turned for angle, turned in zip(unshifted, shift, strict=True))
     wrenches = [
         (part.source, wrench_along(part, *(ahead if part.source in shifted else unshifted)))
         for part in parts
     ]
-    wrenches += _further(stopping, course, after and after.valve, time - rest_s)
+    wrenches += _further(stopping, history, after and after.valve, time - rest_s)
     force, moment = np.stack([np.stack(wrench) for _, wrench in wrenches], axis=1)
     sources = tuple(source for source, _ in wrenches)
     return RunDown(
-        time, *unshifted, shift, sources, force, moment, end, course.gas_share,
-        course.brake_force_n,
+        time, *unshifted, shift, sources, force, moment, end, history.gas_share,
+        history.brake_force_n,
     )  # fmt: skip
 
 
 def _further(
-    stopping: Stopping, course: Course, valve: CheckValve | None, since_rest_s: Array
+    stopping: Stopping, history: TimeHistory, valve: CheckValve | None, since_rest_s: Array
 ) -> list[tuple[str, tuple[Array, Array]]]:
     """Wrenches: of the rotor a moment about z, of the valve a force along z."""
     still: Array = np.zeros((3, since_rest_s.size))
     spin = still.copy()
-    spin[2] = -stopping.shaft_inertia_kg_m2 * course.acceleration
+    spin[2] = -stopping.shaft_inertia_kg_m2 * history.acceleration
     further = [("rotor", (still, spin))]
     if valve is not None:
         force = still.copy()

@@ -47,7 +47,7 @@ class Constants(NamedTuple):
 def brake_shift(time_s: Array, shift_rad: float, duration_s: float) -> Shift:
     """A turn from rest to rest with the least jerk, δ (10u³ - 15u⁴ + 6u⁵) with u = t/duration.
 
-    The thesis gives neither course nor size ("a few degrees"); the course is assumed.
+    The thesis gives neither time history nor size ("a few degrees"); it is assumed.
 
     Parameters
     ----------

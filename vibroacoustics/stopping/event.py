@@ -90,11 +90,11 @@ def stopping_event(
         The mounts have next to no loss and do not ring out.
     """
     first = np.count_nonzero(run.time_s < 0.0) - LOAD_SAMPLES * clock.lead
-    course = np.concatenate([run.force_n.sum(axis=0), run.moment_n_m.sum(axis=0)])[:, first:]
+    history = np.concatenate([run.force_n.sum(axis=0), run.moment_n_m.sum(axis=0)])[:, first:]
     speed = run.speed_rad_per_s[first:]
-    response = _response(course, clock, body, pressure_per_velocity)
+    response = _response(history, clock, body, pressure_per_velocity)
     if shell is not None:
-        fade = _fade(course.shape[-1], clock.rate_hz)
+        fade = _fade(history.shape[-1], clock.rate_hz)
         through = shell.pressure(run, first, fade, clock.shown.stop, clock.rate_hz)
         response.pressure_pa[:, : through.shape[-1]] += through
     weighted = levels.weighted_signal(response.pressure_pa, clock.rate_hz, "A")
@@ -102,7 +102,7 @@ def stopping_event(
     shown = clock.shown
     padding = LOAD_SAMPLES * shown.stop - speed.size
     shaft_speed, force, moment = np.split(
-        np.pad(np.vstack([speed, course]), ((0, 0), (0, padding)))[:, ::LOAD_SAMPLES][:, shown],
+        np.pad(np.vstack([speed, history]), ((0, 0), (0, padding)))[:, ::LOAD_SAMPLES][:, shown],
         [1, 4],
     )
     return StoppingEvent(
@@ -124,7 +124,7 @@ def _fade(samples: int, rate_hz: float) -> Array:
 
 
 def _response(
-    course: Array,
+    history: Array,
     clock: Clock,
     body: MachineOnMounts,
     pressure_per_velocity: Callable[[Array], ComplexArray],
@@ -132,11 +132,11 @@ def _response(
     """Response to a load that is faded in and followed by rest until the motion on the mounts has
     decayed."""
     rate = LOAD_SAMPLES * clock.rate_hz
-    fade = _fade(course.shape[-1], clock.rate_hz)
+    fade = _fade(history.shape[-1], clock.rate_hz)
     for rest_s in REST_S:
         samples = fft.next_fast_len(clock.shown.stop + round(rest_s * clock.rate_hz), real=True)
         load = np.zeros((6, LOAD_SAMPLES * samples))
-        load[:, : fade.size] = fade * course
+        load[:, : fade.size] = fade * history
         response = transient(body, load, rate, pressure_per_velocity)
         size = np.abs(response.foot_force_n)
         if np.max(size[..., -round(clock.rate_hz) :]) < RESIDUE * np.max(size):

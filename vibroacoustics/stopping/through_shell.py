@@ -62,10 +62,10 @@ class StopThroughShell:
         held = np.concatenate([np.ones(standing), falling])
 
         def event(load: Array) -> Array:
-            course = np.zeros((len(load), LOAD_SAMPLES * total))
-            course[:, : fade.size] = load
-            course[:, fade.size :][:, : held.size] = load[:, -1:] * held
-            return course
+            history = np.zeros((len(load), LOAD_SAMPLES * total))
+            history[:, : fade.size] = load
+            history[:, fade.size :][:, : held.size] = load[:, -1:] * held
+            return history
 
         events = {port: event(load) for port, load in loads.items()}
         rate = LOAD_SAMPLES * rate_hz

@@ -109,7 +109,8 @@ def chamber_of(
     speed_rpm: float,
     steps: int,
 ) -> Chamber:
-    """Constants and courses of the compression chamber's equations; parameters as of `gas_turn`."""
+    """Constants and time histories of the compression chamber's equations; parameters as of
+    `gas_turn`."""
     angle = np.linspace(0.0, 2.0 * pi, steps + 1, dtype=np.float64)
     volume, slope = compression_volume(cylinder, angle)
     gap = leakage.contact_gap_m * cylinder.height_m

@@ -25,7 +25,7 @@ PRESSURE, MASS, LIFT, SPEED = 0, 1, 2, 3
 
 
 class Chamber(NamedTuple):
-    """Constants of a chamber; courses are over a turn, both ends included."""
+    """Constants of a chamber; time histories are over a turn, both ends included."""
 
     steps: int
     angular_speed: float

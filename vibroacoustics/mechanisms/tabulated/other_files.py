@@ -21,7 +21,7 @@ MISSED_REVOLUTION: Final = 1e-3
 if TYPE_CHECKING:
     from ...recordings.measured_function import MeasuredFunction
 TIME: Final = 1
-"""Function type of a course over time."""
+"""Function type of a time history."""
 OFF_ORDER: Final = 1e-3
 """Largest distance of a frequency from a whole order."""
 
@@ -129,7 +129,7 @@ def _meant(path: Path, channel: str, unit: str) -> tuple[str, str]:
 
 
 def holds_spectra(path: Path) -> bool:
-    """Whether a universal file has no course over time; also false where it cannot be read."""
+    """Whether a universal file has no time history; also false where it cannot be read."""
     from ...recordings.uff58 import datasets
 
     try:

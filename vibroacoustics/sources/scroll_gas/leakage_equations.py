@@ -18,7 +18,8 @@ ALMOST: Final = 1e-12
 class LeakingPairs(NamedTuple):
     """Pairs over the crank angle since the opening of pair 0, at half steps.
 
-    Courses run from `pairs` + 1 turns before an opening to it, those of contacts a turn further.
+    Time histories run from `pairs` + 1 turns before an opening to it, those of contacts a turn
+    further.
     """
 
     pairs: int

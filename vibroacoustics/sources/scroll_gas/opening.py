@@ -1,4 +1,4 @@
-"""The opening of a pocket: pressures and flow of the gas over a turn, in its steady course."""
+"""The opening of a pocket: pressures and flow of the gas over a turn, in its steady cycle."""
 
 import math
 from collections.abc import Callable
@@ -124,7 +124,7 @@ def steady_opening(
     ParameterError
         See `opening_constants`.
     SolverError
-        The gas does not come to a course that repeats.
+        The gas does not come to a periodic solution.
     """
     constants = opening_constants(wraps, gas, opening, speed_rpm)
     steps = steps or steps_of_turn(speed_rpm)
@@ -192,5 +192,5 @@ def _steady_turn(
             start[kept] += ratio / (1.0 - ratio) * change * size
         before = None
     raise SolverError(
-        "opening: the pressures after a pocket opens do not come to a course that repeats"
+        "opening: the pressures after a pocket opens do not come to a periodic solution"
     )

@@ -1,4 +1,4 @@
-"""Courses of speed that explain short spectra of a signal best."""
+"""Speed profiles that explain short spectra of a signal best."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -33,7 +33,7 @@ _OFF_PATH: Final = 0.05
 
 
 @dataclass(frozen=True)
-class Course:
+class SpeedProfile:
     """Speed over time.
 
     Attributes
@@ -92,32 +92,33 @@ class Search:
         return np.asarray(0.5 * (self.length - 1) + starts, dtype=np.float64)
 
 
-def best_courses(search: Search) -> list[Course]:
-    """The course with the largest score, the best one that keeps off it, that of moving lines.
+def best_profiles(search: Search) -> list[SpeedProfile]:
+    """The speed profile with the largest score, the best one that keeps off it, that of moving
+    lines.
 
     Each frame gives every candidate speed a score (`comb_scores`); dynamic programming finds the
     path of the largest sum whose speed changes no faster than the bound (Viterbi 1967), with a cost
     that grows with the square of the change. A second round takes spectra that are straightened by
-    the first one's path; refined speeds are smoothed (`smooth_curve`). For the last course, the
-    median over time is taken off the first round's spectra: what stands still is not the shaft of
-    a run-up.
+    the first one's path; refined speeds are smoothed (`smooth_curve`). For the last speed profile,
+    the median over time is taken off the first round's spectra: what stands still is not the shaft
+    of a run-up.
     """
-    first, path = _course(search)
+    first, path = _profile(search)
     return [
         first,
-        _course(search, avoid=path)[0],
-        _course(search, most=MOST_LEVEL)[0],
-        _course(search, most=MOST_LEVEL, is_moving=True)[0],
+        _profile(search, avoid=path)[0],
+        _profile(search, most=MOST_LEVEL)[0],
+        _profile(search, most=MOST_LEVEL, is_moving=True)[0],
     ]
 
 
-def _course(
+def _profile(
     search: Search,
     avoid: NDArray[np.int64] | None = None,
     most: float = np.inf,
     is_moving: bool = False,
-) -> tuple[Course, NDArray[np.int64]]:
-    """Best course and its path: off a path, with levels up to a bound, of moving lines."""
+) -> tuple[SpeedProfile, NDArray[np.int64]]:
+    """Best speed profile and its path: off a path, with levels up to a bound, of moving lines."""
     centres, length = search.centres(), search.length
     bin_hz, time_s = 0.5 * search.rate_hz / length, centres / search.rate_hz
     span = np.log(search.maximum_hz / search.minimum_hz)
@@ -138,7 +139,7 @@ def _course(
         smooth = smooth_curve(time_s, speed_hz).curve
         change = np.clip(smooth(time_s, 1) / smooth(time_s), -bound, bound)
     confidence = _confidence(comb_scores(levels, search.orders, candidates), path)
-    return Course(smooth, time_s, confidence), path
+    return SpeedProfile(smooth, time_s, confidence), path
 
 
 def _near(score: Array, path: NDArray[np.int64]) -> NDArray[np.bool_]:
