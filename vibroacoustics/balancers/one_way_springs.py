@@ -89,11 +89,11 @@ class OneWaySprings(Option):
 
     def sentences(self, figures: Figures) -> tuple[str, ...]:
         """Their way, their resonance and what they cost."""
-        way = rounding.span(figures["plank_amplitude_mm"], rounding.significant)
+        size = rounding.span(figures["plank_amplitude_mm"], rounding.significant)
         speed = rounding.span(figures["one_way_resonance_rpm"], lambda rpm: rounding.fixed(rpm, 0))
         cost = rounding.span(figures["dissipated_power_w"], rounding.significant)
         return (
-            f"Its planks move by ±{way} mm.",
+            f"Its planks move by ±{size} mm.",
             f"They resonate on their springs at {speed} rpm, also on the way up to speed.",
             f"It dissipates {cost} W.",
         )

@@ -23,7 +23,7 @@ ROUNDED: Final = 1.01
 
 
 @dataclass(frozen=True)
-class RoomWays:
+class RoomPaths:
     """Paths of sound to the listeners, and the machine's power from positions.
 
     Attributes
@@ -89,13 +89,13 @@ class RoomSound:
     line: tuple[str, ...]
 
 
-def room_sound(received: ReceivedSound, ways: RoomWays) -> RoomSound:
+def room_sound(received: ReceivedSound, paths: RoomPaths) -> RoomSound:
     """Sound of a case in a room: lines of all sources as phasors, noise as energy.
 
     Parameters
     ----------
     received : at the listeners by waves, then at the positions
-    ways : to the listeners
+    paths : to the listeners
     """
     hertz = received.lines.frequency_hz
     audible = hertz > 0.0
@@ -104,20 +104,20 @@ def room_sound(received: ReceivedSound, ways: RoomWays) -> RoomSound:
     together = 0.5 * np.abs(of_all) ** 2 * audible
     safe = np.maximum(hertz, LOWEST_HZ)
     weight, in_band = weighting_power("A", safe), membership(hertz, BASELINE_BANDS)
-    alone = ways.at_listeners(by_source, safe) @ weight
-    at_listeners = ways.at_listeners(together, safe)
+    alone = paths.at_listeners(by_source, safe) @ weight
+    at_listeners = paths.at_listeners(together, safe)
     total, band = at_listeners @ weight, at_listeners @ in_band
-    power_band = ways.power(together) @ in_band
+    power_band = paths.power(together) @ in_band
     noise_band = np.zeros_like(band)
     for part in received.noise:
-        noise = ways.at_listeners(part.power, np.maximum(part.frequency_hz, LOWEST_HZ))
+        noise = paths.at_listeners(part.power, np.maximum(part.frequency_hz, LOWEST_HZ))
         loud = noise @ weighting_power("A", part.frequency_hz)
         alone[part.source] += loud
         total = total + loud
         in_band = membership(part.frequency_hz, BASELINE_BANDS)
         noise_band += noise @ in_band
-        power_band = power_band + ways.power(part.power) @ in_band
-    peaks = np.sqrt(2.0 * at_listeners) * _turn(of_all, ways.listeners)
+        power_band = power_band + paths.power(part.power) @ in_band
+    peaks = np.sqrt(2.0 * at_listeners) * _turn(of_all, paths.listeners)
     return RoomSound(
         alone, total, band + noise_band, power_band, peaks, noise_band, received.lines.names
     )
@@ -146,7 +146,7 @@ def power_of_hemisphere(mean_square: Array, distance_m: float) -> Array:
 
 
 def wave_gains(
-    pressure_per_velocity: Callable[[Array], ComplexArray], ways: RoomWays, highest_hz: float
+    pressure_per_velocity: Callable[[Array], ComplexArray], paths: RoomPaths, highest_hz: float
 ) -> Array:
     """Mean square by waves per power in `BASELINE_BANDS`, shape (listener, band), Pa²/W.
 
@@ -156,10 +156,10 @@ def wave_gains(
     ----------
     pressure_per_velocity : function of frequencies to the response at listeners and positions,
         (place, motion, frequency)
-    ways : to the listeners
+    paths : to the listeners
     highest_hz : highest frequency of the waves
     """
-    gains = np.zeros((ways.listeners, len(BASELINE_BANDS)))
+    gains = np.zeros((paths.listeners, len(BASELINE_BANDS)))
     for number, band in enumerate(BASELINE_BANDS):
         hertz = frequencies_of(band)
         hertz = hertz[hertz <= highest_hz]
@@ -167,8 +167,8 @@ def wave_gains(
             break
         square = np.abs(pressure_per_velocity(hertz)[:, :3]) ** 2
         by_motion = np.moveaxis(square, 1, 0)
-        power = ways.power(by_motion).mean(axis=-1)
-        waves = by_motion[:, : ways.listeners].mean(axis=-1)
+        power = paths.power(by_motion).mean(axis=-1)
+        waves = by_motion[:, : paths.listeners].mean(axis=-1)
         gains[:, number] = (waves / power[:, None]).mean(axis=0)
     return gains
 
@@ -179,19 +179,19 @@ def frequencies_of(band: Band) -> Array:
     return np.asarray(band.lower_hz + middle * (band.upper_hz - band.lower_hz))
 
 
-def blended_gains(waves: Array, ways: RoomWays) -> tuple[Array, Array]:
+def blended_gains(waves: Array, paths: RoomPaths) -> tuple[Array, Array]:
     """Mean square per power in `BASELINE_BANDS` by both methods, and by the power alone, Pa²/W.
 
     Parameters
     ----------
     waves : result of `wave_gains`, shape (listener, band)
-    ways : to the listeners
+    paths : to the listeners
 
     Returns
     -------
     each of shape (listener, band)
     """
     hertz = np.array([frequencies_of(band) for band in BASELINE_BANDS])
-    share = ways.wave_share(hertz.ravel()).reshape(hertz.shape).mean(axis=1)
-    diffuse = ways.per_power(hertz.ravel()).reshape(ways.listeners, *hertz.shape).mean(axis=2)
+    share = paths.wave_share(hertz.ravel()).reshape(hertz.shape).mean(axis=1)
+    diffuse = paths.per_power(hertz.ravel()).reshape(paths.listeners, *hertz.shape).mean(axis=2)
     return share * waves + (1.0 - share) * diffuse, diffuse

@@ -115,8 +115,8 @@ def of_mounts(table: str, mass_kg: float, number: int) -> Iterator[Usual]:
     """
     lowest, highest = ((2.0 * pi * hertz) ** 2 * mass_kg / number for hertz in MOUNTED_HZ)
     why = f"a natural frequency of 2 to 60 Hz with {mass_kg:.3g} kg on {number}"
-    for way in ("lateral", "vertical"):
-        yield Usual(f"{table}.{way}_stiffness_n_per_m", lowest, highest, why)
+    for direction in ("lateral", "vertical"):
+        yield Usual(f"{table}.{direction}_stiffness_n_per_m", lowest, highest, why)
 
 
 def doubt_of_forces(mass_kg: float, force_n: float, speed_rad_per_s: float) -> str:

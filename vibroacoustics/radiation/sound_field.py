@@ -131,7 +131,7 @@ def field_parts(
         fields.append(("surface_transfer_vector", points, coordinates, "frequency"))
     if sound_field.map is not None:
         points = map_points(sound_field.map, floor_level_m)
-        fields.append(("map_transfer_vector", points, _map_places(points), "line_frequency"))
+        fields.append(("map_transfer_vector", points, _map_positions(points), "line_frequency"))
     if sound_field.directivity is not None:
         points = directivity_points(sound_field.directivity, floor)
         angles = directivity_angles(sound_field.directivity, floor is not None)
@@ -178,7 +178,7 @@ def _floor_m(surroundings: Scene) -> float | None:
     return next((wall.position_m for wall in surroundings.walls if wall.axis == 2), None)
 
 
-def _map_places(points: Array) -> dict[str, Any]:
+def _map_positions(points: Array) -> dict[str, Any]:
     shape = ("map_row", "map_column")
     indices = {name: np.arange(size) for name, size in zip(shape, points.shape[:2], strict=True)}
     return {**indices, **{f"map_{axis}": (shape, points[..., i]) for i, axis in enumerate("xyz")}}

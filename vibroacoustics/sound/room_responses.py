@@ -10,7 +10,7 @@ from scipy import fft
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import AIR_IMPEDANCE_PA_S_PER_M, SPEED_OF_SOUND_M_PER_S
 from ..levels.bands import bands_between
-from ..levels.in_room import RoomWays
+from ..levels.in_room import RoomPaths
 from ..levels.sound_power import hemisphere_area_m2
 from .ingredients import HALF_BAND
 from .least_phase import Numbers, between, least_phase
@@ -35,14 +35,14 @@ _MOST_GAIN: Final = 2.0
 
 
 @dataclass(frozen=True)
-class WaysOfRoom:
+class PathsOfRoom:
     """Paths of a machine's rigid motions to listeners as sound.
 
     Attributes
     ----------
     pressure : per velocity, of frequencies to the highest one: at the listeners by waves, then at
         the positions on a hemisphere, shape (place, motion, frequency), Pa s/m
-    ways : from these to mean squares at the listeners
+    paths : from these to mean squares at the listeners
     direct_per_power : mean square of direct sound per power, of frequencies, (listener, frequency),
         Pa²/W
     distance_m : from the machine, shape (listener,)
@@ -53,7 +53,7 @@ class WaysOfRoom:
     """
 
     pressure: Callable[[Array], ComplexArray]
-    ways: RoomWays
+    paths: RoomPaths
     direct_per_power: Callable[[Array], Array]
     distance_m: Array
     nearest_m: float
@@ -62,7 +62,7 @@ class WaysOfRoom:
     highest_hz: float
 
 
-def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Array:
+def room_responses(room: PathsOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Array:
     """Pressure at listeners per acceleration, (listener, motion, sample), Pa/(m/s²) or Pa/(rad/s²).
 
     They are samples, so that the convolution of a sampled acceleration with it is the pressure.
@@ -75,7 +75,7 @@ def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Ar
 
     Parameters
     ----------
-    room : ways of the machine's sound
+    room : paths of the machine's sound
     sample_rate_hz : sample rate of acceleration and pressure
     """
     decaying, fading = (round(time * sample_rate_hz) for time in (room.record_s, FADING_S))
@@ -89,7 +89,7 @@ def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Ar
     parts = _received(room, hertz, np.array(noise))
     waves, others, square = _weighted(room, parts, hertz, length)
     spectrum = np.zeros((*waves.shape[:-1], length // 2 + 1), dtype=complex)
-    in_crossover = waves * least_phase(np.sqrt(1.0 - room.ways.wave_share(hertz)), length)
+    in_crossover = waves * least_phase(np.sqrt(1.0 - room.paths.wave_share(hertz)), length)
     gate = _gate(room.distance_m / SPEED_OF_SOUND_M_PER_S, samples, length, sample_rate_hz)
     scaled = _scaled(others, (waves, in_crossover), square, hertz, gate)
     spectrum[..., 1 : hertz.size + 1] = waves + scaled
@@ -99,7 +99,7 @@ def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Ar
 
 
 def _decaying(
-    room: WaysOfRoom, listener: int, samples: int, length: int, hertz: Array
+    room: PathsOfRoom, listener: int, samples: int, length: int, hertz: Array
 ) -> ComplexArray:
     """Spectra of decaying noise of unit power, one a position, shape (position, frequency).
 
@@ -140,7 +140,7 @@ class _Received(NamedTuple):
     square: Array
 
 
-def _received(room: WaysOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
+def _received(room: PathsOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
     """Received sound in blocks of frequencies; above the radiation's highest one as at that."""
     parts = []
     for start in range(0, hertz.size, _BLOCK):
@@ -149,28 +149,30 @@ def _received(room: WaysOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
     return _Received(*(np.concatenate(each, axis=-1) for each in zip(*parts, strict=True)))
 
 
-def _of_block(room: WaysOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
-    ways, bounded_hz = room.ways, np.minimum(hertz, room.highest_hz)
+def _of_block(room: PathsOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
+    paths, bounded_hz = room.paths, np.minimum(hertz, room.highest_hz)
     per_acceleration = room.pressure(bounded_hz) / (2j * np.pi * bounded_hz)
-    waves, positions = np.split(per_acceleration, [ways.listeners])
+    waves, positions = np.split(per_acceleration, [paths.listeners])
     by_motion = np.moveaxis(np.abs(per_acceleration) ** 2, 1, 0)
-    square = np.moveaxis(ways.at_listeners(by_motion, bounded_hz), 1, 0)
+    square = np.moveaxis(paths.at_listeners(by_motion, bounded_hz), 1, 0)
     turned = positions * np.exp(2j * np.pi * bounded_hz * room.nearest_m / SPEED_OF_SOUND_M_PER_S)
-    return _Received(waves, np.einsum("pmf,lpf->lmf", turned, noise), ways.power(by_motion), square)
+    return _Received(
+        waves, np.einsum("pmf,lpf->lmf", turned, noise), paths.power(by_motion), square
+    )
 
 
 def _weighted(
-    room: WaysOfRoom, parts: _Received, hertz: Array, length: int
+    room: PathsOfRoom, parts: _Received, hertz: Array, length: int
 ) -> tuple[ComplexArray, ComplexArray, Array]:
     """Waves, direct sound with noise, mean squares of all, each (listener, motion, frequency).
 
     They fade out below 20 Hz and above the highest frequency of the radiation.
     """
-    ways, bounded_hz = room.ways, np.minimum(hertz, room.highest_hz)
+    paths, bounded_hz = room.paths, np.minimum(hertz, room.highest_hz)
     fade = _faded(hertz, room.highest_hz)
-    share, direct = ways.wave_share(bounded_hz), room.direct_per_power(bounded_hz)
-    reflected = np.maximum(ways.per_power(bounded_hz) - direct, 0.0)
-    per_position = hemisphere_area_m2(ways.radius_m) / AIR_IMPEDANCE_PA_S_PER_M / _positions(room)
+    share, direct = paths.wave_share(bounded_hz), room.direct_per_power(bounded_hz)
+    reflected = np.maximum(paths.per_power(bounded_hz) - direct, 0.0)
+    per_position = hemisphere_area_m2(paths.radius_m) / AIR_IMPEDANCE_PA_S_PER_M / _positions(room)
     travel_s = room.distance_m[:, None, None] / SPEED_OF_SOUND_M_PER_S
     above = (1.0 - share) * fade**2
     pulse = least_phase(np.sqrt(above * direct[:, None] * parts.power), length)
@@ -190,9 +192,9 @@ def _faded(hertz: Array, highest_hz: float) -> Array:
     )
 
 
-def _positions(room: WaysOfRoom) -> int:
+def _positions(room: PathsOfRoom) -> int:
     """Number of positions on the hemisphere."""
-    return len(room.pressure(np.array([room.highest_hz]))) - room.ways.listeners
+    return len(room.pressure(np.array([room.highest_hz]))) - room.paths.listeners
 
 
 def _scaled(

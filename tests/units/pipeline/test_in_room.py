@@ -161,7 +161,7 @@ def test_the_seam_is_both_curves_and_their_difference(kitchen):
 def test_gain_of_the_place_goes_with_frequency_and_holds_above():
     middle_hz = np.array([500.0, 630.0, 800.0, 1000.0])
     waves = np.array([[1.0, 2.0, 4.0, 8.0], [1.0, 2.0, 4.0, 8.0]])
-    gains_db = rooms.place_gains_db(waves, np.ones((2, 4)))
+    gains_db = rooms.position_gains_db(waves, np.ones((2, 4)))
     linear = 10.0 ** (gains_db / 10.0)
     np.testing.assert_allclose(linear, [1.0, 2.0, 4.0, 8.0, 3.75], rtol=1e-12)
     gain = rooms.gain_over_frequency(gains_db, middle_hz)
@@ -205,7 +205,7 @@ def test_a_plate_in_the_open_has_its_power_on_a_hemisphere():
 @pytest.mark.parametrize("listener", ["table", "doorway"])
 @pytest.mark.parametrize("option", ["none", "counterweight-half"])
 def test_what_a_sound_is_made_of_has_the_level_in_the_room(kitchen, listener, option):
-    """Both ways; without the lines of the plate by air alone."""
+    """Both paths; without the lines of the plate by air alone."""
     speed = kitchen["speed"].item()
     at = kitchen.sel(option=option, listener=listener, speed=speed)
     both = energy_sum(np.stack([at["room_level"], at["room_plate_level"]]), axis=0)

@@ -11,7 +11,11 @@ from vibroacoustics.mechanics.loads import Loads, Tone
 from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.sections.structure_borne import carrier, way_sentence, ways_table
+from vibroacoustics.report.sections.structure_borne import (
+    both_paths_table,
+    carrier,
+    dominant_path_sentence,
+)
 from vibroacoustics.sources.cases import cases_of
 from vibroacoustics.study.selection import at_speeds
 from vibroacoustics.transfer import on_mounts
@@ -127,10 +131,10 @@ def _quiet(*_):
 
 
 def test_report_says_which_way_carries(panel):
-    sentence = way_sentence(panel, "front_1m")
+    sentence = dominant_path_sentence(panel, "front_1m")
     assert "structure-borne sound dominates" in sentence or "it is uncertain" in sentence
     assert "The lowest structure-borne 1× is that of counterweight-half" in sentence
-    table = ways_table(panel, "front_1m")
+    table = both_paths_table(panel, "front_1m")
     assert [row[0] for row in table.rows] == ["none", "counterweight-half"]
     section = SECTIONS["structure-borne"]
     assert section.applies(panel)

@@ -56,7 +56,7 @@ def motion_of(equations: ShaftEquations, angle: Array, states: Array) -> Mechani
     coordinates, rates = equations.crank_coordinates(angle, states)
     second = np.zeros_like(coordinates)
     accelerations = equations.accelerations(angle, states)
-    second[..., list(equations.shaft.free)] = accelerations[..., equations.shaft.crank_places]
+    second[..., list(equations.shaft.free)] = accelerations[..., equations.shaft.crank_indices]
     gas = gas_force_n(equations.machine, angle)
     return mechanism_motion(equations.machine, coordinates, rates, second, gas)
 

@@ -49,7 +49,7 @@ class Crankshaft:
         return int(self.matrices.mass.shape[0])
 
     @property
-    def crank_places(self) -> Array:
+    def crank_indices(self) -> Array:
         """Indices of the free crank coordinates among the degrees of freedom and, last, θ."""
         return np.array([*range(len(self.free) - 1), self.dof_count])
 
@@ -150,7 +150,7 @@ class ShaftEquations:
             force[..., dof : dof + 2] += film
         coordinates, rates = self.crank_coordinates(angle, states)
         added, load = added_mass(self.machine, coordinates, rates, gas_force_n(self.machine, angle))
-        crank_dofs, free = shaft.crank_places, list(shaft.free)
+        crank_dofs, free = shaft.crank_indices, list(shaft.free)
         mass[..., crank_dofs[:, None], crank_dofs] += added[..., free, :][..., free]
         force[..., crank_dofs] += load[..., free]
         return mass, force
@@ -210,7 +210,7 @@ class ShaftEquations:
         self, angle: Array, states: Array, accelerations: Array, tangent: Array
     ) -> None:
         shaft, gas = self.shaft, gas_force_n(self.machine, angle)
-        crank_dofs, free = shaft.crank_places, list(shaft.free)
+        crank_dofs, free = shaft.crank_indices, list(shaft.free)
         coordinates, rates = (
             value.astype(complex) for value in self.crank_coordinates(angle, states)
         )

@@ -98,11 +98,11 @@ def direct_per_power(distance_m: float, in_sight: bool) -> float:
 
 def line_of_sight(room: Room, start: Array, end: Array) -> bool:
     """Whether no block stands between two points (3,)."""
-    way = np.subtract(end, start)
+    path = np.subtract(end, start)
     for block in room.blocks:
         with np.errstate(divide="ignore", invalid="ignore"):
-            to_planes = np.array([block.lower, block.upper] - np.asarray(start)) / way
-        parallel = way == 0.0
+            to_planes = np.array([block.lower, block.upper] - np.asarray(start)) / path
+        parallel = path == 0.0
         beside = (np.asarray(start) <= block.lower) | (np.asarray(start) >= block.upper)
         if np.any(parallel & beside):
             continue
@@ -125,7 +125,7 @@ def blend(frequency_hz: Array) -> Array:
     return np.asarray(x**2 * (3.0 - 2.0 * x))
 
 
-def gain_at_place_db(waves: Array, diffuse: Array) -> float:
+def gain_at_position_db(waves: Array, diffuse: Array) -> float:
     """Level of the waves above the diffuse field, dB: what the place does to the power sent out.
 
     A machine in a corner or a niche sends out another power than in the open. The mean of the

@@ -81,11 +81,11 @@ def pieces_of(
     lattice: Lattice,
     time_step_s: float,
     quantities: Sequence[int],
-    first_place: int = 0,
+    first_index: int = 0,
 ) -> list[Piece]:
     """Pressure (-1) and derivatives by axis at a lattice, by box of air.
 
-    Places are those of a flat array (quantity, x, y, z) that begins at `first_place`.
+    Indices are those of a flat array (quantity, x, y, z) that begins at `first_index`.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def pieces_of(
         A point lies in a block or outside the room.
     """
     shape = (len(quantities), *lattice.shape)
-    result_rows: IndexArray = first_place + np.arange(int(np.prod(shape))).reshape(shape)
+    result_rows: IndexArray = first_index + np.arange(int(np.prod(shape))).reshape(shape)
     remaining, pieces = np.ones(lattice.shape, dtype=bool), []
     for number, box in enumerate(boxes):
         indices = [

@@ -26,7 +26,7 @@ from .diffuse import (
     absorption_area_m2,
     blend,
     direct_per_power,
-    gain_at_place_db,
+    gain_at_position_db,
     line_of_sight,
     mean_square_per_power,
 )
@@ -143,7 +143,7 @@ def plane_in_room(
     )  # fmt: skip
 
 
-def pressure_at_places(vectors: xr.Dataset) -> PressureAt:
+def pressure_at_positions(vectors: xr.Dataset) -> PressureAt:
     """Pressure at the listeners by waves, then at the positions on the hemisphere.
 
     Above the waves' highest frequency the listeners get none.
@@ -211,7 +211,7 @@ def diffuse_per_power(
     """
     room = room_of(settings)
     diffuse = DiffuseRoom.of(room)
-    ways = [
+    sights = [
         (float(np.linalg.norm(ears_m - source_m)), line_of_sight(room, source_m, ears_m))
         for ears_m in listeners_m(settings).values()
     ]
@@ -220,7 +220,10 @@ def diffuse_per_power(
         return np.asarray(
             gain(frequency_hz)
             * np.array(
-                [mean_square_per_power(frequency_hz, away, diffuse, sight) for away, sight in ways]
+                [
+                    mean_square_per_power(frequency_hz, away, diffuse, sight)
+                    for away, sight in sights
+                ]
             )
         )
 
@@ -258,7 +261,7 @@ def crossover_bands_hz(highest_hz: float) -> tuple[float, float]:
     return SHOWN_FROM_HZ * crossover_shift(highest_hz), highest_hz
 
 
-def place_gains_db(waves: Array, diffuse: Array) -> Array:
+def position_gains_db(waves: Array, diffuse: Array) -> Array:
     """Level of the power at the machine's place over that in the open, (shown band + 1,), dB.
 
     For each third octave that is shown, the mean over the listeners; the last one, of all of them
@@ -269,7 +272,7 @@ def place_gains_db(waves: Array, diffuse: Array) -> Array:
     waves, diffuse : mean squares per power in these bands, shape (listener, shown band)
     """
     parts = [np.array([number]) for number in range(waves.shape[1])] + [np.arange(waves.shape[1])]
-    return np.array([gain_at_place_db(waves[:, part], diffuse[:, part]) for part in parts])
+    return np.array([gain_at_position_db(waves[:, part], diffuse[:, part]) for part in parts])
 
 
 def gain_over_frequency(gains_db: Array, middle_hz: Array) -> Callable[[Array], Array]:

@@ -133,8 +133,8 @@ def _support(room: Room, lower: Array, upper: Array) -> Block | None:
 
 def _beside(room: Room, lower: Array, upper: Array) -> Iterator[Block]:
     """Blocks that reach above the foot and may be in the way of the box."""
-    way = 2.0 * _MARGIN_M
-    low, high = lower - [way, way, -_SAME_LEVEL_M], upper + way
+    margin = 2.0 * _MARGIN_M
+    low, high = lower - [margin, margin, -_SAME_LEVEL_M], upper + margin
     for block in room.blocks:
         if np.all((high > block.lower) & (low < block.upper)):
             yield block

@@ -44,7 +44,7 @@ ELASTIC_SHELL: Final = (
 """Instead of RIGID_SHELL where sources drive the shell."""
 
 RIGID_FLOOR: Final = "rigid for the mounts and hard"
-YIELDING_FLOOR: Final = (
+COMPLIANT_FLOOR: Final = (
     "compliant under each foot by itself and silent; natural frequencies are those on a rigid "
     "floor. It is hard"
 )
@@ -62,9 +62,9 @@ def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
     of_shell = ELASTIC_SHELL if words(results)["shell_bends"] else RIGID_SHELL
     unmodelled = "in no level" if overall_noise(results) is None else "unmodelled noise"
     machine = parameters(results)["machine"]
-    gives_way = machine.get("floor") or machine.get("floor_mobility")
+    is_compliant = machine.get("floor") or machine.get("floor_mobility")
     everywhere = tuple(
-        text.format(floor=YIELDING_FLOOR if gives_way else RIGID_FLOOR, unmodelled=unmodelled)
+        text.format(floor=COMPLIANT_FLOOR if is_compliant else RIGID_FLOOR, unmodelled=unmodelled)
         for text in (*of_shell, *NOT_MODELLED)
     )
     return (*everywhere, *_mounts_held(machine), *words(results)["leaves_out"])

@@ -51,7 +51,7 @@ def carrier(by_air: float, low: float, high: float) -> str:
     return "airborne sound" if by_air > high else UNCERTAIN
 
 
-def way_sentence(results: xr.Dataset, receiver: str) -> str:
+def dominant_path_sentence(results: xr.Dataset, receiver: str) -> str:
     """Say how loud 1× is, airborne and structure-borne, which path dominates, which option changes
     it."""
     by_air, by_plate, low, high = first_order_levels(results, receiver, REFERENCE_OPTION)
@@ -65,7 +65,7 @@ def way_sentence(results: xr.Dataset, receiver: str) -> str:
     )
 
 
-def ways_table(results: xr.Dataset, receiver: str) -> Table:
+def both_paths_table(results: xr.Dataset, receiver: str) -> Table:
     """Return 1× and all lines of every option, airborne and structure-borne."""
     rows = []
     for option in options(results):
@@ -155,7 +155,7 @@ def ranged(level: float, low: float, high: float) -> str:
 def _blocks(results: xr.Dataset) -> list[Block]:
     receiver = catalogue_receiver(results)
     return [
-        Text(way_sentence(results, receiver), "strong"),
+        Text(dominant_path_sentence(results, receiver), "strong"),
         Text(
             "The feet excite a plate, whose near field and bending waves radiate. Levels of the "
             "plate are those of its mean power, with the interval of 90 % of such plates. They are "
@@ -163,7 +163,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             "transmission into the building.",
             "note",
         ),
-        ways_table(results, receiver),
+        both_paths_table(results, receiver),
         plate_lines_table(results, receiver),
         Text("Other microphones and speeds are in structure_borne.csv.", "note"),
     ]

@@ -87,10 +87,10 @@ def sidebands(
             if offset % 3 == 0:
                 waves = [
                     (
-                        voltages.get(offset + way, 0.0),
-                        carrier * switching + (offset + way) * electrical,
+                        voltages.get(offset + side, 0.0),
+                        carrier * switching + (offset + side) * electrical,
                     )
-                    for way in (1, -1)
+                    for side in (1, -1)
                 ]
                 if any(voltage for voltage, _ in waves):
                     currents = pair_currents(motor, waves[0], waves[1])

@@ -22,7 +22,7 @@ from .meridian import Meridian, closed_meridian
 
 MAXIMUM_ORDER: Final = 64
 """Most waves around the circumference that are looked for."""
-_FOUR_PLACES: Final = np.linspace(-1.0, 1.0, 4)
+_FOUR_POSITIONS: Final = np.linspace(-1.0, 1.0, 4)
 """Positions along an element; they fix a cubic."""
 
 
@@ -92,11 +92,11 @@ class ShellMode:
     def _cubics(self) -> Array:
         """Displacement along each element, radial, axial and around, (element, 3, power)."""
         count = self.meridian.elements
-        element, coordinate = np.repeat(np.arange(count), 4), np.tile(_FOUR_PLACES, count)
+        element, coordinate = np.repeat(np.arange(count), 4), np.tile(_FOUR_POSITIONS, count)
         weights = displacement_shapes(self.meridian, element, coordinate)
         amplitudes = self.shape[element_dofs(self.meridian)[element]]
         values = np.einsum("pia,pa->pi", weights, amplitudes).reshape(count, 4, 3)
-        to_powers = np.linalg.inv(np.vander(_FOUR_PLACES, increasing=True))
+        to_powers = np.linalg.inv(np.vander(_FOUR_POSITIONS, increasing=True))
         return np.asarray(np.einsum("kj,eji->eik", to_powers, values))
 
 
