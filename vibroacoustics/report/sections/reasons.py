@@ -75,7 +75,7 @@ def _as_it_is(results: xr.Dataset) -> str:
 
 def _shaken_by_speed(results: xr.Dataset, reference: xr.Dataset) -> str:
     return "; ".join(
-        f"{FORCE.write(force)}, {MOMENT.write(moment)} at {speed:g} rpm ({frequency:.1f} Hz)"
+        f"{FORCE.write(force)} and {MOMENT.write(moment)} at {speed:g} rpm ({frequency:.1f} Hz)"
         for speed, frequency, force, moment in zip(
             speeds(results),
             first_order_hz(results),
