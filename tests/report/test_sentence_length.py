@@ -11,8 +11,8 @@ from support import tiny_run
 from vibroacoustics.report import render
 
 MOST_WORDS = 25
-LISTS = ("Dominant paths to ",)
-"""Sentences whose length is that of the names which they list."""
+LISTS = ("Dominant paths to ", "Without a balancer the 1× force and moment ")
+"""Sentences that list names of paths, or values by speed."""
 
 
 def long_sentences(page: str) -> Iterator[str]:

@@ -204,9 +204,7 @@ def _published(results: xr.Dataset) -> list[Block]:
     if not wrong:
         return []
     source = parameters(results)["scoring"]["published"]["source"]
-    return [
-        Text(f"The printed sum of the published scores is wrong for {wrong}. Source: {source}.")
-    ]
+    return [Text(f"The printed sum of the published scores is wrong for {wrong}. Source: {source}")]
 
 
 register(Section("scores", "Scores", _blocks, position=90.0, tables=_data))
