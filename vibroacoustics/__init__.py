@@ -1,4 +1,4 @@
-"""From mechanism to microphone: what a compressor's moving parts do to its feet and to the ear.
+"""Vibroacoustics of compressors: what moving parts do to the machine's feet and to the ear.
 
     >>> import vibroacoustics as va
 

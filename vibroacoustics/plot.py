@@ -1,6 +1,6 @@
 """Figures of results: each function takes a dataset and returns a matplotlib Figure.
 
-The report draws the same charts. A notebook shows what these functions return;
+The report holds the same charts. A notebook shows what these functions return;
 `figure.savefig("name.png")` writes it.
 
 >>> results = va.open_results("results.nc")

@@ -8,7 +8,7 @@ from scipy.linalg import cho_factor, cho_solve
 from vibroacoustics.base.arrays import Array, ComplexArray
 from vibroacoustics.transfer.shell_modes.elements import (
     displacement_shapes,
-    element_freedoms,
+    element_dofs,
     freedom_count,
 )
 from vibroacoustics.transfer.shell_modes.harmonic import Harmonic
@@ -47,7 +47,7 @@ class PointForces:
             ]
         )
         element, along = meridian.locate(meridian_points)
-        freedoms = element_freedoms(meridian)[element]
+        freedoms = element_dofs(meridian)[element]
         weights = displacement_shapes(meridian, element, along)
         total = np.zeros((freedom_count(meridian), angle.size))
         total[freedoms.T, np.arange(angle.size)] = np.einsum("pia,ip->ap", weights, parts)

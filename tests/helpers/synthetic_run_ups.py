@@ -18,7 +18,7 @@ def synthetic_run_up(number: int) -> Machine:
     rng = np.random.default_rng([7, number])
     duration_s = rng.uniform(8, 20)
     time = np.arange(int(duration_s * RATE_HZ)) / RATE_HZ
-    speed = _course(time / duration_s, rng)
+    speed = _history(time / duration_s, rng)
     angle = 2.0 * np.pi * np.cumsum(speed) / RATE_HZ
     kind, orders = _orders(rng)
     modes = [(rng.uniform(40, 1200), rng.uniform(0.02, 0.1), rng.uniform(0.5, 3)) for _ in "abc"]
@@ -40,7 +40,7 @@ def synthetic_run_up(number: int) -> Machine:
     return Machine(signal, speed, comb, mains, float(limits[0]), float(limits[1]), kind)
 
 
-def _course(share, rng):
+def _history(share, rng):
     slow = rng.uniform(600, 1500) / 60.0
     quick = slow * rng.uniform(1.5, 4.0)
     shape = rng.choice(["linear", "s", "exp", "down"])

@@ -23,11 +23,18 @@ LISTS: Final = tomllib.loads(Path(__file__).with_name("language.toml").read_text
 HOLDS: Final = {entry["word"] for entry in LISTS["holds"]}
 IS: Final = {entry["word"] for entry in LISTS["is"]}
 PHRASES: Final = [re.compile(entry["pattern"], re.MULTILINE) for entry in LISTS["phrase"]]
+OPENINGS: Final = frozenset(LISTS["openings"])
+EXEMPT: Final = {(entry["path"], entry["what"]) for entry in LISTS["exempt"]}
 ANY_PHRASE: Final = re.compile("|".join(f"(?:{one.pattern})" for one in PHRASES), re.MULTILINE)
 """Most lines hold none: one search tells it."""
 PROSE: Final = re.compile(r"[A-Za-z]+\s+[A-Za-z]+")
 """Strings without two words in a row are keys and formats."""
 QUOTED: Final = re.compile(r'"[^"]*"|#.*')
+
+
+ARRAYS: Final = ("Array", "ComplexArray", "IndexArray", "Samples")
+ENTRY: Final = re.compile(r"^([\w*, ]+?) : (.*?)(?=^\S|\Z)", re.DOTALL | re.MULTILINE)
+"""Names and text of an entry of a section of a docstring."""
 
 
 class Fault(NamedTuple):
@@ -50,6 +57,44 @@ def bindings(tree: ast.AST) -> Iterator[tuple[int, str]]:
             yield line, node.arg
 
 
+def openings(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Line and first word of every docstring, also of those below fields and constants."""
+    for node in ast.walk(tree):
+        body = getattr(node, "body", ())
+        for statement in body if isinstance(body, list) else ():
+            match statement:
+                case ast.Expr(value=ast.Constant(value=str() as text)):
+                    word = re.match(r"\s*([A-Za-z]+)", text)
+                    yield statement.lineno, word[1] if word else ""
+
+
+def shapeless(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Line and name of every documented array whose docstring states no shape."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.FunctionDef | ast.ClassDef):
+            continue
+        section = "Parameters" if isinstance(node, ast.FunctionDef) else "Attributes"
+        head, _, body = (ast.get_docstring(node) or "").partition(f"{section}\n---")
+        if "shape" in head:
+            continue
+        arrays = {name for name, kind in annotations(node) if kind in ARRAYS}
+        for names, text in ENTRY.findall(body):
+            if not any(word in text for word in ("(", "shape", "see `")):
+                yield from ((node.lineno, name) for name in names.split(", ") if name in arrays)
+
+
+def annotations(node: ast.FunctionDef | ast.ClassDef) -> Iterator[tuple[str, str]]:
+    """Name and annotation of the parameters of a function or of the fields of a class."""
+    if isinstance(node, ast.FunctionDef):
+        for argument in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs):
+            if argument.annotation:
+                yield argument.arg, ast.unparse(argument.annotation)
+    else:
+        for item in node.body:
+            if isinstance(item, ast.AnnAssign):
+                yield ast.unparse(item.target), ast.unparse(item.annotation)
+
+
 def prose(code: str) -> Iterator[tuple[int, str]]:
     """Line and text of every comment and every string of words."""
     for token in tokenize.generate_tokens(io.StringIO(code).readline):
@@ -61,7 +106,10 @@ def prose(code: str) -> Iterator[tuple[int, str]]:
 
 def faults_of_code(path: str, code: str) -> Iterator[Fault]:
     """Faults of a Python file."""
-    for line, name in bindings(ast.parse(code)):
+    tree = ast.parse(code)
+    yield from (Fault(path, line, word) for line, word in openings(tree) if word in OPENINGS)
+    yield from (Fault(path, line, f"{name} without shape") for line, name in shapeless(tree))
+    for line, name in bindings(tree):
         parts = set(name.strip("_").lower().split("_"))
         for word in sorted(parts & HOLDS) + [name] * (name in IS):
             yield Fault(path, line, word)
@@ -97,7 +145,7 @@ def faults() -> tuple[Fault, ...]:
             reader = faults_of_code if file.suffix == ".py" else faults_of_text
             reader = faults_of_table if file in tables else reader
             found += reader(path, file.read_text(encoding="utf-8"))
-    return tuple(found)
+    return tuple(fault for fault in found if (fault.path, fault.what) not in EXEMPT)
 
 
 def room_of(path: str) -> str:

@@ -3,7 +3,19 @@
 import re
 
 import pytest
-from language import LISTS, committed, counts, faults, faults_of_code, faults_of_text, risen
+from language import (
+    EXEMPT,
+    LISTS,
+    ROOT,
+    committed,
+    counts,
+    faults,
+    faults_of_code,
+    faults_of_text,
+    risen,
+)
+
+MOST_EXEMPT = 20
 
 
 def test_no_room_has_more_of_them_than_written_down():
@@ -29,6 +41,38 @@ def test_each_phrase_is_seen_in_its_example():
         assert list(faults_of_text("a.md", entry["example"])), entry
 
 
+@pytest.mark.parametrize("word", LISTS["openings"])
+def test_each_opening_is_seen_below_a_field_and_a_function(word):
+    code = f'x: int = 1\n"""{word} the axis."""\ndef f():\n    """{word} the axis."""\n'
+    assert [fault.line for fault in faults_of_code("a.py", code) if fault.what == word] == [2, 4]
+    assert not list(faults_of_code("a.py", f'"""Axis. {word} it is."""'))
+
+
+def test_an_array_without_shape_is_seen():
+    section = "Parameters\n    ----------\n    x : force, N"
+    code = f'def f(x: Array):\n    """Sum.\n\n    {section}\n    """\n'
+    assert [fault.what for fault in faults_of_code("a.py", code)] == ["x without shape"]
+    assert not list(faults_of_code("a.py", code.replace("force, N", "force, shape (time,), N")))
+    assert not list(faults_of_code("a.py", code.replace("Sum.", "Sum, shape (time,).")))
+
+
+def test_exemptions_are_few_and_each_is_needed():
+    assert len(EXEMPT) <= MOST_EXEMPT
+    for path, what in EXEMPT:
+        code = (ROOT / path).read_text("utf-8")
+        assert what in {fault.what for fault in faults_of_code(path, code)}, path
+
+
+@pytest.mark.parametrize(
+    "line", ["name : of a thing", "a, *b : the same", "x : what acts", "x : as y"]
+)
+def test_parameter_lines_begin_with_a_noun(line):
+    assert list(faults_of_code("a.py", f'"""Sum.\n\n    {line}\n"""'))
+    assert not list(
+        faults_of_code("a.py", f'"""Sum.\n\n    {line.replace(" :", " : length")}\n"""')
+    )
+
+
 @pytest.mark.parametrize(
     "code",
     ["rest_of_path = 1", "def at_speed(x): ...", "bank_of_cylinders = 1", "'unknown option told'",
@@ -40,5 +84,5 @@ def test_ordinary_words_stay_free(code):
 
 def test_docstrings_comments_and_messages_are_read():
     code = '"""Of a change."""\n# it hangs on that\nerror = f"no file is told {x} here"\n'
-    seen = [(fault.line, fault.what) for fault in faults_of_code("a.py", code)]
+    seen = sorted({(fault.line, fault.what) for fault in faults_of_code("a.py", code)})
     assert seen == [(1, "Of"), (2, "hangs on"), (3, "is told")]

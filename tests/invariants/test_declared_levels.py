@@ -15,7 +15,7 @@ from vibroacoustics.declaration.sound import power_db
 from vibroacoustics.levels.agreement import LEVELS_DB, data_of, log_weights, priors_of
 from vibroacoustics.levels.by_source import GAIN_BANDS
 from vibroacoustics.levels.declared_level import combined_deviation_db, upper_limit_db
-from vibroacoustics.machine.remainder import OverallNoise, Remainder
+from vibroacoustics.machine.remainder import OverallNoise, UnmodelledNoise
 from vibroacoustics.results.data_sheet import SoundPower
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.uncertainty.discrepancy import DISCREPANCIES, Discrepancy
@@ -70,7 +70,7 @@ def posterior_db(ensemble: Machines, published_dba: float, rng: np.random.Genera
     )
     published = REFERENCE * 10.0 ** (published_dba / 10.0)
     modelled = ensemble.modelled.reshape(-1, SURFACE_M2.size)
-    prior, _ = priors_of(Remainder())
+    prior, _ = priors_of(UnmodelledNoise())
     weight = log_weights(modelled[:, :1], np.array([published]), data_of(noise), prior)
     picks = systematic(np.exp(weight - weight.max()).ravel(), PICKS, rng.uniform())
     sample, level = np.divmod(picks, LEVELS_DB.size)

@@ -99,13 +99,13 @@ def test_a_stiff_integration_of_all_masses_agrees(point):
     largest = 0.0
     for first, last in ((0.0, HALF), (HALF, CLOSES), (CLOSES, TURN)):
         joined, angles = first >= HALF, np.linspace(first, last, 91)
-        course = masses.over(state, joined, angles)
+        history = masses.over(state, joined, angles)
         for n, angle in enumerate(angles[:-1] + 1e-9):
             volumes = masses.volumes(angle, joined)
             obtained = [
-                masses.closed(course[0, n], angle + 2.0 / 3.0 * np.pi)[0],
-                masses.closed(course[1, n], angle - CLOSES)[0],
-                masses.pressure(course[3, n] / volumes[1]),
+                masses.closed(history[0, n], angle + 2.0 / 3.0 * np.pi)[0],
+                masses.closed(history[1, n], angle - CLOSES)[0],
+                masses.pressure(history[3, n] / volumes[1]),
             ]
             since = np.array([angle + opens - TURN, angle + opens - 2.0 * TURN])
             expected = [
@@ -114,7 +114,7 @@ def test_a_stiff_integration_of_all_masses_agrees(point):
             ]
             off = np.abs(np.array(obtained) / np.array(expected) - 1.0)
             largest = max(largest, float(off.max()))
-        state = course[:, -1].copy()
+        state = history[:, -1].copy()
         if last == HALF:
             state[3] += state[2]
             state[2] = state[5] = 0.0

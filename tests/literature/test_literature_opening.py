@@ -96,8 +96,8 @@ def test_a_stiff_integration_of_the_masses_agrees(point):
     joined = gas_masses.integrated(middle, True, second)
     pair = gas_masses.pressure(apart[0, :-1] / gas_masses.volumes(first[:-1], False)[0])
     chamber = [
-        gas_masses.pressure(course[1] / gas_masses.volumes(angles, one)[1])
-        for course, angles, one in ((apart[:, :-1], first[:-1], False), (joined, second, True))
+        gas_masses.pressure(history[1] / gas_masses.volumes(angles, one)[1])
+        for history, angles, one in ((apart[:, :-1], first[:-1], False), (joined, second, True))
     ]
     flow = np.concatenate([apart[4, :-1], joined[4]])
     angle = np.concatenate([first[:-1], second])
@@ -144,10 +144,10 @@ def by_nozzle(gas, coefficient):
         return [kappa * state[0] / volume * (TURN * q - out(state[0], area) / density / omega)]
 
     angle, start = np.radians(np.linspace(0.0, 120.0, 2401)), built_in_pressure_pa(WRAPS, gas)
-    course = solve_ivp(
+    history = solve_ivp(
         rate, (0.0, angle[-1]), [start], "Radau", angle, rtol=1e-6, atol=10.0, max_step=0.02
     ).y[0]
-    return even_after(angle, course - discharge), (course.max() - discharge) * 1e-5
+    return even_after(angle, history - discharge), (history.max() - discharge) * 1e-5
 
 
 def even_after(angle, over):

@@ -119,7 +119,7 @@ def test_printed_rod_does_not_give_the_optimum_bore():
 def test_gas_torque_peaks_before_top_dead_centre(bore_m):
     """And with it, for large bores, deceleration and wall friction. The figure is read to 1°."""
     run = steady_cycle(MACHINE, bore_m, 1000.0)
-    degrees = np.rad2deg(run.moved.crank_angle) - 360.0
+    degrees = np.rad2deg(run.kinematics.crank_angle) - 360.0
     for name, peak in (
         ("gas torque", np.argmax(run.load_torque_n_m["gas"])),
         ("deceleration", np.argmin(run.rotation.acceleration_rad_per_s2)),

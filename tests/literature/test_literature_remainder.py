@@ -9,7 +9,7 @@ import pytest
 from support import MACHINE_FILE, PIPELINES, ROOT
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.machine.remainder import Remainder
+from vibroacoustics.machine.remainder import UnmodelledNoise
 from vibroacoustics.machine.speed_growth import (
     RECIPROCATING,
     SCROLL_OR_SCREW,
@@ -123,7 +123,9 @@ def test_two_published_levels_override_the_kind(tmp_path):
 def test_a_printed_change_comes_out(rows):
     row = rows[0]  # 70 dB(A) at 50 Hz, 72 at 60 Hz
     pair = LevelPair(*(float(row[name]) for name in RPM_AND_LEVELS))
-    factor = Remainder(speed_growth_db=pair.growth_db).speed_factor(np.array([3600.0]), 3000.0)
+    factor = UnmodelledNoise(speed_growth_db=pair.growth_db).speed_factor(
+        np.array([3600.0]), 3000.0
+    )
     assert 10.0 * np.log10(factor) == pytest.approx([2.0])
 
 

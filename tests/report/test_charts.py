@@ -157,8 +157,8 @@ def test_ticks_of_a_logarithmic_axis():
 
 def test_an_axis_without_values_says_so():
     drawn = chart(Line(X, np.zeros(3)), y=Axis("Force, N", "log"))
-    assert b"Every value is too small to draw." in svg(drawn)
-    assert figure(drawn).axes[0].texts[0].get_text() == "Every value is too small to draw."
+    assert b"Every value is too small to show." in svg(drawn)
+    assert figure(drawn).axes[0].texts[0].get_text() == "Every value is too small to show."
 
 
 def test_a_chart_is_drawn_once():

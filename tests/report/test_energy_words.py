@@ -46,5 +46,5 @@ def test_the_sentence_is_about_the_source_that_the_spectrum_changes_most(
 ) -> None:
     sentence = plain(spectrum_sentence(results))
     assert sentence.startswith("With the published spectral share gas forces make 30 %")
-    assert "with the level alone 70 % (56 % to 84 %)" in sentence
+    assert "The share with the level alone is 70 % (56 % to 84 %)" in sentence
     assert spectrum_sentence(results.isel(alternative=[1])) == ""

@@ -172,7 +172,7 @@ def test_the_caption_gives_the_foot_force_of_the_tables(results: xr.Dataset) -> 
     largest = float(feet.isel(speed=int(at.argmax("speed"))).max())
     picture = machine_picture(results)
     assert picture is not None
-    assert f"at most {FOOT_FORCE.write(largest)} into a foot" in picture.caption
+    assert f"Largest force into a foot: {FOOT_FORCE.write(largest)}." in picture.caption
 
 
 def test_drawing_is_light_and_loads_nothing(results: xr.Dataset) -> None:

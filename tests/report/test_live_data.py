@@ -85,8 +85,8 @@ def test_matrices_make_the_receptance_of_other_mounts(name):
     lateral, vertical, loss = 1.7 * lateral, 0.6 * vertical, loss + 0.1
     springs = lateral * matrices.lateral + vertical * matrices.vertical
     omega = 2.0 * np.pi * 31.0
-    dynamic = springs + matrices.rest - omega**2 * matrices.mass + 1j * (
-        loss * springs + matrices.rest_loss + omega * matrices.damping
+    dynamic = springs + matrices.elastic - omega**2 * matrices.mass + 1j * (
+        loss * springs + matrices.elastic_loss + omega * matrices.damping
     )  # fmt: skip
     changed = {
         "lateral_stiffness_n_per_m": lateral,

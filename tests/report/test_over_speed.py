@@ -14,7 +14,7 @@ from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.report.avoid import avoid_data
 from vibroacoustics.report.blocks import Part, from_json, pictures, to_json
-from vibroacoustics.report.blocks import drawn as drawn_blocks
+from vibroacoustics.report.blocks import rendered as drawn_blocks
 from vibroacoustics.report.charts.marks import Line, Points, Segments
 from vibroacoustics.report.compared.page import channel_charts, over_speed_parts
 from vibroacoustics.report.sections import SECTIONS

@@ -23,10 +23,10 @@ def test_the_section_says_what_the_data_cannot_tell(results):
     assert section.applies(results)
     text = " ".join(baseline.limits(results))
     assert "was measured at front_1m (orders.csv, thirds.csv)" in baseline.summary(results)
-    assert "Third octaves: 16 to 1000 Hz at front_1m; in other bands the remainder" in text
-    assert re.search(r"stands, up to \d+\s% of the energy of the total level", text)
+    assert "Third octaves: 16 to 1000 Hz at front_1m; in other bands the unmodelled noise" in text
+    assert re.search(r"counts, up to \d+\s% of the energy of the total level", text)
     assert "2 of 4 values (order, speed, microphone) have a phase" in text
-    assert "levels at 950 rpm lie between measured speeds" in text
+    assert "levels at 950 rpm are interpolated between measured speeds" in text
     assert "nothing was measured at 1200 rpm" in text
     assert "At side_1m, above_1m nothing was measured" in text
     tables = [block for block in section.blocks(results) if hasattr(block, "rows")]

@@ -168,8 +168,8 @@ def test_what_was_not_kept_is_named(results: xr.Dataset) -> None:
     origin = {"file": "mine.py", "version": "", "sha256": "0"}
     results.attrs["plugins"] = json.dumps({"section odd": origin, "column odd_n": origin})
     page = render(results)["report.html"].decode()
-    assert "section odd is left out: mine.py is not loaded" in page
-    assert "column odd_n is left out: mine.py is not loaded" in page
+    assert "section odd is missing: mine.py is not loaded" in page
+    assert "column odd_n is missing: mine.py is not loaded" in page
 
 
 def test_section_that_does_not_apply_is_not_missed(
@@ -183,7 +183,7 @@ def test_section_that_does_not_apply_is_not_missed(
     monkeypatch.setattr(SECTIONS, "_things", dict(SECTIONS._things))
     del SECTIONS._things["odd"]
     monkeypatch.setattr(SECTIONS, "_origins", {})
-    assert "is left out:" not in render(kept)["report.html"].decode()
+    assert "is missing:" not in render(kept)["report.html"].decode()
 
 
 def test_kept_columns_and_sections_outlive_a_second_run(

@@ -117,7 +117,7 @@ def test_charts_become_pictures() -> None:
     folded = (blocks.Details("Fold", (blocks.Pictures((line,)),)),)
     assert list(blocks.charts(folded)) == [line]
     assert list(blocks.pictures(folded)) == [picture(line)]
-    assert blocks.from_json(blocks.to_json(folded)) == blocks.drawn(folded)
+    assert blocks.from_json(blocks.to_json(folded)) == blocks.rendered(folded)
 
 
 def test_blocks_survive_json() -> None:

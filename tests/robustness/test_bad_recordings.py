@@ -68,7 +68,7 @@ def table(tmp_path: Path, *rows: str) -> Path:
 def test_files_that_are_none(tmp_path):
     says(refused(tmp_path / "nowhere.wav"), "no such file")
     (tmp_path / "folder.csv").mkdir()
-    says(refused(tmp_path / "folder.csv"), "is no file")
+    says(refused(tmp_path / "folder.csv"), "is not a file")
     says(refused(write(tmp_path / "a.wav", b"")), "is empty")
     says(refused(write(tmp_path / "a.mp3", b"x")), "format '.mp3' is unknown", ".wav", ".tdms")
 

@@ -73,7 +73,7 @@ def test_section_column_and_variable_are_shown(stranger, results_file, tmp_path)
     outcome = stranger("report", results_file, "--out", tmp_path / "out", names=names)
     assert outcome.returncode == 0, outcome.stderr
     page = (tmp_path / "out" / "comparison.md").read_text()
-    assert "is left out:" not in page
+    assert "is missing:" not in page
     assert "is omitted:" not in page
     assert "What the floor gets" in page
     assert "largest force of a side" in page

@@ -20,11 +20,11 @@ class Counterweight(Option):
     kind: ClassVar[str] = "counterweight"
     mass_kg: float = Field(gt=0.0, le=100.0)
     radius_m: float = Field(gt=0.0, le=0.5)
-    """Of its centre of mass from the shaft's axis."""
+    """Radius of its centre of mass from the shaft's axis."""
     angle_rad: float = Field(ge=-2.0 * pi, le=2.0 * pi)
-    """By which it runs ahead of the crank pin; 180° is opposite."""
+    """Angle by which it leads the crank pin; 180° is opposite."""
     height_m: float = HEIGHT
-    """Along the shaft from the origin of the machine's crank frame."""
+    """Height along the shaft from the origin of the machine's crank frame."""
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
         """One mass that circles the shaft's axis with the crank."""

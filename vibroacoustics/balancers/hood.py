@@ -15,15 +15,15 @@ from ..mechanics.moving_parts import Revolution
 
 @register
 class Hood(Option):
-    """What takes a known loss off the airborne sound and leaves the machine as it is."""
+    """Hood, jacket or damping sheet with a known insertion loss; the machine stays as it is."""
 
     kind: ClassVar[str] = "hood"
     band_hz: tuple[float, ...] = Field(min_length=1, max_length=40)
     """Nominal middles of the third octaves in which the loss is known."""
     insertion_loss_db: tuple[float, ...]
-    """In each band, level without less level with the hood (ISO 11546, ISO 15665)."""
+    """Loss in each band, level without less level with the hood (ISO 11546, ISO 15665)."""
     mass_kg: float = Field(default=0.0, ge=0.0, le=100.0)
-    """Not on the mounts."""
+    """Mass, which is not on the mounts."""
 
     def contradictions(self) -> Contradictions:
         if len(self.band_hz) != len(self.insertion_loss_db):
@@ -41,17 +41,16 @@ class Hood(Option):
             yield f"insertion_loss_db = {list(self.insertion_loss_db)} dB: allowed -80 to 80 dB"
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
-        """No moving part."""
+        """Return no moving part."""
         return Added(figures={"added_mass_kg": self.mass_kg})
 
     def insertion_loss(self) -> InsertionLoss:
-        """As measured."""
+        """Return the measured insertion loss."""
         return InsertionLoss(np.array(self.band_hz), np.array(self.insertion_loss_db))
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What a loss by third octaves does not hold."""
+        """Name the effects that an insertion loss by third octaves neglects."""
         return (
-            "A hood acts on the airborne sound only, alike in all directions, and takes nothing "
-            "off outside the bands that its loss is given for; the sound that is not modelled is "
-            "taken as spread evenly over these bands.",
+            "A hood acts on airborne sound only, alike in all directions. Its insertion loss "
+            "is 0 dB outside the given bands. Unmodelled noise is assumed evenly spread over them.",
         )

@@ -36,13 +36,13 @@ class HorizontalPendulum(Option):
     }
     length_m: float = Field(ge=1e-3, le=1.0)
     horizontal_reach_m: float = Field(ge=1e-3, le=1.0)
-    """Of (7.5), from which the mass follows."""
+    """Reach of (7.5), from which the mass follows."""
     arms: Literal[1, 2]
     """2 are mirror images across the stroke; 1 has the mass of both, on the side of y."""
     pivot_m: float = Field(ge=0.0, le=1.0)
-    """Of the pivots from the middle of the ring, across the stroke."""
+    """Distance of the pivots from the centre of the ring, across the stroke."""
     damping_ratio: float = Field(ge=1e-5, le=1.0)
-    """Of the bearing, over twice the bob's inertia and the shaft's angular frequency."""
+    """Damping of the bearing, over twice the bob's inertia and the shaft's angular frequency."""
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
         """Bobs in the periodic state that they settle in.
@@ -78,10 +78,10 @@ class HorizontalPendulum(Option):
         )
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What the arms would hit."""
+        """Say what the arms would hit."""
         return ("Arms in the horizontal plane meet no stops, and the ring is taken as guided.",)
 
     def sentences(self, figures: Figures) -> tuple[str, ...]:
-        """Where the arms settle."""
+        """Say where the arms settle."""
         where = rounding.span(abs(figures["settled_from_across_deg"]), rounding.fixed)
         return (f"The arms settle {where}° from across the stroke; stops are not modelled.",)

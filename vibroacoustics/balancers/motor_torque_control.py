@@ -43,7 +43,7 @@ class MotorTorqueControl(Option):
         )
 
     def sentences(self, figures: Figures) -> tuple[str, ...]:
-        """What is left at order 1 and the current that it takes."""
+        """Say what remains at order 1 and the current that it takes."""
         if "residual_torque_1x_n_m" not in figures:
             return ()
         residual = rounding.span(figures["residual_torque_1x_n_m"], rounding.significant)

@@ -33,13 +33,13 @@ class OneWaySprings(Option):
         "one_way_resonance_rpm": "Speed at which a plank resonates on its one-way spring",
     }
     mass_kg: float = Field(gt=0.0, le=10.0)
-    """Of both planks together."""
+    """Mass of both planks together."""
     stiffness_n_per_m: float = Field(gt=0.0, le=1e7)
-    """Of each spring when it pulls its plank inwards."""
+    """Stiffness of each spring when it pulls its plank inwards."""
     pushing_ratio: float = Field(ge=1e-4, le=1.0)
     """Stiffness when it pushes outwards over that when it pulls."""
     damping_ratio: float = Field(ge=1e-4, le=1.0)
-    """Of the plank against the ring, as a fraction of critical on the stiff side."""
+    """Damping of the plank against the ring, as a fraction of critical on the stiff side."""
     height_below_ring_m: float = Field(ge=-1.0, le=1.0)
 
     def oscillator(self, speed_rpm: float) -> Bilinear:
@@ -63,10 +63,11 @@ class OneWaySprings(Option):
         oscillator, samples = self.oscillator(revolution.speed_rpm), rotation.crank_angle.size
         wide, rates = stretch(oscillator, 2 * samples)
         along = ring.stroke_m * (np.cos(np.pi * np.arange(2 * samples) / samples) + wide)
-        right, left = along[::2], -np.roll(along, -samples)[::2]
+        right, returning = along[::2], -np.roll(along, -samples)[::2]
         height = ring.height_m - self.height_below_ring_m
         parts = tuple(
-            MovingPart("balancer", 0.5 * self.mass_kg, path(x, 0.0, height)) for x in (right, left)
+            MovingPart("balancer", 0.5 * self.mass_kg, path(x, 0.0, height))
+            for x in (right, returning)
         )
         angular = 2.0 * np.pi * shaft_frequency_hz(revolution.speed_rpm)
         slip = ring.stroke_m * angular * rates
@@ -88,11 +89,11 @@ class OneWaySprings(Option):
 
     def sentences(self, figures: Figures) -> tuple[str, ...]:
         """Their way, their resonance and what they cost."""
-        way = rounding.span(figures["plank_amplitude_mm"], rounding.significant)
+        size = rounding.span(figures["plank_amplitude_mm"], rounding.significant)
         speed = rounding.span(figures["one_way_resonance_rpm"], lambda rpm: rounding.fixed(rpm, 0))
         cost = rounding.span(figures["dissipated_power_w"], rounding.significant)
         return (
-            f"Its planks move by ±{way} mm.",
+            f"Its planks move by ±{size} mm.",
             f"They resonate on their springs at {speed} rpm, also on the way up to speed.",
             f"It dissipates {cost} W.",
         )

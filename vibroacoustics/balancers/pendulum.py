@@ -77,11 +77,10 @@ class Pendulum(Option):
         )
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """Where the bobs hang, and what they would hit."""
+        """Say where the bobs hang, and what they would hit."""
         return (
-            "Both bobs of a pendulum option are taken on the same side, so that their vertical "
-            "forces add; on opposite sides the vertical 1× force would cancel. Stops are not "
-            "modelled.",
+            "Both bobs of a pendulum option are on the same side, so that their vertical forces "
+            "add. On opposite sides the vertical 1× force would cancel. Stops are neglected.",
         )
 
     def sentences(self, figures: Figures) -> tuple[str, ...]:

@@ -18,7 +18,7 @@ class Redesign(Option):
     kind: ClassVar[str] = "redesign"
     changes_machine: ClassVar[bool] = True
     machine: AnyMachine
-    """With the changed values."""
+    """Machine with the changed values."""
     added_mass_kg: float = Field(default=0.0, ge=-1e4, le=1e4)
 
     def applied_to(self, machine: Machine) -> Machine:

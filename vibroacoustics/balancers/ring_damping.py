@@ -39,6 +39,6 @@ class RingDamping(Option):
         )
 
     def sentences(self, figures: Figures) -> tuple[str, ...]:
-        """What the damping costs."""
+        """Say what the damping costs."""
         cost = rounding.span(figures["dissipated_power_w"], rounding.significant)
         return (f"It dissipates {cost} W.",)

@@ -152,13 +152,13 @@ def sprung_mass_response(
     spring = 2.0 * stiffness_n_per_m
     damper = damping_coefficient(mass_kg, stiffness_n_per_m, damping_ratio)
     coupling = spring + 1j * angular_frequency * damper
-    remainder = coupling - mass_kg * angular_frequency**2
-    if abs(remainder) < 1e-9 * spring:
+    detuning = coupling - mass_kg * angular_frequency**2
+    if abs(detuning) < 1e-9 * spring:
         raise ParameterError(
             "damping_ratio = 0: the undamped mass is at resonance at "
             f"{angular_frequency * 30 / np.pi:.4g} rpm"
         )
-    return complex(coupling / remainder)
+    return complex(coupling / detuning)
 
 
 def damping_coefficient(mass_kg: float, stiffness_n_per_m: float, damping_ratio: float) -> float:

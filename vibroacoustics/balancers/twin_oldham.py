@@ -45,8 +45,8 @@ class TwinRing(Parameters):
         Parameters
         ----------
         machine : with a ring
-        revolution : of it
-        moment_n_m : of a spring on the driven piece
+        revolution : revolution of the machine
+        moment_n_m : moment of a spring on the driven piece
         on_ring : force of a spring on the twin
 
         Raises
@@ -58,7 +58,7 @@ class TwinRing(Parameters):
         mass_kg = ring.mass_kg if self.mass_kg is None else self.mass_kg
         amplitude = self.stroke_ratio * ring.stroke_m
         height_m = self._height_m(machine, ring)
-        course = path(-amplitude * np.cos(revolution.rotation.crank_angle), 0.0, height_m)
+        history = path(-amplitude * np.cos(revolution.rotation.crank_angle), 0.0, height_m)
         twin = FurtherRing(
             mass_kg,
             amplitude,
@@ -68,7 +68,7 @@ class TwinRing(Parameters):
             on_ring,
         )
         return Added(
-            (MovingPart("balancer", mass_kg, course),),
+            (MovingPart("balancer", mass_kg, history),),
             {"added_mass_kg": mass_kg},
             rings=(twin,),
         )

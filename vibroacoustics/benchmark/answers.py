@@ -30,7 +30,7 @@ ANSWERS: Final[Mapping[str, Callable[[Case], Answers]]] = {
     "sound_power_example": sound_power_example,
     "tone_audibility": tone_audibility,
 }
-"""What answers a case, by the name of its folder."""
+"""Functions that answer a case, by the name of its folder."""
 
 
 def submission(cases: Path, progress: Progress = no_progress) -> bytes:

@@ -18,8 +18,8 @@ class Answer(NamedTuple):
 
     Attributes
     ----------
-    key : of the row
-    unit : of the value
+    key : key of the row
+    unit : unit of the value
     value : a number
     """
 

@@ -135,10 +135,10 @@ def slider_link_invariants(case: Case) -> Answers:
     parts = unbalance(machine, turn).values()
     force = np.sum([part.force_n for part in parts], axis=0)
     moment = np.sum([part.moment_n_m for part in parts], axis=0)
-    for name, course, unit in (
+    for name, history, unit in (
         ("force x", force[0], "N"), ("force y", force[1], "N"), ("moment z", moment[2], "N m"),
     ):  # fmt: skip
-        orders = order_spectrum(course, 2)
+        orders = order_spectrum(history, 2)
         yield Answer(f"{name}: order 1 cosine", unit, orders[1].real)
         yield Answer(f"{name}: order 1 sine", unit, -orders[1].imag)
         yield Answer(f"{name}: order 2 amplitude", unit, abs(orders[2]))

@@ -9,7 +9,7 @@ from ..base.errors import StorageError
 
 
 class Scored(NamedTuple):
-    """What the scorer says of a submission.
+    """Verdict of the scorer on a submission.
 
     Attributes
     ----------
@@ -26,7 +26,7 @@ def scored(folder: Path, submission: Path) -> Scored:
 
     Parameters
     ----------
-    folder : of the benchmark, with `score.py` and `cases`
+    folder : folder of the benchmark, with `score.py` and `cases`
     submission : CSV file with the columns case, key, unit and value
 
     Raises

@@ -1,4 +1,4 @@
-"""What the command line's words mean, checked."""
+"""Arguments of the command line, checked."""
 
 from collections.abc import Sequence
 from typing import TypeVar
@@ -89,9 +89,9 @@ def points(option: str, texts: Sequence[str] | None) -> dict[str, tuple[float, f
     positions = {}
     for name, text in assignments(option, texts).items():
         numbers_mm = [_number(option, part) for part in text.split(",")]
-        if len(numbers_mm) != len("xyz") or not all(abs(one) <= 20e3 for one in numbers_mm):
+        if len(numbers_mm) != len("xyz") or not all(abs(number) <= 20e3 for number in numbers_mm):
             raise ParameterError(f"{option} {name}={text}: must be three numbers up to 20000 mm")
-        x, y, height = (1e-3 * one for one in numbers_mm)
+        x, y, height = (1e-3 * number for number in numbers_mm)
         positions[name] = (x, y, height)
     return positions
 

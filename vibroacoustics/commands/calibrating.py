@@ -21,7 +21,7 @@ def with_calibrators(
     Parameters
     ----------
     texts : `CHANNEL=FILE`, or `FILE` for the channel of the same name as that of the file
-    level_db, frequency_hz : of the calibrator, dB re 20 µPa and Hz
+    level_db, frequency_hz : level and frequency of the calibrator, dB re 20 µPa and Hz
     units, calibration : that are given otherwise
 
     Raises

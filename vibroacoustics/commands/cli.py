@@ -41,8 +41,8 @@ for _name, _command in COMMANDS.items():
     app.command(_name, cls=HelpedCommand)(_command.typed())
 
 
-def _print_version(asked: bool) -> None:
-    if asked:
+def _print_version(requested: bool) -> None:
+    if requested:
         from importlib.metadata import version
 
         typer.echo(f"vibroacoustics {version('vibroacoustics')}")
@@ -55,7 +55,7 @@ def of_all_commands(
         bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print it.")
     ] = False,
 ) -> None:
-    """From mechanism to microphone: forces, feet and sound of a compressor."""
+    """Predict forces, feet and sound of a compressor, from mechanism to microphone."""
 
 
 def main() -> None:

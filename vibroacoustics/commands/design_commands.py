@@ -141,7 +141,7 @@ def optimise_command(
 def _problem(
     study_file: Path, out: Path | None, plugin: list[Path] | None
 ) -> "tuple[Problem, Path]":
-    """What the study asks, and the folder of its results, which can be written."""
+    """Return the problem of the study, and the folder of its results, which can be written."""
     from ..design.problem import Problem
     from ..design.store.chunks import PLAN_NAME
     from ..study import loading
@@ -183,12 +183,12 @@ def _evaluating(
     from ..design.workers.spread import in_pieces, spread
     from ..design.workers.study_task import evaluate_task, study_plan, study_task
 
-    given, piece = plugins or [], problem.piece
-    with opened_store(store_folder, study_plan(problem.study, given)) as store:
+    plugin_files, piece = plugins or [], problem.piece
+    with opened_store(store_folder, study_plan(problem.study, plugin_files)) as store:
         if opened is None:
             yield Stored(in_pieces(evaluating(problem), piece), store)
             return
         counts = len(problem.design.objectives), len(problem.design.constraints)
-        task = study_task(study_file, problem.study, given)
+        task = study_task(study_file, problem.study, plugin_files)
         with opened() as parallel_map:
             yield Stored(spread(parallel_map, evaluate_task, task, piece, counts), store)

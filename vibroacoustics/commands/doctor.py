@@ -1,4 +1,4 @@
-"""What this installation is made of and whether it can do the main job. No network."""
+"""Check of this installation: its parts, and whether it can do the main job. No network."""
 
 import platform
 from collections.abc import Iterator

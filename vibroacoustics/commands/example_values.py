@@ -1,4 +1,4 @@
-"""What `check` says of the values that a study still has of its template."""
+"""Lines of `check` on the values that a study still has of its template."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any, Final

@@ -72,8 +72,9 @@ def export_functions(
     functions : in SI units
     path : its ending chooses. `.uff`, `.unv`: datasets 58b, double precision; `.csv`: a table
         of real and imaginary parts, read back bit by bit
-    single : of a universal file: single precision
-    text : of a universal file: datasets 58, readable, of thirteen digits or, single, of six
+    single : whether a universal file has single precision
+    text : whether a universal file is text: datasets 58, readable, of thirteen digits or, single,
+        of six
 
     Returns
     -------
@@ -112,7 +113,7 @@ def export_forces(results: xr.Dataset, path: str | Path, option: str = REFERENCE
 
     Parameters
     ----------
-    results : of `run`
+    results : results of `run`
     path : ends in `.csv`
     option : whose forces, by name
 
@@ -135,8 +136,8 @@ def export_forces(results: xr.Dataset, path: str | Path, option: str = REFERENCE
     if Path(path).suffix.lower() != ".csv":
         raise ParameterError(f"{path}: must end in .csv")
     if option not in results["option"].values:
-        known = ", ".join(map(str, results["option"].values))
-        raise ParameterError(f"option = {option}: unknown; the results have {known}")
+        listed = ", ".join(map(str, results["option"].values))
+        raise ParameterError(f"option = {option}: unknown; the results have {listed}")
     return _written(Path(path), forces_csv(results, option))
 
 

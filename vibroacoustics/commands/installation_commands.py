@@ -86,8 +86,8 @@ def schema_command(
     schemas = starter.schemas() | {"data_sheet.json": starter.as_file(data_sheet_schema())}
     schemas["envelope.json"] = starter.as_file(SCHEMA)
     if name is not None:
-        known = [file.removesuffix(".json") for file in schemas]
-        return Outcome(schemas[f"{chosen('NAME', name, known)}.json"].decode())
+        names = [file.removesuffix(".json") for file in schemas]
+        return Outcome(schemas[f"{chosen('NAME', name, names)}.json"].decode())
     write_together(out, schemas)
     lines = (f"#:schema {out / file}" for file in ("study.json", "machine.json"))
     return Outcome("\n".join(lines), {file: out / file for file in schemas})

@@ -26,7 +26,7 @@ UNITS: Final = {"t": "Pa/(m/s²)", "r": "Pa/(rad/s²)"}
 
 
 class _Sound(NamedTuple):
-    """What a file holds."""
+    """Sound of a file."""
 
     name: str
     pressure_pa: Array
@@ -48,8 +48,8 @@ def listen(
 
     Parameters
     ----------
-    results : of a run
-    folder : of the files; it is made where it is missing
+    results : results of a run
+    folder : folder of the files; it is made where it is missing
     options, microphones, speeds : all options, the first microphone and the first speed where
         nothing is given; rpm. Listeners in a room are asked for as microphones
     duration_s : 1 to 600 s; rounded to whole revolutions
@@ -132,7 +132,7 @@ def impulse_analysis(
 
     Parameters
     ----------
-    responses : of `impulse_responses`
+    responses : responses of `impulse_responses`
     listeners : names; all where nothing is given
     full_scale : value at full scale; none for the next of 1, 2, 5, 10, … of all listeners
 
@@ -141,12 +141,12 @@ def impulse_analysis(
     ParameterError
         A name is unknown, or a response exceeds full scale.
     """
-    known = [str(name) for name in responses["listener"].values]
-    check_asked(known, listeners, full_scale)
+    room_names = [str(name) for name in responses["listener"].values]
+    check_asked(room_names, listeners, full_scale)
     highest = float(np.abs(responses).max())
     scale = next_full_scale(highest) if full_scale is None else full_scale
     names, contents = {}, {}
-    for listener, dof in product(listeners or known, map(str, responses["dof"].values)):
+    for listener, dof in product(listeners or room_names, map(str, responses["dof"].values)):
         sound = at_gain(responses.sel(listener=listener, dof=dof).values, scale)
         name = f"{file_name(listener)}_{dof}_{scale:g}Pa.wav"
         names[listener, dof] = name
@@ -155,7 +155,7 @@ def impulse_analysis(
 
 
 def check_asked(
-    known: Collection[str], listeners: Sequence[str] | None, full_scale: float | None
+    names: Collection[str], listeners: Sequence[str] | None, full_scale: float | None
 ) -> None:
     """Refuse what is known to be wrong before anything is computed.
 
@@ -165,9 +165,9 @@ def check_asked(
         A name is unknown, or the full scale is not above 0.
     """
     for name in listeners or ():
-        if name not in known:
+        if name not in names:
             raise ParameterError(
-                f"microphone = {name}: unknown in this room; available: {', '.join(known)}"
+                f"microphone = {name}: unknown in this room; available: {', '.join(names)}"
             )
     if full_scale is not None and not full_scale > 0.0:
         raise ParameterError(f"full scale = {full_scale:g} Pa: must be above 0")

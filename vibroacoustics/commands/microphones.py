@@ -35,14 +35,14 @@ def read_files(
     ]
 
 
-def _of_file(given: list[str] | None, stem: str, stems: Sequence[str]) -> list[str] | None:
+def _of_file(texts: list[str] | None, stem: str, stems: Sequence[str]) -> list[str] | None:
     chosen = []
-    for text in given or ():
-        file, colon, rest = text.partition(":")
+    for text in texts or ():
+        file, colon, receiver = text.partition(":")
         if not (colon and file in stems):
             chosen.append(text)
         elif file == stem:
-            chosen.append(rest)
+            chosen.append(receiver)
     return chosen or None
 
 
@@ -74,7 +74,7 @@ def absorption_of(
     ----------
     area : number, m², or CSV file with `band_hz` and `absorption_area_m2`
     reverberation : number, s, or CSV file with `band_hz` and `reverberation_time_s`
-    volume_m3 : of the room, with the reverberation time
+    volume_m3 : volume of the room, with the reverberation time
 
     Raises
     ------

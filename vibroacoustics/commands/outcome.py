@@ -66,7 +66,7 @@ SCHEMA: Final[dict[str, Any]] = {
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a command gives: words for the terminal, files, and data for other programs.
+    """Outcome of a command: words for the terminal, files, and data for other programs.
 
     Attributes
     ----------
@@ -134,9 +134,9 @@ def _with_further(files: Mapping[str, Path]) -> dict[str, Path]:
     for label, path in files.items():
         prefix = label.rpartition("/")[0]
         for name in manifest.together(path.parent, path.name) | {path.name}:
-            known = path.parent / name
-            if known not in files.values() or name.endswith(".csv"):
-                further[f"{prefix}/{name}".lstrip("/")] = known
+            written = path.parent / name
+            if written not in files.values() or name.endswith(".csv"):
+                further[f"{prefix}/{name}".lstrip("/")] = written
     return {**files, **dict(sorted(further.items()))}
 
 

@@ -1,4 +1,4 @@
-"""What a run leaves on disk: the dataset, the report, its tables and figures."""
+"""Files of a run on disk: the dataset, the report, its tables and figures."""
 
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -62,7 +62,7 @@ REPORT_FILES: Final = (
     "figures/*.png",
     "figures/*.svg",
 )
-"""What a report may consist of."""
+"""Files of a report."""
 RUN_FILES: Final = (manifest.MANIFEST_NAME, RESULTS_NAME, *REPORT_FILES)
 
 
@@ -187,7 +187,7 @@ def write_data_sheet(sheet: "DataSheet", folder: str | Path) -> Path:
 
     Parameters
     ----------
-    sheet : of `data_sheet`
+    sheet : result of `data_sheet`
     folder : made where it is missing
 
     Returns
@@ -236,10 +236,10 @@ def write_report_again(
 
 def older_files(folder: Path) -> list[str]:
     """Files of a report that are of another run or of nobody knows which, a line each."""
-    mixed, known = manifest.mixed(folder), manifest.listed(folder)
+    mixed, listed = manifest.mixed(folder), manifest.listed(folder)
     present = {p.relative_to(folder).as_posix() for name in REPORT_FILES for p in folder.glob(name)}
     named = {line.partition(": ")[0] for line in mixed}
-    strange = [path for name in sorted(present - known) if str(path := folder / name) not in named]
+    strange = [path for name in sorted(present - listed) if str(path := folder / name) not in named]
     return [*mixed, *(f"{path}: is not of these results" for path in strange)]
 
 
@@ -276,7 +276,7 @@ def write_analysis(
 
 
 class Target(NamedTuple):
-    """Where the results of a command go: their folder, and what makes a PDF of the page."""
+    """Target of the results of a command: their folder, and what makes a PDF of the page."""
 
     folder: Path
     printer: Printer | None

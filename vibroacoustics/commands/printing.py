@@ -73,7 +73,7 @@ class Printer(NamedTuple):
                 capture_output=True,
                 timeout=_LONGEST_S,
                 stdin=subprocess.DEVNULL,
-                check=False,  # browsers give 0 whatever happens; the file tells
+                check=False,  # browsers give 0 whatever happens; the file shows it
             )
         except subprocess.TimeoutExpired:
             return f" within {_LONGEST_S:g} s"
@@ -84,7 +84,7 @@ class Printer(NamedTuple):
 
 
 def printer(wanted: bool, paper: str | None, brief: bool = False) -> Printer | None:
-    """What prints, sought before anything is computed or written; None where no PDF is wanted.
+    """Find a printer before anything is computed or written; None where no PDF is wanted.
 
     Raises
     ------

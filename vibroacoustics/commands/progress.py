@@ -14,7 +14,7 @@ from . import messages
 SHORTEST_S: Final = 1.0
 """A stage that takes less is not worth a line."""
 PAUSE_S: Final = 30.0
-"""Between two lines of a stage."""
+"""Time between two lines of a stage."""
 
 
 @contextmanager
@@ -96,7 +96,8 @@ class Lines:
                     self._write(f"progress: {task}: done in {elapsed:.0f} s")
             elif now >= stage.due_s and done > stage.done:
                 stage.due_s = now + PAUSE_S
-                left = elapsed * (total - done) / (done - stage.done)
+                remaining_s = elapsed * (total - done) / (done - stage.done)
                 self._write(
-                    f"progress: {task}: {done} of {total} after {elapsed:.0f} s, ETA {left:.0f} s"
+                    f"progress: {task}: {done} of {total} after {elapsed:.0f} s, "
+                    f"ETA {remaining_s:.0f} s"
                 )

@@ -47,7 +47,8 @@ class Reading:
     from_s, to_s : part of the recording
     name : assignments CHANNEL=NAME
     calibrator : assignments CHANNEL=FILE, or files alone
-    calibrator_level, calibrator_frequency : of the calibrator, dB re 20 µPa and Hz
+    calibrator_level, calibrator_frequency : level and frequency of the calibrator, dB re 20 µPa and
+        Hz
     settings : file of a campaign
     """
 
@@ -203,7 +204,7 @@ class OrderOptions:
     ] = None
     with_map: Annotated[
         bool | None,
-        typer.Option("--map/--no-map", help="Keep and draw the order map; default: of a run-up."),
+        typer.Option("--map/--no-map", help="Keep and plot the order map; default: of a run-up."),
     ] = None
     fit: Annotated[
         bool,

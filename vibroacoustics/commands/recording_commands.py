@@ -218,7 +218,7 @@ def sound_power_command(
         calibrator_frequency=calibrator_frequency,
         settings=settings,
     )
-    given = ([*files, *quiet], reading, plugin)
-    running, still = (microphones.read_files(each, *given) for each in (files, quiet))
+    arguments = ([*files, *quiet], reading, plugin)
+    running, still = (microphones.read_files(each, *arguments) for each in (files, quiet))
     measured = sound_power(running, surface, still, absorption)
     return target.outcome(report.analysis_of_sound_power(measured), measured, "sound_power.nc")

@@ -22,7 +22,7 @@ def analysis_with_sounds(replayed: Replay) -> Analysis:
 
     Parameters
     ----------
-    replayed : of `replay`
+    replayed : result of `replay`
 
     Raises
     ------

@@ -35,7 +35,7 @@ def run_and_write(
     Parameters
     ----------
     study : with tables `machines.NAME`
-    folder : of the results; those of each machine go to a folder in it
+    folder : folder of the results; those of each machine go to a folder in it
     progress : called with the advance of long work
     printer : makes PDFs of the pages; None for none
 
@@ -90,7 +90,7 @@ def open_machines(folder: str | Path) -> xr.DataTree:
 
     Parameters
     ----------
-    folder : of the results
+    folder : folder of the results
 
     Raises
     ------

@@ -49,6 +49,6 @@ def ended_by_signals() -> Iterator[None]:
 
 
 def _ignore() -> None:
-    """What comes now comes too late."""
+    """Ignore a signal that comes too late."""
     for number in ENDING:
         signal.signal(number, signal.SIG_IGN)

@@ -56,7 +56,7 @@ def starting_files(
 
     Parameters
     ----------
-    kind : of machine
+    kind : kind of machine
     with_sources : whether the study has the sources of sound of the kind
     level_dba : level of the user's machine at 1 m, dB(A); none where it is not known
 

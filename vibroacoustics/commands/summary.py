@@ -1,4 +1,4 @@
-"""What `run` and `check` say of a study: text, files and tables, and what it takes."""
+"""Summary of a study by `run` and `check`: text, files and tables, and its cost."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -60,22 +60,22 @@ def summary(outcomes: Mapping[str, Outcome]) -> Outcome:
 
 
 def machine_lines(machine: Machine) -> Iterator[str]:
-    """What a machine's file holds."""
+    """Yield the content of a machine's file."""
     tables = [name for name in type(machine).model_fields if getattr(machine, name) is not None]
     yield f"machine: {machine.name}, {machine.kind}"
     yield f"values: {', '.join(tables)}"
 
 
 def cost_lines(cost: RunCost) -> Iterator[str]:
-    """What a run takes, stage by stage, and how that is known."""
+    """Yield the cost of a run, stage by stage, and how it is known."""
     yield f"size of the result: {cost.result_bytes / 1e6:.2g} MB, of at most 2147 MB"
     yield (
         "radiation: is in the cache"
         if cost.was_cached
         else f"radiation: is computed, {cost.radiation_bytes / 1e6:.0f} MB of memory"
     )
-    for one in cost.costs:
-        yield f"  {span(one.low_s, one.high_s):>14}  {one.name}: {one.how}"
+    for part in cost.costs:
+        yield f"  {span(part.low_s, part.high_s):>14}  {part.name}: {part.how}"
     cores = processors()
     yield (
         f"time: {span(cost.low_s, cost.high_s)} of processor time; "

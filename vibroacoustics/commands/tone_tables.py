@@ -118,7 +118,7 @@ def _of_channel(tones: xr.Dataset, name: str) -> Iterator[Table | Bullets | Text
         caption = f"{name}: {len(listed)} listed above the noise of their critical band"
         yield Table(caption, (*TONE_HEAD, *_TIME_HEAD, "prominent"), rows, frozenset({0, 7}))
     else:
-        yield Text(f"{name}: no tone stands above the noise of its critical band")
+        yield Text(f"{name}: no tone exceeds the noise of its critical band")
     loudness, sharpness = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
     loud = f"loudness {loudness:.3g} sone, sharpness {sharpness:.2f} acum"
     yield Bullets((_audibility(tones, name), *([] if math.isnan(loudness) else [loud])))
@@ -142,8 +142,8 @@ def _audibility(tones: xr.Dataset, name: str) -> str:
 def _tone(tone: Tone, channel: str) -> tuple[Cell, ...]:
     """Row of a tone."""
     name, hertz, level, *ratios = tone_row(tone)
-    at = {"channel": channel, "frequency_hz": tone.frequency_hz}
-    number = Number(tone.level_db, "dB", "recorded_tone_level", at, text=level)
+    coordinates = {"channel": channel, "frequency_hz": tone.frequency_hz}
+    number = Number(tone.level_db, "dB", "recorded_tone_level", coordinates, text=level)
     times = f"{100.0 * tone.share:.0f}", rounding.fixed(tone.swing_db)
     return (name, hertz, number, *ratios, *times, _which(tone))
 
@@ -178,5 +178,5 @@ def _ratio(value_db: float, criterion_db: float) -> str:
 
 
 def _which(tone: Tone) -> str:
-    """By which of the two ratios it is prominent."""
+    """Name the ratio by which it is prominent."""
     return _PROMINENT.get((tone.prominent_by_noise, tone.prominent_by_bands), "no")

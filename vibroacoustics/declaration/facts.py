@@ -25,7 +25,7 @@ _NOT_AVAILABLE: Final = (
 )
 """Parts of a declaration by ISO 4871."""
 FEWEST_MICROPHONES: Final = 10
-"""On the hemisphere of ISO 3744."""
+"""Least number of microphones on the hemisphere of ISO 3744."""
 
 
 def operating(case: xr.Dataset) -> tuple[Fact, ...]:

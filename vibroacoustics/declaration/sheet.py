@@ -32,7 +32,7 @@ def data_sheet(
 
     Parameters
     ----------
-    results : of a run
+    results : results of a run
     option : its balancing option
     speed_rpm : one of its speeds; default: the first
     microphones : from which the sound power comes; default: all

@@ -84,7 +84,7 @@ def power_db(level_db: Array, surface_m2: Array) -> Array:
     Parameters
     ----------
     level_db : sound pressure levels, shape (..., microphone); not a number stays so
-    surface_m2 : of each microphone
+    surface_m2 : surface of each microphone, shape (microphone,)
     """
     return np.asarray(level_of_power(np.mean(power_of_level(level_db) * surface_m2, axis=-1)))
 

@@ -26,7 +26,7 @@ def point_velocity(velocity: ComplexArray, offset_m: Array) -> ComplexArray:
     Parameters
     ----------
     velocity : (dof, order), complex peaks at the centre of mass, m/s and rad/s
-    offset_m : of the point from the centre of mass, (3,)
+    offset_m : offset of the point from the centre of mass, (3,)
     """
     turned = np.cross(velocity[3:], offset_m[:, None], axis=0)
     return np.asarray(velocity[:3] + turned)
@@ -42,8 +42,8 @@ def peak_to_peak(peaks: ComplexArray, orders: Array) -> Array:
     """
     count = int(_ANGLES_PER_ORDER * max(orders.max(initial=1.0), 1.0))
     angle = 2.0 * np.pi * np.arange(count) / count
-    course = (peaks @ np.exp(1j * np.outer(orders, angle))).real
-    return np.asarray(np.ptp(course, axis=-1))
+    history = (peaks @ np.exp(1j * np.outer(orders, angle))).real
+    return np.asarray(np.ptp(history, axis=-1))
 
 
 def vibration(case: xr.Dataset, points_m: Mapping[str, Array]) -> tuple[Vibration, ...]:
@@ -85,7 +85,7 @@ def offsets_m(
 
     Parameters
     ----------
-    results : of a run
+    results : results of a run
     points_m : x, y and height above the floor, as microphones are given
     """
     shell = parameters(results)["machine"]["shell"]

@@ -11,7 +11,7 @@ def change_at(value: float, nodes: Array, change_db: Array) -> Array:
 
     Parameters
     ----------
-    value : of the parameter, between the first and the last node
+    value : value of the parameter, between the first and the last node
     nodes : values at which the change is known, increasing, shape (node,)
     change_db : at the nodes, shape (node, ...)
     """

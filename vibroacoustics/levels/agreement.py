@@ -21,7 +21,7 @@ from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_power, power_of_level
 from ..base.vocabulary import PUBLISHED_LEVEL, PUBLISHED_SHARE
-from ..machine.remainder import OverallNoise, Remainder
+from ..machine.remainder import OverallNoise, UnmodelledNoise
 from .by_source import GAIN_BANDS
 
 LEVELS_DB: Final[Array] = np.linspace(-40.0, 10.0, 51, dtype=np.float64)
@@ -35,7 +35,7 @@ class Prior:
     Attributes
     ----------
     name : in the results
-    words : after "a remainder"
+    words : words after "unmodelled noise"
     density : at levels relative to the published one, dB, of any scale
     """
 
@@ -56,13 +56,13 @@ PRIOR_NAMES: Final = ("flat", "near")
 
 
 ALL_ALIKE: Final = Prior("even", "of none, as no level is published", np.ones_like)
-"""Where no published datum weighs samples."""
+"""Prior where no published datum weights samples."""
 
 
-def priors_of(remainder: Remainder) -> tuple[Prior, ...]:
+def priors_of(noise: UnmodelledNoise) -> tuple[Prior, ...]:
     """Return the priors of a machine's unmodelled noise, in the order of their names."""
-    lowest, highest = remainder.flat_lowest_db, remainder.flat_highest_db
-    near, deviation = remainder.near_level_db, remainder.near_deviation_db
+    lowest, highest = noise.flat_lowest_db, noise.flat_highest_db
+    near, deviation = noise.near_level_db, noise.near_deviation_db
     flat = f"anywhere from {_beside(lowest)} to {_beside(highest)} the published level"
     words = (flat, f"{_beside(near)} the published level, give or take {deviation:g} dB")
     densities = (partial(_flat, lowest, highest), partial(_near, near, deviation))
@@ -136,7 +136,7 @@ def log_weights(modelled: Array, unmodelled: Array, data: Sequence[Datum], prior
     Parameters
     ----------
     modelled, unmodelled, data : see `log_likelihood`
-    prior : of the level of unmodelled noise
+    prior : prior of the level of unmodelled noise
     """
     return prior.log_density + log_likelihood(modelled, unmodelled, data)
 
@@ -181,7 +181,7 @@ def log_weight_of_points(over_db: Array, deviation_db: float, prior: Prior) -> A
     ----------
     over_db : modelled relative to each measured level, shape (point, sample)
     deviation_db : standard deviation of these levels
-    prior : of the level of unmodelled noise, relative to each measured one
+    prior : prior of the level of unmodelled noise, relative to each measured one
     """
     power = power_of_level(over_db)[..., None] + power_of_level(LEVELS_DB)
     log_likelihood = -0.5 * (level_of_power(power) / deviation_db) ** 2

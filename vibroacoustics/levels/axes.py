@@ -21,9 +21,9 @@ class LevelAxes:
     ----------
     speeds, options, sources, receivers : in the order of the arrays
     bands : third octaves
-    measured_orders : of the baseline at any microphone
+    measured_orders : orders that the baseline has at any microphone
     spreading : mean square of unmodelled noise relative to that at the published microphone, by
-        microphone, shape (band of `REMAINDER_BANDS`,); 1 where a microphone has none
+        microphone, shape (band of `UNMODELLED_BANDS`,); 1 where a microphone has none
     """
 
     speeds: Sequence[float]
@@ -58,7 +58,7 @@ class LevelAxes:
 
         Parameters
         ----------
-        remaining : in `REMAINDER_BANDS`, shape (..., band), Pa²
+        remaining : in `UNMODELLED_BANDS`, shape (..., band), Pa²
         """
         alike = np.ones(remaining.shape[-1])
         factor = np.array([self.spreading.get(name, alike) for name in self.receivers])

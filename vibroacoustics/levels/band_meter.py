@@ -23,8 +23,8 @@ class BandMeter:
 
     Parameters
     ----------
-    samples : of the channel, all in all
-    sample_rate_hz : of the channel
+    samples : number of all samples of the channel
+    sample_rate_hz : sample rate of the channel
     bands : below half the sample rate
     offset : mean of all samples of the channel, which is no sound
     """
@@ -75,5 +75,6 @@ class BandMeter:
         self._is_first, self._filled = False, ramp
 
     def mean_square(self) -> Array:
-        """In each band, after all samples have been added, shape (band,), unit squared."""
+        """Mean square in each band, after all samples have been added, shape (band,), unit
+        squared."""
         return np.asarray(self._energy / self._samples)

@@ -104,7 +104,7 @@ def band_mean_square(signal: Array, sample_rate_hz: float, bands: Sequence[Band]
     Parameters
     ----------
     signal : shape (..., time), any unit
-    sample_rate_hz : of the signal
+    sample_rate_hz : sample rate of the signal
     bands : below half the sample rate
 
     Returns
@@ -132,9 +132,9 @@ def band_sums(energy: Array, sample_rate_hz: float, samples: int, bands: Sequenc
 
     Parameters
     ----------
-    energy : of the lines from 0 Hz to half the sample rate, shape (..., line), any unit
-    sample_rate_hz : of the signal
-    samples : of the transform
+    energy : energy of the lines from 0 Hz to half the sample rate, shape (..., line), any unit
+    sample_rate_hz : sample rate of the signal
+    samples : number of samples of the transform
     bands : below half the sample rate
 
     Returns

@@ -20,14 +20,14 @@ from .measured_change import changed_orders, left_of_squares
 from .measured_points import (
     BASELINE_BANDS,
     MIDDLE_HZ,
-    REMAINDER_BANDS,
+    UNMODELLED_BANDS,
     MeasuredPoint,
     PointKey,
     holds,
     measured_points,
 )
 
-_UNMODELLED_COLUMNS: Final = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
+_UNMODELLED_COLUMNS: Final = [BASELINE_BANDS.index(band) for band in UNMODELLED_BANDS]
 """Columns of unmodelled noise among the bands of a baseline."""
 
 
@@ -37,20 +37,21 @@ class Changed:
 
     Attributes
     ----------
-    rest : what the model leaves of the measured bands, without orders, shape (option, band)
+    unmodelled : part of the measured bands that the model leaves, without orders, shape (option,
+        band)
     beside : modelled in these bands, without the measured orders, shape (option, band)
     order : measured orders, changed, shape (option, order)
-    modelled_order : of the model alone, shape (option, order)
+    modelled_order : pressure of the modelled orders alone, shape (option, order)
     """
 
-    rest: Array
+    unmodelled: Array
     beside: Array
     order: Array
     modelled_order: Array
 
 
 def points_of(study: Study, axes: LevelAxes) -> dict[PointKey, MeasuredPoint]:
-    """What was measured at the microphones and speeds of a study; nothing without a baseline."""
+    """Return measurements at the microphones and speeds of a study; nothing without a baseline."""
     if study.baseline is None:
         return {}
     return measured_points(study.baseline, axes.receivers, axes.speeds)
@@ -73,20 +74,22 @@ def with_baseline(
     Parameters
     ----------
     study : its options
-    axes : of the levels
-    points : of `points_of`
-    sound : of every case
-    remaining : unmodelled noise in `REMAINDER_BANDS`, shape (speed, option, receiver, band), Pa²
+    axes : axes of the levels
+    points : result of `points_of`
+    sound : sound of every case
+    remaining : unmodelled noise in `UNMODELLED_BANDS`, shape (speed, option, receiver, band), Pa²
     """
-    left: Array = remaining.sum(axis=3)
+    unmodelled: Array = remaining.sum(axis=3)
     for (receiver, speed), point in points.items():
-        at = axes.speeds.index(speed), slice(None), axes.receivers.index(receiver)
+        row = axes.speeds.index(speed), slice(None), axes.receivers.index(receiver)
         changed = _changed(study, axes, (receiver, speed), point, sound)
         elsewhere = ~np.isin(_UNMODELLED_COLUMNS, point.band)
-        left[at] = remaining[at] @ elsewhere + changed.rest @ _a_weight(MIDDLE_HZ[point.band])
+        unmodelled[row] = remaining[row] @ elsewhere + changed.unmodelled @ _a_weight(
+            MIDDLE_HZ[point.band]
+        )
         weight = _a_weight(point.frequency_hz)
-        left[at] += (changed.order - changed.modelled_order) @ weight
-    return left
+        unmodelled[row] += (changed.order - changed.modelled_order) @ weight
+    return unmodelled
 
 
 def over_baseline(
@@ -105,7 +108,7 @@ def over_baseline(
     chosen = _columns(axes, point)
     modelled = none.beside_total[column, point.band] @ of_bands
     modelled += 0.5 * np.abs(none.order_total[column, chosen]) ** 2 @ of_orders
-    measured = point.rest @ of_bands + 0.5 * np.abs(point.peak) ** 2 @ of_orders
+    measured = point.unmodelled @ of_bands + 0.5 * np.abs(point.peak) ** 2 @ of_orders
     if np.isnan(modelled):
         return float("nan")
     return float(mean_square_level(modelled, 1.0) - mean_square_level(measured, 1.0))
@@ -135,8 +138,8 @@ def baseline_variables(
         square = 0.5 * np.abs(point.peak) ** 2
         order_share[s, r, chosen] = _ratio(changed.modelled_order[none], square)
         tones = changed.order @ holds(point.frequency_hz)[:, point.band]
-        bands[s][:, r, point.band] = _level(changed.rest + changed.beside + tones)
-        share[s, r, point.band] = _ratio(changed.beside[none], point.rest)
+        bands[s][:, r, point.band] = _level(changed.unmodelled + changed.beside + tones)
+        share[s, r, point.band] = _ratio(changed.beside[none], point.unmodelled)
     values = {"baseline_share": share, "baseline_band_level": bands}
     if order.size:
         values |= {
@@ -184,12 +187,12 @@ def _changed(
     order = np.array([case.order_total[column, chosen] for case in cases])
     losses = [study.options[name].insertion_loss() for name in axes.options]
     middle_hz, hertz = MIDDLE_HZ[point.band], point.frequency_hz
-    by_band = [1.0 if one is None else one.power_factor(middle_hz) for one in losses]
-    by_order = [1.0 if one is None else one.amplitude_factor(hertz) for one in losses]
-    rest = left_of_squares(point.rest, none.beside_total[column, point.band])
-    factor = np.array([one * np.ones(hertz.size) for one in by_order])
+    by_band = [1.0 if loss is None else loss.power_factor(middle_hz) for loss in losses]
+    by_order = [1.0 if loss is None else loss.amplitude_factor(hertz) for loss in losses]
+    unmodelled = left_of_squares(point.unmodelled, none.beside_total[column, point.band])
+    factor = np.array([gain * np.ones(hertz.size) for gain in by_order])
     return Changed(
-        np.array([rest * one for one in by_band]),
+        np.array([unmodelled * gain for gain in by_band]),
         beside,
         changed_orders(
             point.peak, none.order_total[column, chosen], order, factor, point.has_phase

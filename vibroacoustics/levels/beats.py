@@ -21,8 +21,8 @@ class MachineLine(NamedTuple):
     Attributes
     ----------
     machine : its name
-    order : of its shaft
-    frequency_hz : of the line
+    order : order of its shaft
+    frequency_hz : frequency of the line
     """
 
     machine: str
@@ -37,7 +37,8 @@ class Beat(NamedTuple):
     ----------
     first : number of a line
     second : number of a line of another machine
-    frequency_hz : of the beat, the difference of both; 0 where the phase between them is constant
+    frequency_hz : frequency of the beat, the difference of both; 0 where the phase between them is
+        constant
     """
 
     first: int
@@ -50,7 +51,7 @@ def beats(lines: Sequence[MachineLine]) -> list[Beat]:
 
     Parameters
     ----------
-    lines : of all machines
+    lines : lines of all machines
     """
     return [
         Beat(first, second, abs(a.frequency_hz - b.frequency_hz))
@@ -85,8 +86,8 @@ def envelope_maximum(pressure_pa: ComplexArray, axis: int = 0) -> Array:
 
     Parameters
     ----------
-    pressure_pa : complex peaks, lines along the axis
-    axis : of the lines
+    pressure_pa : complex peaks, shape (..., line, ...) with the lines along the axis
+    axis : axis of the lines
     """
     return np.asarray(np.abs(pressure_pa).sum(axis=axis))
 
@@ -98,8 +99,8 @@ def envelope_minimum(pressure_pa: ComplexArray, axis: int = 0) -> Array:
 
     Parameters
     ----------
-    pressure_pa : complex peaks, lines along the axis
-    axis : of the lines
+    pressure_pa : complex peaks, shape (..., line, ...) with the lines along the axis
+    axis : axis of the lines
     """
     size = np.abs(pressure_pa)
     return np.asarray(np.maximum(2.0 * size.max(axis=axis) - size.sum(axis=axis), 0.0))

@@ -44,7 +44,7 @@ def labelled_block_levels(
 
     Parameters
     ----------
-    spectra : of all channels, shape (channel, block, frequency)
+    spectra : spectra of all channels, shape (channel, block, frequency)
     frequency_hz, resolution_hz : see `block_levels`
     channel_unit : (channel,)
     """

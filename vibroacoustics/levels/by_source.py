@@ -24,7 +24,7 @@ A_FIRST: Final = tuple(sorted(WEIGHTINGS, key=lambda name: name != "A"))
 
 
 class Measured(NamedTuple):
-    """What a baseline has: third octaves, and orders that count apart from them."""
+    """Third octaves of a baseline, and orders that count apart from them."""
 
     bands: Sequence[Band]
     orders: Sequence[float]
@@ -36,16 +36,18 @@ class SourceSound:
 
     Attributes
     ----------
-    band : of each source alone, shape (source, receiver, band), Pa²
+    band : mean square of each source alone, shape (source, receiver, band), Pa²
     alone : A-weighted, of each source alone, shape (source, receiver), Pa²
-    part : what each source adds to the total by weighting, shape (weighting, source, receiver),
-        Pa²; where lines of two sources cancel a part can be negative. The sum is the total
+    part : contribution of each source to the total by weighting, shape (weighting, source,
+        receiver), Pa²; where lines of two sources cancel a part can be negative. The sum is the
+        total
     mutual : A-weighted mean squares of each pair of sources in `GAIN_BANDS`, half the real part
         of p q*, whose sum is the total, shape (source, source, receiver, gain band), Pa²
     band_hz : middle frequencies of the bands, shape (band,)
     order : shaft orders that were measured, complex peaks, shape (source, receiver, order), Pa
-    order_hz : of these orders, shape (order,)
-    beside : as `mutual`, without weighting and these orders, Pa²; empty without a baseline
+    order_hz : frequency of these orders, shape (order,)
+    beside : mean square like `mutual`, without weighting and these orders, same shape, Pa²; empty
+        without a baseline
     """
 
     band: Array
@@ -176,10 +178,10 @@ def source_sound(
     Parameters
     ----------
     pressure : complex peaks at the lines, shape (source, receiver, line), Pa
-    frequency_hz : of the lines, shape (line,); zero is no sound
-    noise : of the sources that have some
-    bands : of the result
-    weightings : of the totals, A first
+    frequency_hz : frequency of the lines, shape (line,); zero is no sound
+    noise : noise of the sources that have some
+    bands : bands of the result
+    weightings : weightings of the totals, A first
     """
     alone = 0.5 * np.abs(pressure) ** 2
     pairs = mutual_power(pressure)
@@ -197,7 +199,9 @@ def source_sound(
         part[:, random.source] += loud
         in_band = a_weight_by_band(random.frequency_hz)
         mutual[random.source, random.source] += random.power @ in_band
-    return SourceSound(band, weighted, part, mutual, np.array([one.middle_hz for one in bands]))
+    return SourceSound(
+        band, weighted, part, mutual, np.array([third_octave.middle_hz for third_octave in bands])
+    )
 
 
 def a_weight_by_band(frequency_hz: Array) -> Array:

@@ -33,7 +33,7 @@ class Changes(NamedTuple):
 
     Attributes
     ----------
-    force_db : of `FORCES` at 1x, shape (force, sample, speed, option), dB
+    force_db : change of `FORCES` at 1x, shape (force, sample, speed, option), dB
     increased, decreased : by what could be measured, of `JUDGED`, shape (sample, quantity, speed,
         option, receiver)
     """
@@ -48,7 +48,7 @@ def change_db(amplitude: Array, reference: int) -> Array:
 
     Parameters
     ----------
-    amplitude : what is below `FORCE_FLOOR` counts as that
+    amplitude : amplitude, shape (..., option); values below `FORCE_FLOOR` count as that
     reference : number of the option
     """
     counted = np.maximum(amplitude, rounding.FORCE_FLOOR)
@@ -70,7 +70,7 @@ def changes_of(
 
     Parameters
     ----------
-    forces : of `FORCES` at 1x, shape (force, sample, speed, option), N or N m
+    forces : amplitude of `FORCES` at 1x, shape (force, sample, speed, option), N or N m
     total_db : A-weighted, shape (sample, speed, option, receiver)
     line_db : level of the 1x line, unweighted, the same shape
     line_hz : its frequency, shape (speed,)

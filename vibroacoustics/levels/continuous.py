@@ -13,9 +13,9 @@ from ..mechanics.received_sound import ReceivedSound
 from .axes import LevelAxes
 from .by_source import membership, weighting_power
 from .labelled import level
-from .measured_points import BASELINE_BANDS, MIDDLE_HZ, REMAINDER_BANDS
+from .measured_points import BASELINE_BANDS, MIDDLE_HZ, UNMODELLED_BANDS
 
-_OF_REMAINDER: Final = [BASELINE_BANDS.index(band) for band in REMAINDER_BANDS]
+_UNMODELLED_COLUMNS: Final = [BASELINE_BANDS.index(band) for band in UNMODELLED_BANDS]
 
 
 def noise_levels(
@@ -27,21 +27,21 @@ def noise_levels(
     ----------
     axes : speeds, options and receivers
     received : sound of these cases, and of others
-    remaining : A-weighted unmodelled noise in `REMAINDER_BANDS`, shape (speed, option, receiver,
+    remaining : A-weighted unmodelled noise in `UNMODELLED_BANDS`, shape (speed, option, receiver,
         band), Pa²
     """
     noise = np.array([[_noise(received[s, o], axes) for o in axes.options] for s in axes.speeds])
-    rest = unmodelled_in_bands(remaining)
+    unmodelled = unmodelled_in_bands(remaining)
     bands = {"noise_band": [band.nominal_hz for band in BASELINE_BANDS]}
     lines = [[_lines(received[s, o]) for o in axes.options] for s in axes.speeds]
     sources = np.array(lines) + noise
     values = {
         "noise_band_level": level(noise),
         "sources_band_level": level(sources),
-        "unmodelled_band_level": level(rest),
+        "unmodelled_band_level": level(unmodelled),
     }
     if not axes.measured_orders:
-        values["total_band_level"] = level(sources + rest)
+        values["total_band_level"] = level(sources + unmodelled)
     return stamped(values, axes.by_receiver | bands)
 
 
@@ -50,11 +50,13 @@ def unmodelled_in_bands(remaining: Array) -> Array:
 
     Parameters
     ----------
-    remaining : A-weighted, in `REMAINDER_BANDS`, shape (..., band), Pa²
+    remaining : A-weighted, in `UNMODELLED_BANDS`, shape (..., band), Pa²
     """
-    rest = np.zeros((*remaining.shape[:-1], len(BASELINE_BANDS)))
-    rest[..., _OF_REMAINDER] = remaining / weighting_power("A", MIDDLE_HZ[_OF_REMAINDER])
-    return rest
+    unmodelled = np.zeros((*remaining.shape[:-1], len(BASELINE_BANDS)))
+    unmodelled[..., _UNMODELLED_COLUMNS] = remaining / weighting_power(
+        "A", MIDDLE_HZ[_UNMODELLED_COLUMNS]
+    )
+    return unmodelled
 
 
 def _lines(sound: ReceivedSound) -> Array:

@@ -16,7 +16,8 @@ from .by_source import membership, weighting_power
 from .labelled import level
 
 SILENT: Final = 1e-12
-"""Of the largest mean square, 120 dB below it: a smaller sum is near rounding and has no shares."""
+"""Share of the largest mean square, 120 dB below it: a smaller sum is near rounding and has no
+shares."""
 
 
 def energies(split: Contributions, bands: Sequence[Band]) -> tuple[Array, Array]:
@@ -72,11 +73,11 @@ def contribution_variables(
     pressure = np.zeros((*shape, len(orders)), dtype=complex)
     alone, part = (np.zeros((*shape, len(axes.bands) + 1)) for _ in range(2))
     for (speed, option), split in cases.items():
-        at = speeds.index(speed), axes.options.index(option)
+        case = speeds.index(speed), axes.options.index(option)
         rows = [names.index(name) for name in split.names]
         held = [order for order in orders if order < split.frequency_hz.size]
-        pressure[at][rows, :, : len(held)] = split.pressure[..., held]
-        alone[at][rows], part[at][rows] = energies(split, axes.bands)
+        pressure[case][rows, :, : len(held)] = split.pressure[..., held]
+        alone[case][rows], part[case][rows] = energies(split, axes.bands)
     motions = list(dict.fromkeys(name for split in cases.values() for name in split.motions))
     radiated = np.zeros((2, *shape[:2], len(motions), shape[3]))
     for (speed, option), split in cases.items():

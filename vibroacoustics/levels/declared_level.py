@@ -53,7 +53,7 @@ def upper_limit_db(level_db: Array, weight: Array, deviation_db: float) -> float
     Parameters
     ----------
     level_db : sound power level in each sample, shape (sample,)
-    weight : of the samples, of sum one, shape (sample,)
+    weight : weight of the samples, of sum one, shape (sample,)
     deviation_db : σ
     """
     level, of_level = level_db[weight > 0.0], weight[weight > 0.0]

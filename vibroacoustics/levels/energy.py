@@ -28,7 +28,7 @@ def energy_of_lines(pressure: ComplexArray, frequency_hz: Array) -> Array:
     Parameters
     ----------
     pressure : complex peaks, shape (source, ..., line), Pa
-    frequency_hz : of the lines, not a number where there is none, shape (line,)
+    frequency_hz : frequency of the lines, not a number where there is none, shape (line,)
     """
     sounds = np.nan_to_num(frequency_hz) > 0.0
     weight = weighting_power("A", np.where(sounds, frequency_hz, 1.0)) * sounds
@@ -53,7 +53,7 @@ def unmodelled_energy(level: xr.DataArray) -> Array:
 
     Parameters
     ----------
-    level : of the noise in third octaves, unweighted, (..., noise_band), dB
+    level : level of the noise in third octaves, unweighted, (..., noise_band), dB
     """
     square = REFERENCE_PRESSURE_PA**2 * power_of_level(level.values)
     return np.asarray(square * weighting_power("A", MIDDLE_HZ))
@@ -69,10 +69,10 @@ def energy_variables(
 
     Parameters
     ----------
-    axes : of sources and receivers, with the shown options
-    sound : of each option at the receivers
+    axes : axes of sources and receivers, with the shown options
+    sound : sound of each option at the receivers
     pressure_line : (option, sound_source, receiver, line), with `tone_frequency`
-    level : of unmodelled noise, (option, receiver, noise_band)
+    level : level of unmodelled noise, (option, receiver, noise_band)
     """
     parts = [sound_by_source(case, axes.bands).mutual.sum(axis=1) for case in sound]
     noise = unmodelled_energy(level.transpose("option", "receiver", "noise_band"))[:, None]

@@ -17,9 +17,9 @@ from ..base.errors import ParameterError
 from .bands import OCTAVE_RATIO, Band, check_measurable
 
 FILTER_ORDER: Final = 4
-"""Of the Butterworth low-pass behind each band-pass. With order 3 the bilinear transform lifts the
-lower skirt out of class 1 from a quarter of the sample rate on; order 4 stays within it up to 1 %
-below half the sample rate, and a higher one would only ring longer."""
+"""Order of the Butterworth low-pass behind each band-pass. With order 3 the bilinear transform
+lifts the lower skirt out of class 1 from a quarter of the sample rate on; order 4 stays within it
+up to 1 % below half the sample rate, and a higher one would only ring longer."""
 
 # Table 1, class 1: powers of G of the breakpoints of an octave filter, on either side, and the
 # relative attenuation in dB that is allowed there.
@@ -39,7 +39,7 @@ def class_1_limits_db(frequency_ratio: Array, bands_per_octave: int) -> tuple[Ar
 
     Parameters
     ----------
-    frequency_ratio : frequency over mid-band frequency, above zero
+    frequency_ratio : frequency over mid-band frequency, above zero, shape (...)
     bands_per_octave : 1 or 3
 
     Returns
@@ -99,9 +99,9 @@ def filtered_energy(
 
     Parameters
     ----------
-    energy : of lines, shape (..., line), any unit
-    frequency_hz : of the lines, shape (line,)
-    sample_rate_hz : of the signal
+    energy : energy of lines, shape (..., line), any unit
+    frequency_hz : frequency of the lines, shape (line,)
+    sample_rate_hz : sample rate of the signal
     bands : below half the sample rate
     """
     passed = np.empty((*energy.shape[:-1], len(bands)))
@@ -113,12 +113,12 @@ def filtered_energy(
 
 
 def band_signal(signal: Array, sample_rate_hz: float, band: Band) -> Array:
-    """What a band's filter lets through of a signal, from rest.
+    """Return the signal behind a band's filter, from rest.
 
     Parameters
     ----------
     signal : shape (..., time), any unit
-    sample_rate_hz : of the signal
+    sample_rate_hz : sample rate of the signal
     band : below half the sample rate
 
     Returns

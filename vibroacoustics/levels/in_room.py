@@ -17,21 +17,22 @@ from .sound_power import hemisphere_area_m2
 LINES_OF_BAND: Final = 24
 """Frequencies that stand for a third octave."""
 LOWEST_HZ: Final = 1.0
-"""In place of 0 Hz, where nothing is heard."""
+"""Frequency in place of 0 Hz, where nothing is heard."""
 ROUNDED: Final = 1.01
-"""Of the middle of a band that is called by a round number."""
+"""Factor of the middle of a band that is called by a round number."""
 
 
 @dataclass(frozen=True)
-class RoomWays:
-    """How sound comes to the listeners, and how the machine's power follows from positions.
+class RoomPaths:
+    """Paths of sound to the listeners, and the machine's power from positions.
 
     Attributes
     ----------
     listeners : how many; their pressure by waves comes first among what is received, then that of
         the positions on a hemisphere
-    radius_m : of the hemisphere
-    wave_share : of frequencies, shape (frequency,): 1 where waves count, 0 where the power does
+    radius_m : radius of the hemisphere
+    wave_share : function of frequencies, shape (frequency,): 1 where waves count, 0 where the power
+        does
     per_power : mean square of pressure per power by direct sound and diffuse field, of
         frequencies, shape (listener, frequency), Pa²/W
     """
@@ -72,10 +73,10 @@ class RoomSound:
     ----------
     alone : A-weighted, of each source alone, shape (source, listener), Pa²
     total : A-weighted, of all together, shape (listener,), Pa²
-    band : of all together, unweighted, in `BASELINE_BANDS`, shape (listener, band), Pa²
-    power_band : of all together, unweighted, shape (band,), W
-    pressure : of all together at the lines, complex peaks, shape (listener, line), Pa
-    noise_band : of all together without lines, unweighted, shape (listener, band), Pa²
+    band : mean square of all sources, unweighted, in `BASELINE_BANDS`, shape (listener, band), Pa²
+    power_band : power of all sources, unweighted, shape (band,), W
+    pressure : pressure of all sources at the lines, complex peaks, shape (listener, line), Pa
+    noise_band : mean square of all noise without lines, unweighted, shape (listener, band), Pa²
     line : names of the lines
     """
 
@@ -88,13 +89,13 @@ class RoomSound:
     line: tuple[str, ...]
 
 
-def room_sound(received: ReceivedSound, ways: RoomWays) -> RoomSound:
+def room_sound(received: ReceivedSound, paths: RoomPaths) -> RoomSound:
     """Sound of a case in a room: lines of all sources as phasors, noise as energy.
 
     Parameters
     ----------
     received : at the listeners by waves, then at the positions
-    ways : to the listeners
+    paths : to the listeners
     """
     hertz = received.lines.frequency_hz
     audible = hertz > 0.0
@@ -103,20 +104,20 @@ def room_sound(received: ReceivedSound, ways: RoomWays) -> RoomSound:
     together = 0.5 * np.abs(of_all) ** 2 * audible
     safe = np.maximum(hertz, LOWEST_HZ)
     weight, in_band = weighting_power("A", safe), membership(hertz, BASELINE_BANDS)
-    alone = ways.at_listeners(by_source, safe) @ weight
-    at_listeners = ways.at_listeners(together, safe)
+    alone = paths.at_listeners(by_source, safe) @ weight
+    at_listeners = paths.at_listeners(together, safe)
     total, band = at_listeners @ weight, at_listeners @ in_band
-    power_band = ways.power(together) @ in_band
+    power_band = paths.power(together) @ in_band
     noise_band = np.zeros_like(band)
     for part in received.noise:
-        noise = ways.at_listeners(part.power, np.maximum(part.frequency_hz, LOWEST_HZ))
+        noise = paths.at_listeners(part.power, np.maximum(part.frequency_hz, LOWEST_HZ))
         loud = noise @ weighting_power("A", part.frequency_hz)
         alone[part.source] += loud
         total = total + loud
         in_band = membership(part.frequency_hz, BASELINE_BANDS)
         noise_band += noise @ in_band
-        power_band = power_band + ways.power(part.power) @ in_band
-    peaks = np.sqrt(2.0 * at_listeners) * _turn(of_all, ways.listeners)
+        power_band = power_band + paths.power(part.power) @ in_band
+    peaks = np.sqrt(2.0 * at_listeners) * _turn(of_all, paths.listeners)
     return RoomSound(
         alone, total, band + noise_band, power_band, peaks, noise_band, received.lines.names
     )
@@ -138,26 +139,27 @@ def power_of_hemisphere(mean_square: Array, distance_m: float) -> Array:
 
     Parameters
     ----------
-    mean_square : at the distance, Pa²
+    mean_square : mean square at the distance, shape (...), Pa²
     distance_m : from the foot of its axis
     """
     return np.asarray(mean_square * hemisphere_area_m2(distance_m) / AIR_IMPEDANCE_PA_S_PER_M)
 
 
 def wave_gains(
-    pressure_per_velocity: Callable[[Array], ComplexArray], ways: RoomWays, highest_hz: float
+    pressure_per_velocity: Callable[[Array], ComplexArray], paths: RoomPaths, highest_hz: float
 ) -> Array:
     """Mean square by waves per power in `BASELINE_BANDS`, shape (listener, band), Pa²/W.
 
-    Of a machine that shakes along x, y and z with the same power each; zero above the waves.
+    The machine shakes along x, y and z with the same power each; zero above the waves.
 
     Parameters
     ----------
-    pressure_per_velocity : of frequencies, at listeners and positions, (place, motion, frequency)
-    ways : to the listeners
-    highest_hz : of the waves
+    pressure_per_velocity : function of frequencies to the response at listeners and positions,
+        (place, motion, frequency)
+    paths : to the listeners
+    highest_hz : highest frequency of the waves
     """
-    gains = np.zeros((ways.listeners, len(BASELINE_BANDS)))
+    gains = np.zeros((paths.listeners, len(BASELINE_BANDS)))
     for number, band in enumerate(BASELINE_BANDS):
         hertz = frequencies_of(band)
         hertz = hertz[hertz <= highest_hz]
@@ -165,8 +167,8 @@ def wave_gains(
             break
         square = np.abs(pressure_per_velocity(hertz)[:, :3]) ** 2
         by_motion = np.moveaxis(square, 1, 0)
-        power = ways.power(by_motion).mean(axis=-1)
-        waves = by_motion[:, : ways.listeners].mean(axis=-1)
+        power = paths.power(by_motion).mean(axis=-1)
+        waves = by_motion[:, : paths.listeners].mean(axis=-1)
         gains[:, number] = (waves / power[:, None]).mean(axis=0)
     return gains
 
@@ -177,19 +179,19 @@ def frequencies_of(band: Band) -> Array:
     return np.asarray(band.lower_hz + middle * (band.upper_hz - band.lower_hz))
 
 
-def blended_gains(waves: Array, ways: RoomWays) -> tuple[Array, Array]:
+def blended_gains(waves: Array, paths: RoomPaths) -> tuple[Array, Array]:
     """Mean square per power in `BASELINE_BANDS` by both methods, and by the power alone, Pa²/W.
 
     Parameters
     ----------
-    waves : of `wave_gains`
-    ways : to the listeners
+    waves : result of `wave_gains`, shape (listener, band)
+    paths : to the listeners
 
     Returns
     -------
     each of shape (listener, band)
     """
     hertz = np.array([frequencies_of(band) for band in BASELINE_BANDS])
-    share = ways.wave_share(hertz.ravel()).reshape(hertz.shape).mean(axis=1)
-    diffuse = ways.per_power(hertz.ravel()).reshape(ways.listeners, *hertz.shape).mean(axis=2)
+    share = paths.wave_share(hertz.ravel()).reshape(hertz.shape).mean(axis=1)
+    diffuse = paths.per_power(hertz.ravel()).reshape(paths.listeners, *hertz.shape).mean(axis=2)
     return share * waves + (1.0 - share) * diffuse, diffuse

@@ -1,4 +1,4 @@
-"""What options leave of the airborne sound: insertion losses by option."""
+"""Insertion losses of options for airborne sound."""
 
 from collections.abc import Mapping
 
@@ -40,8 +40,8 @@ def remaining_factor(options: Mapping[str, Option], frequency_hz: Array) -> Arra
     Parameters
     ----------
     options : by name
-    frequency_hz : middle of the bands, shape (band,)
+    frequency_hz : midband frequency, Hz, shape (band,)
     """
     losses = [option.insertion_loss() for option in options.values()]
-    left = [1.0 if loss is None else loss.power_factor(frequency_hz) for loss in losses]
-    return np.array([np.ones(len(frequency_hz)) * factor for factor in left])
+    factors = [1.0 if loss is None else loss.power_factor(frequency_hz) for loss in losses]
+    return np.array([np.ones(len(frequency_hz)) * factor for factor in factors])

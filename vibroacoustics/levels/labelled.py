@@ -33,13 +33,13 @@ def level_variables(
 
     Parameters
     ----------
-    axes : of the levels
-    sound : of every case, with totals by the weightings A_FIRST
-    pressure_line : of every source, orders first, complex peaks, Pa
+    axes : axes of the levels
+    sound : sound of every case, with totals by the weightings A_FIRST
+    pressure_line : pressure of every source at the lines, orders first, complex peaks, Pa
     order_frequency : (speed, order), Hz
     residual : mean square of what the model leaves, shape (speed, option, receiver), Pa²
     unmodelled : noise at the published point without an option, Pa²
-    baseline : of `baseline_variables`, whose orders are in place of the modelled ones
+    baseline : result of `baseline_variables`, whose orders are in place of the modelled ones
     """
     part = axes.gathered(sound, "part")
     totals = part.sum(axis=3)  # (speed, option, weighting, receiver)
@@ -102,8 +102,8 @@ def source_levels(
 
     Parameters
     ----------
-    axes : of the levels
-    sound : of every case
+    axes : axes of the levels
+    sound : sound of every case
     residual : mean square of what the model leaves, shape (speed, option, receiver), Pa²
     """
     part = axes.gathered(sound, "part")[:, :, A_FIRST.index("A")]
@@ -123,15 +123,16 @@ def with_measured(levels: Array, measured: Array, orders: Sequence[float]) -> Ar
 
     Parameters
     ----------
-    levels : of the orders 0, 1, 2, …, shape (..., order), dB
-    measured : of some orders, shape (..., measured order), dB; not a number where not measured
+    levels : levels of the orders 0, 1, 2, …, shape (..., order), dB
+    measured : levels of some orders, shape (..., measured order), dB; not a number where not
+        measured
     orders : that were measured
     """
-    known = [n for n, one in enumerate(orders) if one in range(levels.shape[-1])]
-    columns = [int(orders[n]) for n in known]
+    numbers = [n for n, order in enumerate(orders) if order in range(levels.shape[-1])]
+    columns = [int(orders[n]) for n in numbers]
     together = levels.copy()
-    there = np.isfinite(measured[..., known])
-    together[..., columns] = np.where(there, measured[..., known], levels[..., columns])
+    is_measured = np.isfinite(measured[..., numbers])
+    together[..., columns] = np.where(is_measured, measured[..., numbers], levels[..., columns])
     return np.asarray(together)
 
 

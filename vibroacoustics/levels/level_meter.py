@@ -23,22 +23,22 @@ RUN_IN_S: Final = 0.1
 """Left out at either end of A- and C-weighted signals: the slowest part of the weightings,
 exp(-2π 20.6 Hz t), has then fallen to 2e-6."""
 _BLOCK_S: Final = 2.5
-"""Of a transform: its lines lie 0.4 Hz apart, a fifteenth of the third octave at 25 Hz."""
+"""Length of a transform: its lines lie 0.4 Hz apart, a fifteenth of the third octave at 25 Hz."""
 _FILTERED: Final = ("A", "C")
 _SHORTEST_SHARE: Final = 4
-"""At either end at most a quarter of a recording is left out."""
+"""Largest part of a recording that is omitted at either end."""
 _TICK_S: Final = 0.01
 """Squares are summed over ticks of this length for levels over the time."""
 
 
 @dataclass(frozen=True)
 class MeterPlan:
-    """How a recording of a length is measured; the same for all its channels.
+    """Plan of the measurement of a recording of a length; the same for all its channels.
 
     Attributes
     ----------
-    samples : of the recording
-    sample_rate_hz : of the recording
+    samples : number of samples of the recording
+    sample_rate_hz : sample rate of the recording
     """
 
     samples: int
@@ -51,7 +51,7 @@ class MeterPlan:
 
     @property
     def run_in_s(self) -> float:
-        """The same in s."""
+        """Run-in in s."""
         return self.run_in / self.sample_rate_hz
 
     @cached_property
@@ -108,7 +108,7 @@ class MeterPlan:
         return BlockTransform(self.length)
 
     def window(self, samples: int) -> Array:
-        """Of a block: one but for its ramps."""
+        """Window of a block: one but for its ramps."""
         window = np.ones(samples)
         window[: self.ramp] *= self.rise
         window[samples - self.ramp :] *= self.rise[::-1]
@@ -116,12 +116,12 @@ class MeterPlan:
 
     @cached_property
     def frequency_hz(self) -> Array:
-        """Of the lines of a transform."""
+        """Frequencies of the lines of a transform."""
         return np.asarray(fft.rfftfreq(self.length, 1.0 / self.sample_rate_hz))
 
     @cached_property
     def gain(self) -> dict[str, Array]:
-        """Of the lines of a transform, by weighting."""
+        """Gain of the lines of a transform, by weighting."""
         return {
             name: np.asarray(amplitude_of_level(WEIGHTING[name](self.frequency_hz)))
             for name in _FILTERED
@@ -139,7 +139,7 @@ class LevelMeter:
 
     Parameters
     ----------
-    plan : of the recording
+    plan : plan of the recording
     offset : mean of all samples of the channel, which is no sound
     """
 
@@ -154,7 +154,7 @@ class LevelMeter:
         self._added = 0
         self._start = 0  # of the next block
         self._pending: Array = np.empty(0)  # samples from there on
-        # Of the blocks before: from a run-in before there on.
+        # Part of the blocks before: from a run-in before there on.
         self._tail: dict[str, Array] = {name: np.zeros(0) for name in _FILTERED}
 
     def add(self, piece: Array) -> None:

@@ -13,7 +13,7 @@ from ..mechanics.received_sound import ReceivedSound
 from .axes import LevelAxes
 
 _ORDER = "order "
-"""With what the names of lines begin that are orders."""
+"""Prefix of the names of lines that are orders."""
 
 
 def order_columns(received: ReceivedSound, orders: int) -> tuple[IndexArray, IndexArray]:
@@ -23,8 +23,8 @@ def order_columns(received: ReceivedSound, orders: int) -> tuple[IndexArray, Ind
         for column, name in enumerate(received.lines.names)
         if name.startswith(_ORDER)
     }
-    order = np.array([one for one in columns if one < orders], dtype=np.intp)
-    return order, np.array([columns[one] for one in order.tolist()], dtype=np.intp)
+    order = np.array([column for column in columns if column < orders], dtype=np.intp)
+    return order, np.array([columns[number] for number in order.tolist()], dtype=np.intp)
 
 
 def with_order_levels(lines: xr.Dataset, order_level: xr.DataArray) -> xr.Dataset:
@@ -32,8 +32,8 @@ def with_order_levels(lines: xr.Dataset, order_level: xr.DataArray) -> xr.Datase
 
     Parameters
     ----------
-    lines : of `line_pressure`
-    order_level : of the orders, with weightings, dB
+    lines : result of `line_pressure`
+    order_level : level of the orders, with weightings, dB
     """
     pressure = lines["pressure_line"]
     orders = order_level.sizes["order"]

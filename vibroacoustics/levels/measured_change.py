@@ -32,6 +32,6 @@ def changed_orders(
     phase : whether the phase was measured, shape (order,)
     """
     by_phase = 0.5 * np.abs((measured - before) * factor + after) ** 2
-    left = left_of_squares(0.5 * np.abs(measured) ** 2, 0.5 * np.abs(before) ** 2)
-    by_energy = left * factor**2 + 0.5 * np.abs(after) ** 2
+    unmodelled = left_of_squares(0.5 * np.abs(measured) ** 2, 0.5 * np.abs(before) ** 2)
+    by_energy = unmodelled * factor**2 + 0.5 * np.abs(after) ** 2
     return np.where(phase, by_phase, by_energy)

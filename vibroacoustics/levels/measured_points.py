@@ -1,4 +1,4 @@
-"""What a baseline says at the speeds of a study, between those that were measured."""
+"""Values of a baseline at the speeds of a study, between those that were measured."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -17,20 +17,20 @@ from .by_source import GAIN_BANDS
 
 BASELINE_BANDS: Final = GAIN_BANDS
 """Third octaves that a baseline may have."""
-REMAINDER_BANDS: Final = bands_between(3, 25.0, 10000.0)
-"""Third octaves of the remainder, where no baseline stands."""
+UNMODELLED_BANDS: Final = bands_between(3, 25.0, 10000.0)
+"""Third octaves of unmodelled noise, where there is no baseline."""
 MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in BASELINE_BANDS])
 _EDGES: Final[Array] = np.array([[band.lower_hz, band.upper_hz] for band in BASELINE_BANDS])
 
 
 @dataclass(frozen=True)
 class MeasuredPoint:
-    """What was measured at a microphone, at a speed of the study.
+    """Measurement at a microphone, at a speed of the study.
 
     Attributes
     ----------
     band : numbers of `BASELINE_BANDS`, shape (band,); none where no third octaves were measured
-    rest : mean squares without the measured orders, shape (band,), Pa²
+    unmodelled : mean squares without the measured orders, shape (band,), Pa²
     order, frequency_hz : shape (order,)
     peak : complex at the study's crank angle where the phase is known, else amplitudes, shape
         (order,), Pa
@@ -38,7 +38,7 @@ class MeasuredPoint:
     """
 
     band: IndexArray
-    rest: Array
+    unmodelled: Array
     order: Array
     frequency_hz: Array
     peak: ComplexArray
@@ -60,12 +60,12 @@ PointKey = tuple[str, float]
 def measured_points(
     baseline: Baseline, receivers: Iterable[str], speeds: Sequence[float]
 ) -> dict[PointKey, MeasuredPoint]:
-    """What was measured at each microphone and speed that the baseline covers.
+    """Return the measurement at each microphone and speed that the baseline covers.
 
     Parameters
     ----------
-    baseline : of the study
-    receivers, speeds : of the study, rpm
+    baseline : baseline of the study
+    receivers, speeds : receivers and speeds of the study, rpm
     """
     return {
         (name, speed): _point(baseline, name, speed)
@@ -86,7 +86,7 @@ def evidence(points: Iterable[PointKey]) -> list[PointKey]:
     return [
         (receiver, speed)
         for receiver, speeds in by_receiver.items()
-        for speed in dict.fromkeys(sorted(speeds)[at] for at in (0, len(speeds) // 2, -1))
+        for speed in dict.fromkeys(sorted(speeds)[index] for index in (0, len(speeds) // 2, -1))
     ]
 
 
@@ -104,10 +104,10 @@ def _point(baseline: Baseline, name: str, speed: float) -> MeasuredPoint:
         has_phase = np.zeros_like(has_phase)
     else:
         peak = peak * np.exp(-1j * number * baseline.tacho_angle_rad)
-    band, rest = _rest(baseline, name, speed)
+    band, unmodelled = _rest(baseline, name, speed)
     hertz = number * shaft_frequency_hz(speed)
     return MeasuredPoint(
-        band, rest, number, hertz, np.where(has_phase, peak, np.abs(peak)), has_phase
+        band, unmodelled, number, hertz, np.where(has_phase, peak, np.abs(peak)), has_phase
     )
 
 
@@ -121,23 +121,23 @@ def _rest(baseline: Baseline, name: str, speed: float) -> tuple[IndexArray, Arra
     )
     band = numbers.astype(np.intp)
     squares = []
-    for one in spectra:
-        square = REFERENCE_PRESSURE_PA**2 * power_of_level(np.array(one.level_db))
-        if orders and not one.without_orders:
-            peak, _ = _peaks(orders, one.speed_rpm)
-            hertz = np.array(orders[0].order) * shaft_frequency_hz(one.speed_rpm)
+    for spectrum in spectra:
+        square = REFERENCE_PRESSURE_PA**2 * power_of_level(np.array(spectrum.level_db))
+        if orders and not spectrum.without_orders:
+            peak, _ = _peaks(orders, spectrum.speed_rpm)
+            hertz = np.array(orders[0].order) * shaft_frequency_hz(spectrum.speed_rpm)
             square = np.maximum(square - (0.5 * np.abs(peak) ** 2) @ holds(hertz)[:, band], 0.0)
         squares.append(square)
-    at = _between([one.speed_rpm for one in spectra], speed)
-    return band, _straight_levels(squares[at.first], squares[at.second], at.share)
+    between = _between([spectrum.speed_rpm for spectrum in spectra], speed)
+    return band, _straight_levels(squares[between.first], squares[between.second], between.share)
 
 
 def _straight_levels(first: Array, second: Array, share: float) -> Array:
     """Mean squares on a straight line of their level; of their energy where one is nothing."""
-    both = (first > 0.0) & (second > 0.0)
-    ratio = np.where(both, second, 1.0) / np.where(both, first, 1.0)
+    is_heard_twice = (first > 0.0) & (second > 0.0)
+    ratio = np.where(is_heard_twice, second, 1.0) / np.where(is_heard_twice, first, 1.0)
     by_energy = (1.0 - share) * first + share * second
-    return np.asarray(np.where(both, first * ratio**share, by_energy))
+    return np.asarray(np.where(is_heard_twice, first * ratio**share, by_energy))
 
 
 def _peaks(orders: Sequence[BaselineOrders], speed: float) -> tuple[ComplexArray, Array]:
@@ -147,9 +147,9 @@ def _peaks(orders: Sequence[BaselineOrders], speed: float) -> tuple[ComplexArray
     """
     if not orders:
         return np.zeros(0, dtype=complex), np.zeros(0, dtype=bool)
-    first, second, share = _between([one.speed_rpm for one in orders], speed)
-    level = [np.array(orders[one].level_db) for one in (first, second)]
-    phase = [np.array(orders[one].phase_rad, dtype=float) for one in (first, second)]
+    first, second, share = _between([row.speed_rpm for row in orders], speed)
+    level = [np.array(orders[row].level_db) for row in (first, second)]
+    phase = [np.array(orders[row].phase_rad, dtype=float) for row in (first, second)]
     turn = np.angle(np.exp(1j * (phase[1] - phase[0]))) if share > 0.0 else 0.0
     angle = phase[0] + share * turn
     between = level[0] + share * (level[1] - level[0])
@@ -161,8 +161,8 @@ def _between(speeds: Sequence[float], speed: float) -> _Between:
     """Neighbours of a speed among rising ones; the nearest alone outside them or at one of them."""
     above = int(np.searchsorted(speeds, speed))
     if above == 0 or above == len(speeds):
-        at = min(above, len(speeds) - 1)
-        return _Between(at, at, 0.0)
+        nearest = min(above, len(speeds) - 1)
+        return _Between(nearest, nearest, 0.0)
     if speeds[above] == speed:
         return _Between(above, above, 0.0)
     low, high = speeds[above - 1], speeds[above]

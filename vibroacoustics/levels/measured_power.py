@@ -24,7 +24,7 @@ SURVEY_MARGIN_DB: Final = 3.0
 SURVEY_ENVIRONMENT_DB: Final = 7.0
 """Largest K2A of ISO 3746."""
 SABINE_S_PER_M: Final = 0.16
-"""Of the absorption area from volume and reverberation time (Annex A)."""
+"""Factor of the absorption area from volume and reverberation time (Annex A)."""
 
 
 def reverberant_absorption_area_m2(volume_m3: float, reverberation_time_s: Array) -> Array:
@@ -32,7 +32,7 @@ def reverberant_absorption_area_m2(volume_m3: float, reverberation_time_s: Array
 
     Parameters
     ----------
-    volume_m3 : of the test room
+    volume_m3 : volume of the test room
     reverberation_time_s : by band, of any shape
     """
     return np.asarray(SABINE_S_PER_M * volume_m3 / reverberation_time_s)
@@ -65,7 +65,7 @@ class MeasuredPower:
 
     @property
     def margin_dba(self) -> float:
-        """Of the A-weighted sums; not a number where no background was recorded."""
+        """Margin of the A-weighted sums; not a number where no background was recorded."""
         if np.isnan(self.margin_db).all():
             return float("nan")
         return float(a_weighted_sum(self.mean_db) - a_weighted_sum(self.mean_db - self.margin_db))
@@ -84,7 +84,7 @@ class MeasuredPower:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """What a grade of ISO 3744 or ISO 3746 needs and was not measured."""
+        """Quantities that a grade of ISO 3744 or ISO 3746 needs and that were not measured."""
         background = ("background",) if np.isnan(self.margin_dba) else ()
         return background if self.has_environment else (*background, "K2")
 
@@ -117,9 +117,10 @@ def measured_power(
     Parameters
     ----------
     levels_db : shape (position, band), re 20 µPa; not a number in bands that were not measured
-    background_db : the same without the machine; none where it was not recorded
+    background_db : level of the background without the machine; none where it was not recorded
     surface_m2 : area of the measurement surface
-    absorption_area_m2 : of the room, shape (band,); none for a free field over the floor
+    absorption_area_m2 : absorption area of the room, shape (band,); none for a free field over the
+        floor
     """
     mean = energy_mean(levels_db)
     margin, background = np.full_like(mean, np.nan), np.zeros_like(mean)

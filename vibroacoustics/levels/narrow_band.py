@@ -13,7 +13,7 @@ from .bands import Band
 SPEED_ERROR: Final = 0.002
 """Share by which the speed may be off: so much wider a line is looked for."""
 LEAST_FLOOR_LINES: Final = 2
-"""On either side of a line, from which what lies under it is taken."""
+"""Lines on either side of a line, from which the noise under it is estimated."""
 MOST_FLOOR_LINES: Final = 4
 
 
@@ -23,7 +23,8 @@ class TakenApart:
 
     Attributes
     ----------
-    order : shape (order,); not a number where lines are too close to tell it from its neighbours
+    order : shape (order,); not a number where lines are too close to separate it from its
+    neighbours
     band : without these orders, shape (band,); not a number where the spectrum does not cover one
     """
 
@@ -49,16 +50,16 @@ def taken_apart(
     Parameters
     ----------
     frequency_hz : even and rising, shape (line,)
-    mean_square : of a tone on the line, shape (line,)
+    mean_square : mean square of a tone on the line, shape (line,)
     lobe_lines : half the window's main lobe
-    noise_bandwidth_lines : of the window
+    noise_bandwidth_lines : noise bandwidth of the window, lines
     tone_hz : rising, shape (order,)
-    bands : of the result
+    bands : bands of the result
     """
     step = float(frequency_hz[1] - frequency_hz[0])
-    rest = np.array(mean_square, dtype=float)
+    noise = np.array(mean_square, dtype=float)
     half = [_half_width(tone, tone_hz, lobe_lines, step) for tone in tone_hz.tolist()]
-    tonal = np.zeros(rest.size, dtype=bool)
+    tonal = np.zeros(noise.size, dtype=bool)
     for tone, width in zip(tone_hz.tolist(), half, strict=True):
         tonal |= np.abs(frequency_hz - tone) <= width * step
     power = np.full(tone_hz.size, np.nan)
@@ -68,10 +69,10 @@ def taken_apart(
         if width == 0.0 or floor is None:
             continue
         power[number] = max(float(np.sum(mean_square[lines] - floor)), 0.0)
-        rest[lines] = floor
+        noise[lines] = floor
     share = _shares(frequency_hz, step, bands)
     return TakenApart(
-        power / noise_bandwidth_lines, np.asarray(share @ rest) / noise_bandwidth_lines
+        power / noise_bandwidth_lines, np.asarray(share @ noise) / noise_bandwidth_lines
     )
 
 

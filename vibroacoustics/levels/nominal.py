@@ -19,7 +19,7 @@ from .continuous import noise_levels
 from .labelled import level_variables
 from .lines import line_pressure
 from .measured_points import BASELINE_BANDS, MeasuredPoint, PointKey, evidence
-from .remainder import in_spectrum, remainder, remaining
+from .remainder import in_spectrum, remaining, unmodelled_square
 from .spectrum_data import spectrum_data
 
 Sound = dict[CaseKey, SourceSound]
@@ -32,8 +32,8 @@ class NominalSound:
     Attributes
     ----------
     study : with its options and published level
-    axes : of the levels
-    points : of a measured baseline
+    axes : axes of the levels
+    points : points of a measured baseline
     sound : mean squares by source of every case, that of the published level among them
     """
 
@@ -77,7 +77,7 @@ class NominalSound:
         """
         study, axes, points, sound = self.study, self.axes, self.points, self.sound
         replaced = any(receiver == study.catalogue_receiver for receiver, _ in points)
-        unmodelled = remainder(study, axes, sound, replaced or bool(study.ranges))
+        unmodelled = unmodelled_square(study, axes, sound, replaced or bool(study.ranges))
         noise_pa2 = in_spectrum(study.machine, unmodelled)
         residual = remaining(study, axes, study.machine, noise_pa2)
         lines, noise = line_pressure(axes, received), noise_levels(axes, received, residual)
@@ -93,7 +93,7 @@ class NominalSound:
 
         Parameters
         ----------
-        levels : of `levels`
+        levels : result of `levels`
         forces : amplitudes by order, with the frequencies of the orders
         """
         return change_variables(self.study.scoring.measurable, levels, forces)

@@ -63,8 +63,8 @@ def points_around(position_m: Sequence[float]) -> dict[str, Array]:
 
     Parameters
     ----------
-    position_m : of a microphone about the centre of mass, x, y, z; its distance is that of the
-        points, its azimuth that of the vertical plane
+    position_m : position of a microphone about the centre of mass, x, y, z; its distance is that of
+        the points, its azimuth that of the vertical plane
     """
     radius, azimuth = np.linalg.norm(position_m), np.arctan2(position_m[1], position_m[0])
     along, across = radius * np.cos(_DIRECTIONS), radius * np.sin(_DIRECTIONS)
@@ -86,8 +86,8 @@ def polar_variables(
     ----------
     options : shown ones
     bands : third octaves
-    position_m : of the microphone, as for `points_around`
-    names : of the points that have sound
+    position_m : position of the microphone, as for `points_around`
+    names : names of the points that have sound
     sound : at these, of each option
     """
     levels = level(np.array([band_energy(case, bands) for case in sound]))

@@ -14,7 +14,7 @@ class Published(NamedTuple):
     ----------
     level_dba : zero without a published level, to which levels then are relative
     data : empty without a published level
-    priors : of the unmodelled noise, that of all intervals first
+    priors : priors of the unmodelled noise; the first one is that of all intervals
     spectrum : measured third octaves; None without any
     """
 

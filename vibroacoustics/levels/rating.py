@@ -36,8 +36,8 @@ def rating_level_db(level_db: Array, duration_s: Array, rating_time_s: float) ->
 
     Parameters
     ----------
-    level_db : of each part, with its adjustments, shape (part, ...), dB
-    duration_s : of each part, shape (part,), s
+    level_db : level of each part, with its adjustments, shape (part, ...), dB
+    duration_s : duration of each part, shape (part,), s
     rating_time_s : T_r, s
 
     Returns
@@ -124,7 +124,7 @@ def sampled_rating(study: Study, axes: LevelAxes, levels: Levels) -> Levels:
     ----------
     study : windows and rules
     axes : microphones
-    levels : of the sample, with the audibility of its tones
+    levels : levels of the sample, with the audibility of its tones
     """
     if study.rating is None:
         return {}

@@ -31,10 +31,10 @@ class PressureLevels:
     Parameters
     ----------
     channel : names of the channels, with the coordinate `channel_unit`
-    samples : of the recording, a channel
+    samples : number of samples of the recording, a channel
     rate_hz : sample rate
     offsets : means of all samples, by position of the channels of sound pressure
-    method : of the third octaves, see `band_levels`
+    method : method of the third octaves, see `band_levels`
     """
 
     def __init__(
@@ -69,7 +69,8 @@ class PressureLevels:
             sums.add(block[row])
 
     def result(self) -> xr.Dataset:
-        """Of all that has been added; attribute `levels_left_out_s`: see `labelled_levels`."""
+        """Return the levels of all samples added; attribute `levels_left_out_s`: see
+        `labelled_levels`."""
         sums = {row: meter.mean_square() for row, meter in self._sums.items()}
         return labelled_levels(self._channel, self._meters, self._bands, self._method, sums)
 
@@ -82,7 +83,7 @@ class PressureLevels:
         Parameters
         ----------
         middle_s : centre of each block, shape (block,), s
-        duration_s : of the blocks, shape (block,), s
+        duration_s : duration of the blocks, shape (block,), s
         """
         if not self._meters:
             return xr.Dataset()
@@ -120,7 +121,7 @@ def labelled_levels(
 ) -> xr.Dataset:
     """Levels from the meters of the channels of sound pressure; empty where there are none.
 
-    Attribute `levels_left_out_s`: what A- and C-weighted levels leave out at either end.
+    Attribute `levels_left_out_s`: what A- and C-weighted levels omit at either end.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What the sources leave unexplained of the machine's published level, by speed and option."""
+"""Unmodelled noise: the machine's published level less the sources, by speed and option."""
 
 from collections.abc import Mapping, Sequence
 from typing import Final
@@ -15,14 +15,14 @@ from ..study.study import Study
 from .axes import LevelAxes
 from .by_source import GAIN_BANDS, SourceSound, gain_band_number
 from .insertion_loss import remaining_factor
-from .measured_points import REMAINDER_BANDS
+from .measured_points import UNMODELLED_BANDS
 from .published import published_of
 
-REMAINDER_MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in REMAINDER_BANDS])
+UNMODELLED_MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in UNMODELLED_BANDS])
 """Middle frequencies of the third octaves of unmodelled noise."""
 
 
-def remainder(
+def unmodelled_square(
     study: Study, axes: LevelAxes, sound: Mapping[CaseKey, SourceSound], may_be_none: bool
 ) -> float:
     """Mean square that the model leaves of the published level at its microphone and speed, Pa².
@@ -33,7 +33,8 @@ def remainder(
     ----------
     study : with the published level
     axes : with its receiver
-    sound : of the case without a balancer at its speed and operating point, and of other cases
+    sound : sound of the case without a balancer at its speed and operating point, and of other
+        cases
     may_be_none : whether none is left where the model alone is louder, as in a sample
 
     Raises
@@ -46,20 +47,20 @@ def remainder(
         return 0.0
     receiver = list(axes.receivers).index(study.catalogue_receiver)
     alone = sound[study.catalogue_case].total[0, receiver]
-    rest = REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba) - alone
-    if rest <= 0.0 and not may_be_none:
+    unmodelled = REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba) - alone
+    if unmodelled <= 0.0 and not may_be_none:
         level = mean_square_level(alone, REFERENCE_PRESSURE_PA)
         raise ParameterError(
             f"machine: overall_noise.level_dba = {published.level_dba:g} dB(A): the model alone "
             f"gives {level:.1f} dB(A) at {study.catalogue_receiver}"
         )
-    return float(max(rest, 0.0))
+    return float(max(unmodelled, 0.0))
 
 
 def remaining(study: Study, axes: LevelAxes, machine: Machine, noise: Array) -> Array:
     """Compute unmodelled noise, A-weighted, shape (speed, option, receiver, band), Pa².
 
-    The bands are `REMAINDER_BANDS`. It grows with speed, each band passes the insertion loss of an
+    The bands are `UNMODELLED_BANDS`. It grows with speed, each band passes the insertion loss of an
     option, and it spreads from the machine to the microphones.
 
     Parameters
@@ -70,13 +71,13 @@ def remaining(study: Study, axes: LevelAxes, machine: Machine, noise: Array) -> 
     noise : unmodelled noise at the published speed and microphone without an option, (band,), Pa²
     """
     growth = machine.remainder.speed_factor(np.array(axes.speeds), study.catalogue_speed_rpm)
-    factor = remaining_factor(study.options, REMAINDER_MIDDLE_HZ)
+    factor = remaining_factor(study.options, UNMODELLED_MIDDLE_HZ)
     return axes.spread(growth[:, None, None] * factor * noise)
 
 
 def in_spectrum(machine: Machine, square: float) -> Array:
-    """Return unmodelled noise of a mean square in `REMAINDER_BANDS`, shape (band,), Pa²."""
-    return np.asarray(square * machine.remainder.spectrum(REMAINDER_MIDDLE_HZ))
+    """Return unmodelled noise of a mean square in `UNMODELLED_BANDS`, shape (band,), Pa²."""
+    return np.asarray(square * machine.remainder.spectrum(UNMODELLED_MIDDLE_HZ))
 
 
 def unmodelled_bands(study: Study, machine: Machine) -> Array:
@@ -90,17 +91,17 @@ def in_gain_bands(remaining: Array) -> Array:
 
     Parameters
     ----------
-    remaining : in `REMAINDER_BANDS`, shape (..., band), Pa²
+    remaining : in `UNMODELLED_BANDS`, shape (..., band), Pa²
     """
     bands = np.zeros((*remaining.shape[:-1], len(GAIN_BANDS)))
-    bands[..., gain_band_number(REMAINDER_MIDDLE_HZ)] = remaining
+    bands[..., gain_band_number(UNMODELLED_MIDDLE_HZ)] = remaining
     return bands
 
 
 def over_published(
     study: Study, axes: LevelAxes, sounds: Sequence[Mapping[CaseKey, SourceSound]]
 ) -> Array:
-    """What samples model over the published level, (sample,), dB; not a number without solution.
+    """Return modelled minus published level, (sample,), dB; not a number without solution.
 
     Over 0 dB(A) where none is published.
     """

@@ -1,4 +1,4 @@
-"""Levels at the listeners in a room, labelled: by air, by the feet, both ways, and their limits."""
+"""Levels at the listeners in a room, labelled: airborne, structure-borne, both, and limits."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -23,21 +23,21 @@ from .structure_borne import weight_of
 
 @dataclass(frozen=True)
 class AirInRoom:
-    """Mean squares by air at the listeners with the values as given.
+    """Mean squares of airborne sound at the listeners with nominal values.
 
     Attributes
     ----------
-    modelled : of all sources, A-weighted, shape (speed, option, listener), Pa²
-    rest : of what no source explains, A-weighted, the same shape, Pa²
-    alone : of each source, A-weighted, shape (speed, option, listener, source), Pa²
-    band : of all of it, shape (speed, option, listener, band), Pa²
-    power_band : of the machine, shape (speed, option, band), W
-    noise_band : of what is no line, shape (speed, option, listener, band), Pa²
+    modelled : mean square of all sources, A-weighted, shape (speed, option, listener), Pa²
+    unmodelled : mean square of unmodelled noise, A-weighted, the same shape, Pa²
+    alone : mean square of each source, A-weighted, shape (speed, option, listener, source), Pa²
+    band : mean square of all of it, shape (speed, option, listener, band), Pa²
+    power_band : power of the machine, shape (speed, option, band), W
+    noise_band : mean square of all that is no line, shape (speed, option, listener, band), Pa²
     coords : along these axes, by name
     """
 
     modelled: Array
-    rest: Array
+    unmodelled: Array
     alone: Array
     band: Array
     power_band: Array
@@ -59,13 +59,13 @@ class AirInRoom:
         ----------
         nominal : sound at the microphones
         listeners : names
-        sound : of every case
+        sound : sound of every case
         results : levels at the microphones
         gains : mean square per power, shape (listener, band), Pa²/W
         """
         study, axes, receiver = nominal.study, nominal.axes, nominal.study.catalogue_receiver
-        rest = rest_in_bands(results, receiver)
-        rest_power = power_of_hemisphere(rest, study.receivers[receiver].distance_m)
+        unmodelled = rest_in_bands(results, receiver)
+        rest_power = power_of_hemisphere(unmodelled, study.receivers[receiver].distance_m)
         rest_band = rest_power[:, :, None, :] * gains
         coords = {
             "speed": list(axes.speeds),
@@ -85,8 +85,8 @@ class AirInRoom:
 
     @property
     def total(self) -> Array:
-        """Of the whole machine, A-weighted, Pa²."""
-        return self.modelled + self.rest
+        """Mean square of the machine, A-weighted, Pa²."""
+        return self.modelled + self.unmodelled
 
 
 def room_variables(
@@ -96,12 +96,12 @@ def room_variables(
     statistics: xr.Dataset,
     plate_per_power: Callable[[Array], Array],
 ) -> xr.Dataset:
-    """Label the levels at the listeners by air and, where there is one, by the plate.
+    """Label airborne levels at the listeners and, where there is a plate, structure-borne ones.
 
     Parameters
     ----------
-    air : mean squares by air
-    sound : of every case
+    air : mean squares of airborne sound
+    sound : sound of every case
     results : nominal levels at the microphones, those of samples, and of the plate
     statistics : `room_level` of the samples; empty without samples
     plate_per_power : see `plate_variables`
@@ -113,7 +113,7 @@ def room_variables(
 
 
 def air_variables(air: AirInRoom) -> xr.Dataset:
-    """Label the levels by air with the nominal values."""
+    """Label the airborne levels with nominal values."""
     values = {
         "room_level": level(air.total),
         "room_source_level": level(air.alone),
@@ -121,18 +121,20 @@ def air_variables(air: AirInRoom) -> xr.Dataset:
         "room_noise_band_level": level(air.noise_band),
         "room_sound_power_level": power_level(air.power_band),
     }
-    return stamped(values, {**air.coords, "noise_band": [one.nominal_hz for one in BASELINE_BANDS]})
+    return stamped(
+        values, {**air.coords, "noise_band": [band.nominal_hz for band in BASELINE_BANDS]}
+    )
 
 
 def line_variables(sound: Mapping[CaseKey, RoomSound], results: xr.Dataset) -> xr.Dataset:
-    """Pressure of all sources together at the lines, by air with the values as given."""
+    """Airborne pressure of all sources at the lines, with nominal values."""
     coords = {**_coordinates(results["room_level"]), "line": results["line"].values}
     column = {str(name): number for number, name in enumerate(coords["line"])}
     pressure = np.zeros(tuple(map(len, coords.values())), dtype=complex)
     for s, speed in enumerate(coords["speed"]):
         for o, option in enumerate(coords["option"]):
-            one = sound[float(speed), str(option)]
-            pressure[s, o][:, [column[name] for name in one.line]] = one.pressure
+            of_case = sound[float(speed), str(option)]
+            pressure[s, o][:, [column[name] for name in of_case.line]] = of_case.pressure
     return stamped({"room_pressure_line": pressure}, coords)
 
 
@@ -143,7 +145,7 @@ def power_level(power_band: Array) -> Array:
 
 
 def plate_variables(results: xr.Dataset, plate_per_power: Callable[[Array], Array]) -> xr.Dataset:
-    """Label the levels by the feet and the plate at the listeners; empty without a plate.
+    """Label the structure-borne levels at the listeners; empty without a plate.
 
     Parameters
     ----------
@@ -163,8 +165,8 @@ def plate_variables(results: xr.Dataset, plate_per_power: Callable[[Array], Arra
     values = {"room_plate_level": by_plate, "room_plate_line_level": level(of_lines)}
     for end in ("low", "high"):
         of_end = results[f"structure_borne_level_{end}"].isel(receiver=0) - span
-        over = of_end.transpose("speed", "option").values[..., None]
-        values[f"room_plate_level_{end}"] = by_plate + over
+        difference = of_end.transpose("speed", "option").values[..., None]
+        values[f"room_plate_level_{end}"] = by_plate + difference
     by_air = results["room_level"]
     values["room_level_both_ways"] = energy_sum(np.stack([by_air.values, by_plate]), axis=0)
     return stamped(values, {**_coordinates(by_air), "line": results["line"].values})

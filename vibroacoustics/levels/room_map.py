@@ -37,7 +37,7 @@ def map_level(study: Study, gain: xr.DataArray, power_w: Array, height_m: float)
     study : with its speeds
     gain : level over the power level, (room_map_y, room_map_x, seam_band), dB
     power_w : unweighted, in `BASELINE_BANDS`, shape (speed, option, band)
-    height_m : of the plane
+    height_m : height of the plane
     """
     speeds = study.operation.speed_rpm
     nearest = min(speeds, key=lambda speed: abs(speed - study.catalogue_speed_rpm))

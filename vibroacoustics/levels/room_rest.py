@@ -1,4 +1,4 @@
-"""What of the machine's sound no source explains, as a power by third octave for a room."""
+"""Unmodelled noise of the machine as a power by third octave for a room."""
 
 import numpy as np
 import xarray as xr
@@ -15,26 +15,26 @@ _A: Array = weighting_power("A", MIDDLE_HZ)
 def rest_in_bands(results: xr.Dataset, receiver: str) -> Array:
     """Mean squares beside the model at a microphone, shape (speed, option, band), Pa².
 
-    In `BASELINE_BANDS`. Their spectrum is that of the remainder and, where third octaves were
+    In `BASELINE_BANDS`. Their spectrum is that of unmodelled noise and, where third octaves were
     measured, what these are over the model; their A-weighted sum is what the level of the machine
     is over that of the model.
 
     Parameters
     ----------
-    results : of the levels
+    results : variables of the levels
     receiver : at which the machine's noise is published
     """
     unmodelled = results["unmodelled_band_level"].sel(receiver=receiver)
-    rest = _square(unmodelled.transpose("speed", "option", "noise_band"))
+    unmodelled_pa2 = _square(unmodelled.transpose("speed", "option", "noise_band"))
     if "baseline_band_level" in results:
-        there = results["baseline_band_level"].sel(receiver=receiver)
-        measured = _square(there.transpose("speed", "option", "baseline_band"))
-        over = np.maximum(measured - _modelled(results, receiver), 0.0)
-        rest = np.where(np.isfinite(measured), over, rest)
+        levels = results["baseline_band_level"].sel(receiver=receiver)
+        measured = _square(levels.transpose("speed", "option", "baseline_band"))
+        excess = np.maximum(measured - _modelled(results, receiver), 0.0)
+        unmodelled_pa2 = np.where(np.isfinite(measured), excess, unmodelled_pa2)
     wanted = beside_model(results, receiver)
-    loud = rest @ _A
+    loud = unmodelled_pa2 @ _A
     factor = np.where(loud > 0.0, wanted / np.where(loud > 0.0, loud, 1.0), 0.0)
-    return np.asarray(rest * factor[..., None])
+    return np.asarray(unmodelled_pa2 * factor[..., None])
 
 
 def beside_model(results: xr.Dataset, receiver: str) -> Array:
@@ -52,8 +52,8 @@ def _modelled(results: xr.Dataset, receiver: str) -> Array:
     pressure = results["pressure_line"].sel(receiver=receiver).sum("sound_source")
     square = 0.5 * np.abs(pressure.transpose("speed", "option", "line").values) ** 2
     frequency = results["tone_frequency"].transpose("speed", "line").values
-    there = results["noise_band_level"].sel(receiver=receiver)
-    bands = _square(there.transpose("speed", "option", "noise_band"))
+    levels = results["noise_band_level"].sel(receiver=receiver)
+    bands = _square(levels.transpose("speed", "option", "noise_band"))
     for number, row in enumerate(np.nan_to_num(frequency)):
         bands[number] += square[number] @ membership(row, BASELINE_BANDS)
     return bands

@@ -1,4 +1,4 @@
-"""Both methods of a room side by side around the frequencies where one follows the other."""
+"""Comparison of both methods of a room around the crossover frequencies."""
 
 from collections.abc import Sequence
 
@@ -19,7 +19,7 @@ def shown_bands(between_hz: tuple[float, float]) -> IndexArray:
     return np.flatnonzero((low / ROUNDED < MIDDLE_HZ) & (high * ROUNDED > MIDDLE_HZ))
 
 
-def seam_variables(
+def crossover_variables(
     listeners: Sequence[str], shown: IndexArray, waves: Array, diffuse: Array, gains_db: Array
 ) -> xr.Dataset:
     """Levels at the listeners over the sound power level by both methods, and their difference.
@@ -27,11 +27,11 @@ def seam_variables(
     Parameters
     ----------
     listeners : their names
-    shown : numbers of the bands
+    shown : numbers of the bands, shape (shown band,)
     waves : mean square per power, shape (listener, shown band), Pa²/W
-    diffuse : the same by direct sound and diffuse field of the power in the open
-    gains_db : which the diffuse field takes over, of the bands and of all above; no part of the
-        curves, whose mean difference over the listeners they are
+    diffuse : gain by direct sound, same shape, and diffuse field, relative to the power in the open
+    gains_db : gain of the diffuse field, shape (shown band + 1,), of the bands and of all above; no
+        part of the curves, whose mean difference over the listeners they are
     """
     bands = [BASELINE_BANDS[number].nominal_hz for number in shown]
     by_waves, by_power = (

@@ -9,7 +9,7 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.decibel import level_of_power
 from ..base.vocabulary import stamped
-from ..machine.remainder import Remainder
+from ..machine.remainder import UnmodelledNoise
 from ..mechanics.received_sound import ReceivedSound
 from .axes import LevelAxes
 from .by_source import sound_by_source
@@ -22,16 +22,16 @@ _QUIETER_DB: Final = 40.0
 
 
 def unmodelled_over_speed(
-    band_level: xr.DataArray, growth: Remainder, speed_rpm: float, speeds_rpm: Sequence[float]
+    band_level: xr.DataArray, growth: UnmodelledNoise, speed_rpm: float, speeds_rpm: Sequence[float]
 ) -> Array:
     """Compute the A-weighted mean square of unmodelled noise, shape (speed, receiver), Pa².
 
     Parameters
     ----------
-    band_level : of the noise at one speed, (receiver, noise_band), dB
-    growth : of the noise with speed
-    speed_rpm : of that level
-    speeds_rpm : of the run-up
+    band_level : level of the noise at one speed, (receiver, noise_band), dB
+    growth : growth of the noise with speed
+    speed_rpm : speed of `band_level`
+    speeds_rpm : speeds of the run-up
     """
     factor = growth.speed_factor(np.array(speeds_rpm), speed_rpm)
     square = unmodelled_energy(band_level.transpose("receiver", "noise_band")).sum(axis=1)
@@ -45,7 +45,7 @@ def run_up_variables(
 
     Parameters
     ----------
-    axes : of sources and receivers
+    axes : axes of sources and receivers
     sound : without an option at the receivers, by speed
     unmodelled_pa2 : mean square of unmodelled noise, shape (speed, receiver)
     """

@@ -34,7 +34,7 @@ class Deviating(NamedTuple):
     gain : factors on the power of sources, of every case, shape (discrepancy, source, receiver,
         gain band)
     sounds : mean squares of every case, by discrepancy
-    machine : of the sample
+    machine : machine of the sample
     unmodelled : noise at the published point, A-weighted, shape (discrepancy, band), Pa²
     """
 
@@ -51,9 +51,11 @@ class CaseLines(NamedTuple):
     Attributes
     ----------
     order : level of the shaft orders, shape (discrepancy, receiver, order), dB
-    band : of lines and noise in `BASELINE_BANDS`, shape (discrepancy, receiver, band), Pa²
-    noise : of the noise alone, the same shape, Pa²
-    weighted : of lines and noise by `WEIGHTINGS`, shape (discrepancy, receiver, weighting), Pa²
+    band : mean square of lines and noise in `BASELINE_BANDS`, shape (discrepancy, receiver, band),
+        Pa²
+    noise : mean square of the noise alone, the same shape, Pa²
+    weighted : mean square of lines and noise by `WEIGHTINGS`, shape (discrepancy, receiver,
+        weighting), Pa²
     """
 
     order: Array
@@ -67,7 +69,7 @@ def with_gain(received: ReceivedSound, gain: Array) -> ComplexArray:
 
     Parameters
     ----------
-    received : of a case
+    received : received sound of a case
     gain : factors on the power, shape (discrepancy, source, receiver, gain band)
     """
     root = np.sqrt(gain)[..., gain_band_number(received.lines.frequency_hz)]
@@ -79,7 +81,7 @@ def with_discrepancy(received: ReceivedSound, gain: Array) -> ReceivedSound:
 
     Parameters
     ----------
-    received : of a case
+    received : received sound of a case
     gain : factors on the power, shape (source, receiver, gain band)
     """
     noise = tuple(
@@ -125,7 +127,8 @@ def line_squares(axes: LevelAxes, sample: Deviating, names: Sequence[str]) -> tu
     Returns
     -------
     frequency : not a number where there is no line, shape (speed, line), Hz
-    square : of all sources together, shape (discrepancy, speed, option, receiver, line), Pa²
+    square : mean square of all sources together, shape (discrepancy, speed, option, receiver,
+        line), Pa²
     """
     column = {name: number for number, name in enumerate(names)}
     pairs, receivers = len(sample.unmodelled), len(axes.receivers)
@@ -149,7 +152,7 @@ def sample_levels(study: Study, axes: LevelAxes, order_hz: Array, sample: Deviat
     Parameters
     ----------
     study : options and published level
-    axes : of the levels
+    axes : axes of the levels
     order_hz : frequencies of the orders, shape (speed, order), Hz
     sample : sound with its discrepancies
 

@@ -62,13 +62,13 @@ def recorded_levels(
 ) -> RecordedLevels:
     """Equivalent level and greatest Fast and Slow levels of a recording.
 
-    With A and C the first and last 0.1 s are left out, at most a quarter of the recording at either
+    With A and C the first and last 0.1 s are omitted, at most a quarter of the recording at either
     end: the weighting runs in there, and what is cut off at the ends would click.
 
     Parameters
     ----------
     signal : shape (..., time), in the reference's unit
-    sample_rate_hz : of the signal
+    sample_rate_hz : sample rate of the signal
     reference : see level_reference
     weighting : A, C or Z
 
@@ -96,7 +96,7 @@ def band_levels(
     Parameters
     ----------
     signal : shape (..., time), in the reference's unit
-    sample_rate_hz : of the signal
+    sample_rate_hz : sample rate of the signal
     bands : below half the sample rate
     reference : see level_reference
     weighting : A, C or Z
@@ -128,7 +128,7 @@ def in_bands(
 
     Parameters
     ----------
-    meters : of one plan, to which all samples have been added
+    meters : meters of one plan, to which all samples have been added
     bands : below half the sample rate
     weighting, method : see band_levels
 

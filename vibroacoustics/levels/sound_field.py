@@ -66,7 +66,7 @@ def sound_power_variables(
     pressure : at the positions of the measurement surface, with the dimensions speed, option,
         order and receiver, complex peaks, Pa
     order_frequency : (speed, order), Hz
-    settings : of the arrangement
+    settings : settings of the arrangement
     surface : `surface_transfer_vector`, whose attributes hold the reference box
     """
     ordered = pressure.transpose("speed", "option", "order", "receiver")
@@ -95,12 +95,12 @@ def line_difference(pressure: xr.DataArray, closed_form: xr.DataArray) -> xr.Dat
 
     Parameters
     ----------
-    pressure, closed_form : of the first order, with the dimensions speed, option and receiver,
-        complex peaks, Pa
+    pressure, closed_form : pressures of the first order, with the dimensions speed, option and
+        receiver, complex peaks, Pa
     """
     dims = VARIABLES["line_difference"].dims
     computed, exact = (
-        sound_pressure_level(one.transpose(*dims).values) for one in (pressure, closed_form)
+        sound_pressure_level(field.transpose(*dims).values) for field in (pressure, closed_form)
     )
     coords = {name: pressure[name].values for name in dims}
     return stamped({"line_difference": computed - exact}, coords)

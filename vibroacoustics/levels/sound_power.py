@@ -17,7 +17,7 @@ from ..study.sound_power import HEMISPHERES, MINIMUM_BACKGROUND_MARGIN_DB, Sound
 REFERENCE_SURFACE_M2: Final = 1.0
 """S0 of equation (18)."""
 NEGLIGIBLE_BACKGROUND_MARGIN_DB: Final = 15.0
-"""Above it K1 is 0 (8.2.3)."""
+"""Margin above which K1 is 0 (8.2.3)."""
 LARGEST_ENVIRONMENT_CORRECTION_DB: Final = 4.0
 """A test environment with a larger K2A does not qualify (4.3.2)."""
 
@@ -84,7 +84,7 @@ def sound_power_level(
 
 
 def stand_corrections_db(settings: SoundPowerSettings, surface_m2: float) -> tuple[float, float]:
-    """K1 and K2 of the test stand that a study is compared with, dB; 0 where it tells nothing.
+    """K1 and K2 of the test stand that a study is compared with, dB; 0 where it states nothing.
 
     The microphones there read K1 + K2 more than the simulation's, which has neither.
     """

@@ -15,7 +15,7 @@ from ..study.structure_borne import StructureBorne
 from .by_source import weighting_power
 
 _CHANCE: Final = 1.6448536269514722
-"""Of a standard normal variable, passed once in 20."""
+"""Quantile of a standard normal variable, passed once in 20."""
 
 
 def mean_square_per_power(distance_m: ArrayLike, absorption_area_m2: float | None) -> Array:
@@ -26,8 +26,8 @@ def mean_square_per_power(distance_m: ArrayLike, absorption_area_m2: float | Non
 
     Parameters
     ----------
-    distance_m : from the middle of the feet, shape (...)
-    absorption_area_m2 : of the room; none for an open half space
+    distance_m : distance from the centre of the feet, shape (...)
+    absorption_area_m2 : absorption area of the room; none for an open half space
     """
     diffuse = 0.0 if absorption_area_m2 is None else 4.0 / absorption_area_m2
     direct = 1.0 / (2.0 * np.pi * np.asarray(distance_m, dtype=float) ** 2)
@@ -37,14 +37,14 @@ def mean_square_per_power(distance_m: ArrayLike, absorption_area_m2: float | Non
 def structure_borne_variables(
     settings: StructureBorne, sound: PlateSound, distance_m: ArrayLike, results: xr.Dataset
 ) -> xr.Dataset:
-    """Label the levels by the feet and the plate, apart from what comes by air.
+    """Label the structure-borne levels, apart from airborne sound.
 
     Parameters
     ----------
     settings : absorption in front of the plate, and deviation of the method
-    sound : of all cases, shapes (speed, option, line)
-    distance_m : of each receiver from the middle of the feet, shape (receiver,)
-    results : levels by air, and the frequencies of the lines
+    sound : sound of all cases, shapes (speed, option, line)
+    distance_m : distance of each receiver from the centre of the feet, shape (receiver,)
+    results : airborne levels, and the frequencies of the lines
     """
     level_total = results["level_total"]
     frequency_hz = results["tone_frequency"].transpose("speed", "line").values
@@ -80,8 +80,8 @@ def spread_of_power(
 
     Parameters
     ----------
-    sound : of all cases
-    frequency_hz : of the lines, shape (speed, line)
+    sound : sound of all cases
+    frequency_hz : frequency of the lines, shape (speed, line)
     deviation_db : standard deviation of the method
 
     Returns
@@ -107,7 +107,7 @@ def level_range(variance: Array, deviation_db: float) -> tuple[Array, Array]:
 
     Parameters
     ----------
-    variance : relative, of the power
+    variance : relative variance of the power, shape (...)
     deviation_db : standard deviation of the level by all else
     """
     in_db = 10.0 / np.log(10.0)
@@ -118,8 +118,8 @@ def level_range(variance: Array, deviation_db: float) -> tuple[Array, Array]:
 
 def weight_of(weighting: str, frequency_hz: Array) -> Array:
     """Factor of a weighting on mean squares; none where there is no line."""
-    there = np.nan_to_num(frequency_hz) > 0.0
-    return weighting_power(weighting, np.where(there, frequency_hz, 1.0)) * there
+    is_line = np.nan_to_num(frequency_hz) > 0.0
+    return weighting_power(weighting, np.where(is_line, frequency_hz, 1.0)) * is_line
 
 
 def _level(mean_square: Array) -> Array:

@@ -22,7 +22,7 @@ def time_weighted_mean_square(
     Parameters
     ----------
     signal : shape (..., time), any unit
-    sample_rate_hz : of the signal
+    sample_rate_hz : sample rate of the signal
     time_constant_s : τ
 
     Returns

@@ -28,45 +28,50 @@ def case_of(numbers: Numbers, lines: Lines, moving: Moving | None, speed: int) -
     case: dict[str, Any] = {
         "frequency": [round(float(hertz), 9) for hertz in lines.frequency_hz],
         "order": [None if np.isnan(order) else float(order) for order in lines.order],
-        "rest": [numbers.put(of_option) for of_option in lines.rest],
+        "rest": [numbers.put(of_option) for of_option in lines.continuous],
         "noise": [numbers.put(of_option, NOISE_BITS) for of_option in lines.noise],
     }
     if moving is None:
         return case | {
-            "modelled": [numbers.put(one) for one in lines.modelled_rest + lines.of_model],
-            "pressure": [numbers.put(one, FEW_BITS) for one in lines.pressure],
+            "modelled": [
+                numbers.put(values) for values in lines.modelled_continuous + lines.of_model
+            ],
+            "pressure": [numbers.put(values, FEW_BITS) for values in lines.pressure],
         }
-    case["modelled"] = [numbers.put(of_option) for of_option in lines.modelled_rest]
+    case["modelled"] = [numbers.put(of_option) for of_option in lines.modelled_continuous]
     return case | _moving_case(numbers, lines, moving, speed)
 
 
 def _moving_case(numbers: Numbers, lines: Lines, moving: Moving, speed: int) -> dict[str, Any]:
     of_run, machines = moving.transmission, moving.machines
-    load = [_by_line(lines, one) for one in of_run.load[speed]]
+    load = [_by_line(lines, component) for component in of_run.load[speed]]
     factor = [machines.amplitude_factor(name, lines.frequency_hz) for name in machines.option]
-    of_loads = np.array([_by_line(lines, one).T for one in of_run.pressure[speed]])
+    of_loads = np.array([_by_line(lines, component).T for component in of_run.pressure[speed]])
     others = beside(lines.modelled, of_loads)
     case: dict[str, Any] = {
         "vector": numbers.put(_by_line(lines, of_run.vector[speed]), FEW_BITS),
-        "load": [numbers.put(one, LOAD_BITS) for one in load],
-        "factor": [numbers.put_unless(one, 1.0) for one in factor],
-        "pressure": [numbers.put_unless(one, 0.0, FEW_BITS) for one in others],
+        "load": [numbers.put(component, LOAD_BITS) for component in load],
+        "factor": [numbers.put_unless(values, 1.0) for values in factor],
+        "pressure": [numbers.put_unless(other, 0.0, FEW_BITS) for other in others],
     }
     if np.any(lines.measured):
         none = list(machines.option).index(REFERENCE_OPTION)
         case["left"] = numbers.put(_left(lines, none), LOAD_BITS)
         case["phase"] = numbers.put(lines.has_phase)
     if moving.unit_loads is not None:
-        weight = [_by_line(lines, one) for one in moving.unit_loads[speed]]
-        case["weight"] = [numbers.put(one, LOAD_BITS) for one in weight]
+        weight = [_by_line(lines, component) for component in moving.unit_loads[speed]]
+        case["weight"] = [numbers.put(component, LOAD_BITS) for component in weight]
     if any(map(is_over_frequency, machines.different)):
-        at_lines = (stiffness_over_frequency(one, lines.frequency_hz) for one in machines.different)
-        case["stiffness"] = [numbers.put(one, LOAD_BITS) for one in at_lines]
+        at_lines = (
+            stiffness_over_frequency(stiffness, lines.frequency_hz)
+            for stiffness in machines.different
+        )
+        case["stiffness"] = [numbers.put(values, LOAD_BITS) for values in at_lines]
     return case
 
 
 def _left(lines: Lines, none: int) -> ComplexArray:
-    """What the model without an option leaves of measured orders, (receiver, line), Pa.
+    """Measured orders less the model without an option, (receiver, line), Pa.
 
     A difference of peaks where the phase is known, else of energies, as `changed_orders` has it.
     """
@@ -76,9 +81,9 @@ def _left(lines: Lines, none: int) -> ComplexArray:
 
 
 def _by_line(lines: Lines, values: ComplexArray) -> ComplexArray:
-    """Of values whose last axis is the order, those of the lines, which come first; else zero."""
+    """Values at the lines, of which the orders come first; zero at other lines."""
     by_order = np.moveaxis(values, -1, 0)
-    known = np.isfinite(lines.order) & (lines.order < len(by_order))
-    chosen = np.where(known, lines.order, 0).astype(int)
+    is_kept = np.isfinite(lines.order) & (lines.order < len(by_order))
+    chosen = np.where(is_kept, lines.order, 0).astype(int)
     shape = (-1, *[1] * (values.ndim - 1))
-    return np.asarray(by_order[chosen] * known.reshape(shape))
+    return np.asarray(by_order[chosen] * is_kept.reshape(shape))

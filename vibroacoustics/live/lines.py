@@ -28,11 +28,12 @@ class Lines:
     frequency_hz : shape (line,)
     order : not a number where it is none, shape (line,)
     pressure : complex peaks, shape (option, receiver, line), Pa
-    modelled : the same without what was measured
-    measured : of the orders of a baseline, (receiver, line), Pa; zero where there is none
+    modelled : complex peaks without what was measured, shape (option, receiver, line), Pa
+    measured : complex peaks of the orders of a baseline, (receiver, line), Pa; zero where there is
+        none
     has_phase : whether its phase is known, of the same shape
-    rest : A-weighted mean square beside these lines, as the total has it, (option, receiver), Pa²
-    modelled_rest : the same of the modelled level
+    continuous : A-weighted mean square of the total beside these lines, (option, receiver), Pa²
+    modelled_continuous : A-weighted mean square of the modelled sound beside them, same shape, Pa²
     noise : mean square of the noise in third octaves, shape (option, receiver, band), Pa²
     """
 
@@ -42,8 +43,8 @@ class Lines:
     modelled: ComplexArray
     measured: ComplexArray
     has_phase: NDArray[np.bool_]
-    rest: Array
-    modelled_rest: Array
+    continuous: Array
+    modelled_continuous: Array
     noise: Array
 
     @property
@@ -57,7 +58,7 @@ def lines_at(results: xr.Dataset, speed: float, bands: Array, always: frozenset[
 
     Parameters
     ----------
-    results : of a run
+    results : results of a run
     speed : one of theirs, rpm
     bands : exact middles of the third octaves, Hz, shape (band,)
     always : orders that are kept, however quiet
@@ -76,22 +77,22 @@ def lines_at(results: xr.Dataset, speed: float, bands: Array, always: frozenset[
         hertz.setdefault(f"order {order:g}", order * shaft_frequency_hz(speed))
     names = sorted(hertz, key=lambda name: hertz[name])
     pressure = np.array([[_pressure(sound, names) for sound in row] for row in sounds])
-    at = results.sel(speed=speed)
-    modelled = _modelled(at, names)
+    at_speed = results.sel(speed=speed)
+    modelled = _modelled(at_speed, names)
     frequency = np.array([hertz[name] for name in names])
     orders = np.array([_order(name) for name in names])
     kept = _loud(pressure, frequency) | np.isin(orders, list(always))
     pressure, modelled = pressure[..., kept], modelled[..., kept]
     frequency, orders = frequency[kept], orders[kept]
-    total = at["level_total"].transpose("option", "receiver").values
-    level = at["level_modelled"].sel(weighting="A").transpose("option", "receiver").values
+    total = at_speed["level_total"].transpose("option", "receiver").values
+    level = at_speed["level_modelled"].sel(weighting="A").transpose("option", "receiver").values
     noise = np.array([[_noise(sound, bands) for sound in row] for row in sounds])
     return Lines(
         frequency,
         orders,
         pressure,
         modelled,
-        *_measured(at, orders),
+        *_measured(at_speed, orders),
         _energy(total) - _squares(pressure, frequency),
         _energy(level) - _squares(modelled, frequency),
         noise,
@@ -99,22 +100,23 @@ def lines_at(results: xr.Dataset, speed: float, bands: Array, always: frozenset[
 
 
 def _pressure(sound: Ingredients, names: list[str]) -> ComplexArray:
-    known = dict(zip(sound.lines.name, sound.lines.pressure_pa, strict=True))
-    return np.array([known.get(name, 0.0) for name in names], dtype=complex)
+    by_name = dict(zip(sound.lines.name, sound.lines.pressure_pa, strict=True))
+    return np.array([by_name.get(name, 0.0) for name in names], dtype=complex)
 
 
-def _modelled(at: xr.Dataset, names: list[str]) -> ComplexArray:
-    """Of all sources together, zero where a line was measured alone, (option, receiver, line)."""
-    pressure = at["pressure_line"].sum("sound_source").transpose("option", "receiver", "line")
+def _modelled(at_speed: xr.Dataset, names: list[str]) -> ComplexArray:
+    """Peaks of all sources together, zero where a line was measured alone, (option, receiver,
+    line)."""
+    pressure = at_speed["pressure_line"].sum("sound_source").transpose("option", "receiver", "line")
     return np.asarray(pressure.reindex(line=names, fill_value=0.0).values)
 
 
-def _measured(at: xr.Dataset, orders: Array) -> tuple[ComplexArray, NDArray[np.bool_]]:
+def _measured(at_speed: xr.Dataset, orders: Array) -> tuple[ComplexArray, NDArray[np.bool_]]:
     """Peaks of a baseline's orders and whether their phase is known, (receiver, line)."""
-    if "baseline_order_pressure" not in at:
-        shape = at.sizes["receiver"], orders.size
+    if "baseline_order_pressure" not in at_speed:
+        shape = at_speed.sizes["receiver"], orders.size
         return np.zeros(shape, dtype=complex), np.zeros(shape, dtype=bool)
-    of_orders = at[["baseline_order_pressure", "baseline_order_phase"]]
+    of_orders = at_speed[["baseline_order_pressure", "baseline_order_phase"]]
     of_lines = of_orders.transpose("receiver", "baseline_order").reindex(baseline_order=orders)
     peak, phase = (of_lines[str(name)].values for name in of_orders)
     return np.where(np.isnan(peak), 0.0, peak), phase == 1.0

@@ -19,7 +19,7 @@ from ..transfer import MachineOnMounts, on_mounts
 
 @dataclass(frozen=True)
 class Machines:
-    """What the options of a run make of its machine.
+    """Machines with the options of a run.
 
     Attributes
     ----------
@@ -36,25 +36,28 @@ class Machines:
         return list(dict.fromkeys(map(on_mounts, self.machine.values())))
 
     def number(self, option: str) -> int:
-        """Of the option's machine among the different ones."""
+        """Number of the option's machine among the different ones."""
         return self.different.index(on_mounts(self.machine[option]))
 
     def amplitude_factor(self, option: str, frequency_hz: Array) -> Array:
-        """What the option's insertion loss leaves of a pressure at each frequency."""
+        """Return the factor of the option's insertion loss on a pressure at each frequency."""
         loss = self.option[option].insertion_loss()
         return np.ones_like(frequency_hz) if loss is None else loss.amplitude_factor(frequency_hz)
 
 
 def machines_of(results: xr.Dataset) -> Machines | None:
-    """From the parameters that a run kept; none of another version or a stranger's."""
-    strangers = json.loads(results.attrs.get("plugins", "{}"))
-    if any(name.startswith("kind of ") for name in strangers):
+    """Read them from the parameters of a run; none of another version or a third party."""
+    third_party = json.loads(results.attrs.get("plugins", "{}"))
+    if any(name.startswith("kind of ") for name in third_party):
         return None  # the report is the same with and without the files of a plug-in
     kept = parameters(results)
     try:
         machine = _read(AnyMachine, kept["machine"])
-        known = {name: _read(AnyOption, kept["options"][name]) for name in options(results)}
-        return Machines(known, {name: one.built_into(machine) for name, one in known.items()})
+        kept_options = {name: _read(AnyOption, kept["options"][name]) for name in options(results)}
+        return Machines(
+            kept_options,
+            {name: option.built_into(machine) for name, option in kept_options.items()},
+        )
     except (ValidationError, ParameterError, KeyError):
         return None
 

@@ -14,8 +14,8 @@ class MountMatrices(NamedTuple):
 
     Attributes
     ----------
-    mass, lateral, vertical, rest, rest_loss, damping : M, L, V, R, S and C, of all bodies, that on
-        the feet first, shape (6 bodies, 6 bodies)
+    mass, lateral, vertical, elastic, elastic_loss, damping : M, L, V, R, S and C of all bodies, the
+        body on the feet first, shape (6 bodies, 6 bodies)
     values : k_l and k_v of one mount, N/m, and its loss factor η
     mechanism : first row of the body with the mechanism
     """
@@ -23,15 +23,15 @@ class MountMatrices(NamedTuple):
     mass: Array
     lateral: Array
     vertical: Array
-    rest: Array
-    rest_loss: Array
+    elastic: Array
+    elastic_loss: Array
     damping: Array
     values: tuple[float, float, float]
     mechanism: int
 
 
 def is_over_frequency(machine: MachineOnMounts) -> bool:
-    """Whether the mounts are no constants or the floor gives way."""
+    """Whether the mounts depend on frequency or the floor is compliant."""
     return machine.stand.is_over_frequency or machine.floor is not None
 
 

@@ -21,9 +21,9 @@ class Moving:
 
     Attributes
     ----------
-    results : of the run
-    machines : of its options
-    transmission : of the loads of the moving parts
+    results : results of the run
+    machines : machines of its options
+    transmission : transmission of the loads of the moving parts
     """
 
     results: xr.Dataset
@@ -56,7 +56,7 @@ class Moving:
         """Matrices of the different machines."""
         names = options(self.results)
         number = [self.machines.number(name) for name in names]
-        first = [names[number.index(one)] for one in range(len(self.machines.different))]
+        first = [names[number.index(row)] for row in range(len(self.machines.different))]
         return [mount_matrices(self.machines.machine[name]) for name in first]
 
     @cached_property
@@ -82,14 +82,14 @@ class Moving:
         return frozenset(map(float, orders[loaded & sounds & (orders > 0)]))
 
     def _unit_loads(self, speed: float, option: str, weight: Weight) -> ComplexArray:
-        at = self.results[["shaft_speed", "shaft_acceleration", "order"]].sel(
+        shaft = self.results[["shaft_speed", "shaft_acceleration", "order"]].sel(
             speed=speed, option=option
         )
-        return unit_loads(self.machines.machine[option], at, weight)
+        return unit_loads(self.machines.machine[option], shaft, weight)
 
 
 def moving_of(results: xr.Dataset) -> Moving | None:
-    """What can move; none where the page's model is not that of the run."""
+    """Return what can move; none where the page's model is not that of the run."""
     measured = (parameters(results).get("measured") or {}).get("sound")
     if measured or "distance" not in results["transfer_vector"].coords:
         return None

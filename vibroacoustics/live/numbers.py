@@ -10,7 +10,7 @@ from ..report.live.assets import packed
 NOTHING: Final = -1
 """Stands for an array that is not there."""
 FULL_BITS: Final = 23
-"""Of the fraction of a 32-bit float, of what is summed as energy: within 6e-8, 3e-7 dB."""
+"""Bits of the fraction of a 32-bit float, for what is summed as energy: within 6e-8, 3e-7 dB."""
 LOAD_BITS: Final = 19
 """Within 1e-6, 8e-6 dB of an amplitude: where loads cancel but for a hundredth, 8e-4 dB of that."""
 FEW_BITS: Final = 15
@@ -32,8 +32,8 @@ class Numbers:
 
         Parameters
         ----------
-        values : of any shape
-        bits : of their fractions
+        values : array of any shape
+        bits : number of bits of their fractions
         """
         array = np.ascontiguousarray(values)
         if np.iscomplexobj(array):
@@ -47,7 +47,7 @@ class Numbers:
         return self._offsets[part]
 
     def put_unless(self, values: ArrayLike, trivial: float, bits: int = FULL_BITS) -> int:
-        """As `put`; `NOTHING` where all of them are one trivial value."""
+        """Return what `put` does, or `NOTHING` where all of them are one trivial value."""
         return NOTHING if np.all(np.asarray(values) == trivial) else self.put(values, bits)
 
     @property
@@ -58,7 +58,7 @@ class Numbers:
 
 
 def _rounded(values: NDArray[np.float32], bits: int) -> NDArray[np.float32]:
-    """With the last bits of their fractions zero."""
+    """Values with the last bits of their fractions zero."""
     if bits == FULL_BITS:
         return values
     last = FULL_BITS - bits

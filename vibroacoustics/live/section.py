@@ -21,7 +21,7 @@ from .sliders import has_sliders, sliders_of
 
 MOST_MICROPHONES: Final = 10
 HEADROOM: Final = 2.0
-"""Full scale over the largest pressure of the options as given: sliders may be louder."""
+"""Full scale over the largest pressure of the nominal options: sliders may be louder."""
 _CREST: Final = 4.0
 """Peak over effective value of the noise that full scale leaves room for."""
 
@@ -50,12 +50,12 @@ def live_data(results: xr.Dataset) -> str:
     if moving is not None and moving.weight is not None:
         page["weight"] = moving.weight._asdict()
     if moving is not None:
-        page["mounts"] = [put_matrices(one) for one in moving.mounts]
+        page["mounts"] = [put_matrices(matrices) for matrices in moving.mounts]
         page["mounts_move"] = moving.mounts_move
         page["machine"] = [moving.machines.number(name) for name in page["options"]]
     always = frozenset() if moving is None else moving.orders()
     lines = [lines_at(shown, speed, bands, always) for speed in page["speeds"]]
-    page["cases"] = [case_of(numbers, one, moving, s) for s, one in enumerate(lines)]
+    page["cases"] = [case_of(numbers, of_case, moving, s) for s, of_case in enumerate(lines)]
     page["full_scale_pa"] = full_scale_pa(lines)
     page["numbers"] = numbers.text
     return json.dumps(page, separators=(",", ":"), allow_nan=False)
@@ -64,8 +64,12 @@ def live_data(results: xr.Dataset) -> str:
 def full_scale_pa(lines: list[Lines]) -> float:
     """Pressure of a digital sample of 1, the same for all: 1, 2 or 5 times a power of ten."""
     peak = max(
-        float(np.max(np.abs(one.pressure).sum(axis=-1) + _CREST * np.sqrt(one.noise.sum(axis=-1))))
-        for one in lines
+        float(
+            np.max(
+                np.abs(of_case.pressure).sum(axis=-1) + _CREST * np.sqrt(of_case.noise.sum(axis=-1))
+            )
+        )
+        for of_case in lines
     )
     wanted = HEADROOM * max(peak, 1e-6)
     exponent = f"{wanted:e}".split("e")[1]
@@ -74,7 +78,7 @@ def full_scale_pa(lines: list[Lines]) -> float:
 
 
 def _shown(results: xr.Dataset) -> xr.Dataset:
-    """At few speeds and microphones, that of the published level first."""
+    """Results at few speeds and microphones, those of the published level first."""
     few = few_speeds(results)
     names = [str(name) for name in few["receiver"].values]
     names.sort(key=lambda name: name != catalogue_receiver(results))

@@ -1,4 +1,4 @@
-"""What turns loads of the moving parts into sound, as the results hold it."""
+"""Transmission of loads of the moving parts to sound, as the results hold it."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -22,12 +22,13 @@ class Transmission:
 
     Attributes
     ----------
-    frequency_hz : of the orders, shape (speed, order)
+    frequency_hz : frequency of the orders, shape (speed, order)
     load : force and moment of all moving parts on their body, shape (speed, option, 6, order)
-    velocity : of the body on the feet, of the same shape
+    velocity : velocity of the body on the feet, of the same shape
     vector : pressure per velocity, zero at orders that the run did not take along, shape (speed,
         receiver, 6, order), Pa s/m
-    pressure : of the loads behind the option's insertion loss, (speed, option, receiver, order), Pa
+    pressure : pressure of the loads behind the option's insertion loss, (speed, option, receiver,
+        order), Pa
     """
 
     frequency_hz: Array
@@ -40,8 +41,8 @@ class Transmission:
         """Whether the machines, as they are read, move under these loads as they did in the run."""
         for number, name in enumerate(machines.machine):
             stand = machines.different[machines.number(name)]
-            moved = velocity_per_load(stand, self.frequency_hz)
-            again = np.einsum("sdln,sln->sdn", moved, self.load[:, number])
+            velocity = velocity_per_load(stand, self.frequency_hz)
+            again = np.einsum("sdln,sln->sdn", velocity, self.load[:, number])
             if not _same(again, self.velocity[:, number]):
                 return False
         return True
@@ -51,7 +52,8 @@ class Transmission:
 
         Parameters
         ----------
-        pressure_line : of all sources, orders first, shape (speed, option, receiver, line), Pa
+        pressure_line : pressure of all sources, orders first, shape (speed, option, receiver,
+            line), Pa
         """
         orders = self.pressure.shape[-1]
         others = pressure_line[..., orders:]
@@ -83,7 +85,7 @@ def transmission_of(results: xr.Dataset, machines: Machines) -> Transmission:
 
 
 def beside(all_together: ComplexArray, part: ComplexArray) -> ComplexArray:
-    """What there is beside a part of it, zero where it is rounding."""
+    """Return the difference of a sum and a part of it, zero where it is rounding."""
     others = all_together - part
     return np.where(np.abs(others) > SAME * np.abs(all_together), others, 0.0)
 
@@ -113,6 +115,6 @@ def _taken(load: ComplexArray) -> Array:
     return np.maximum.accumulate(loaded[:, ::-1], axis=1)[:, ::-1].astype(float)
 
 
-def _same(one: ComplexArray, other: ComplexArray) -> bool:
+def _same(first: ComplexArray, other: ComplexArray) -> bool:
     size = np.max(np.abs(other), initial=0.0)
-    return bool(np.max(np.abs(one - other), initial=0.0) <= SAME * size)
+    return bool(np.max(np.abs(first - other), initial=0.0) <= SAME * size)

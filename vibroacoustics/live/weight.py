@@ -16,9 +16,9 @@ FORCES: Final = 2.0
 """The heaviest weight makes about so many times the largest force at 1x without an option."""
 ROUNDING: Final = 1e-9
 _RADIUS_M: Final = 0.025
-"""Of the weight where the machine names no planes for weights."""
+"""Radius of the weight where the machine names no planes for weights."""
 _REACH_M: Final = 0.2
-"""From the shaft's origin, to both sides, likewise."""
+"""Reach from the shaft's origin, to both sides."""
 
 
 class Weight(NamedTuple):

@@ -1,4 +1,4 @@
-"""How well a rotor is balanced."""
+"""Balance quality of a rotor."""
 
 from math import pi
 
@@ -23,11 +23,11 @@ class BalanceQuality(Parameters):
     service_speed_rpm: float = Field(ge=60.0, le=60000.0)
     """Highest speed for which the rotor is balanced."""
     rotor_mass_kg: float = Field(gt=0.0, le=1e3)
-    """Of all that is balanced together."""
+    """Mass of all that is balanced together."""
     used_ratio: float = Field(default=1.0, ge=0.0, le=1.0)
     """Residual unbalance over the permissible one."""
     lower_plane_height_m: float = HEIGHT
-    """Along the shaft, from the origin of the crank's axes."""
+    """Height along the shaft, from the origin of the crank's axes."""
     upper_plane_height_m: float = HEIGHT
     upper_share_ratio: float = Field(default=0.5, ge=0.0, le=1.0)
     """Share of the upper plane; the lower one has the rest."""

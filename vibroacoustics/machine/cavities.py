@@ -24,15 +24,15 @@ class DischargeDome(Parameters):
     """Space under the shell's top cap, over a rigid partition, which the discharge port feeds."""
 
     depth_m: Annotated[float, SHAPE] = Field(ge=1e-3, le=1.0)
-    """Of the partition below the rim of the cap."""
+    """Depth of the partition below the rim of the cap."""
     port_offset_m: float = Field(ge=0.0, le=0.5)
-    """Of the port in the partition from the axis."""
+    """Offset of the port in the partition from the axis."""
     port_angle_rad: float = ANGLE
-    """Of the port, from x towards y."""
+    """Angle of the port, from x towards y."""
     tube_diameter_m: float = Field(ge=2e-3, le=0.2)
     """Inner, of the discharge tube through the wall, which sound leaves without reflection."""
     tube_height_m: float = Field(ge=0.0, le=1.0)
-    """Of the tube's middle over the partition."""
+    """Height of the tube's middle over the partition."""
     tube_angle_rad: float = ANGLE
     quality_ratio: float = QUALITY
     """Q of the gas: its loss factor, but for the tube, is one over it."""
@@ -45,7 +45,7 @@ class DischargeDome(Parameters):
             )
 
     def why_not_in(self, shell: Shell) -> str | None:
-        """Why a shell cannot have it; None where it can."""
+        """Say why a shell cannot have it; None where it can."""
         size = shell.cylinder
         wall = size.height_m - 2.0 * size.dome_height_m
         if self.depth_m >= wall:
@@ -66,13 +66,13 @@ class SuctionAnnulus(Parameters):
 
     inner_radius_m: Annotated[float, SHAPE] = Field(gt=0.0, le=1.0)
     lower_height_m: Annotated[float, SHAPE] = Field(ge=-2.0, le=2.0)
-    """Of its lower face, from the centre of mass."""
+    """Height of its lower face, from the centre of mass."""
     upper_height_m: Annotated[float, SHAPE] = Field(ge=-2.0, le=2.0)
     inlets: int = Field(ge=1, le=8)
     """Openings from it to the pockets, alike around the axis."""
     inlet_height_m: float = Field(ge=-2.0, le=2.0)
     inlet_angle_rad: float = ANGLE
-    """Of one inlet, from x towards y."""
+    """Angle of one inlet, from x towards y."""
     sound_speed_m_per_s: float = Field(ge=50.0, le=2000.0)
     stiffness_exponent_ratio: float = Field(gt=1.0, le=2.0)
     """κ = ρ c²/p of the gas, which gives its density at the suction pressure."""
@@ -87,7 +87,7 @@ class SuctionAnnulus(Parameters):
             )
 
     def why_not_in(self, shell: Shell) -> str | None:
-        """Why a shell cannot have it; None where it can."""
+        """Say why a shell cannot have it; None where it can."""
         size = shell.cylinder
         bottom = size.dome_height_m - shell.centre_of_mass_height_m
         top = size.height_m - size.dome_height_m - shell.centre_of_mass_height_m
@@ -113,7 +113,7 @@ class DischargeMuffler(Parameters):
     """An expansion chamber in the discharge tube; the tube goes on without reflection."""
 
     distance_m: float = Field(ge=0.0, le=20.0)
-    """From the shell, along the tube."""
+    """Distance from the shell, along the tube."""
     length_m: float = Field(ge=1e-3, le=5.0)
     diameter_m: float = Field(ge=2e-3, le=1.0)
     """Inner."""
@@ -132,8 +132,8 @@ class GasPort(Port):
 
     Attributes
     ----------
-    components, tables : as of `Port`
-    density_kg_per_m3, sound_speed_m_per_s : of the gas there
+    components, tables : components and tables, see `Port`
+    density_kg_per_m3, sound_speed_m_per_s : density and speed of sound of the gas there
 
     Examples
     --------

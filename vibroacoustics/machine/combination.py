@@ -15,7 +15,7 @@ from .machine import AnyMachine, Machine
 from .option import OPTIONS, AnyOption, Figures, Option
 
 SEPARATOR: Final = " + "
-"""Between the names of options in the name of their combination."""
+"""Separator of the names of options in the name of their combination."""
 _SUMMED: Final = ("_kg", "_w")
 """Units of figures that add up: masses and powers."""
 
@@ -42,7 +42,7 @@ class Combination(Option):
     parts: tuple[AnyOption, ...]
     """Options of these names."""
     machine: AnyMachine | None = None
-    """With the changed values of all redesigns among them; None without one."""
+    """Machine with the changed values of all redesigns among them; None without one."""
 
     @property
     def members(self) -> tuple[Option, ...]:
@@ -119,8 +119,8 @@ def together(names: Sequence[str], each: Sequence[Added]) -> Added:
 
     Parameters
     ----------
-    names : of the options
-    each : what each of them adds
+    names : names of the options
+    each : contribution of each of them
 
     Raises
     ------
@@ -139,7 +139,7 @@ def together(names: Sequence[str], each: Sequence[Added]) -> Added:
 
 
 def _why_not(first: Added, other: Added) -> str | None:
-    """Why two options exclude each other; None where they do not."""
+    """Say why two options exclude each other; None where they do not."""
     if first.rings and other.rings:
         return "both add a second Oldham ring; join one of them only"
     if first.on_ring is not None and other.on_ring is not None and not _alike(first, other):
@@ -184,8 +184,8 @@ def members_by_name(name: str, option: Option) -> dict[str, Option]:
 
     Parameters
     ----------
-    name : of the option in its study
-    option : of this name
+    name : name of the option in its study
+    option : option of this name
     """
     names = option.names if isinstance(option, Combination) else (name,)
     return dict(zip(names, option.members, strict=True))

@@ -10,13 +10,13 @@ from typing import Any, Final
 class Derived:
     """A value that stays in proportion to what others make.
 
-    The proportion is that of the values as given, so that with these it is as given itself.
+    The proportion is that of the nominal values: with these, the value is its nominal one.
 
     Attributes
     ----------
     name : dotted, from the machine, in SI
     sources : dotted names of the values that it follows from
-    rule : of the machine, what the value is in proportion to; none where it does not follow
+    rule : rule of the machine: what the value is in proportion to; none where it does not follow
     """
 
     name: str
@@ -25,7 +25,7 @@ class Derived:
 
 
 def in_proportion(name: str, source: str) -> Derived:
-    """A value in proportion to another; it stands alone where the machine has not both tables."""
+    """A value in proportion to another; it is independent where the machine has not both tables."""
     read = attrgetter(source)
 
     def rule(machine: Any) -> float | None:

@@ -10,7 +10,7 @@ from ..base.parameters import Parameters
 from .mount_stiffness import MountStiffness
 
 FOOT_NAMES: Final = ("front_left", "front_right", "rear_left", "rear_right")
-"""Of four in a square. Front is +x, left is +y."""
+"""Names of four in a square. Front is +x, left is +y."""
 LEAST_WIDTH_M: Final = 1e-3
 """Feet closer than this to one line let the machine tip over."""
 
@@ -21,12 +21,12 @@ class Foot(Parameters):
     x_m: float = Field(ge=-10.0, le=10.0)
     y_m: float = Field(ge=-10.0, le=10.0)
     height_m: float | None = Field(default=None, ge=-10.0, le=10.0)
-    """Of its mount from the centre of mass at rest; under the shell where none is given."""
+    """Height of its mount from the centre of mass at rest; under the shell where none is given."""
     lateral_stiffness_n_per_m: float | None = Field(default=None, ge=1e2, le=1e9)
     vertical_stiffness_n_per_m: float | None = Field(default=None, ge=1e2, le=1e9)
     loss_factor_ratio: float | None = Field(default=None, ge=0.0, le=1.0)
     stiffness: MountStiffness | None = None
-    """Over frequency, from a file."""
+    """Stiffness over frequency, from a file."""
 
     @model_validator(mode="after")
     def _one_stiffness(self) -> "Foot":

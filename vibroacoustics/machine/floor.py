@@ -1,4 +1,4 @@
-"""A floor that gives way under the feet: a mass on a spring, or measured mobilities."""
+"""Compliant floor under the feet: a mass on a spring, or measured mobilities."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -24,7 +24,7 @@ LAYOUTS: Final = tuple(
 
 
 class Floor(Parameters):
-    """Under each foot the same mass on a spring, up and down; sideways it is rigid."""
+    """Mass on a spring under each foot, up and down; sideways it is rigid."""
 
     mass_kg: float = Field(ge=0.0, le=1e6)
     stiffness_n_per_m: float = Field(ge=1e3, le=1e12)
@@ -55,7 +55,7 @@ class FloorMobility(FileTable):
 
     content: ClassVar[str] = "frequency_hz"
     foot: tuple[str, ...] = ()
-    """Of each row; empty where it holds for every foot."""
+    """Foot of each row; empty where it holds for every foot."""
     frequency_hz: tuple[float, ...] = ()
     vertical_m_per_ns: tuple[float, ...] = ()
     vertical_phase_rad: tuple[float, ...] = ()
@@ -94,7 +94,7 @@ class FloorMobility(FileTable):
         return {"foot": foot, **{name: tuple(each.tolist()) for name, each in values.items()}}
 
     def why_not_under(self, feet: Sequence[str]) -> str | None:
-        """Why the file does not fit the feet of a machine; none where it does."""
+        """Say why the file does not fit the feet of a machine; none where it does."""
         if not any(self.foot):
             return None
         without = [foot for foot in feet if foot not in self.foot]
@@ -114,9 +114,11 @@ class FloorMobility(FileTable):
         frequency_hz : at least zero, shape (...)
         """
         rows = [row for row, name in enumerate(self.foot) if name in ("", foot)]
-        known = np.array(self.frequency_hz)[rows]
+        frequencies = np.array(self.frequency_hz)[rows]
         lateral, vertical = (
-            _over_frequency(frequency_hz, known, np.array(amplitude)[rows], np.array(phase)[rows])
+            _over_frequency(
+                frequency_hz, frequencies, np.array(amplitude)[rows], np.array(phase)[rows]
+            )
             for amplitude, phase in (
                 (self.lateral_m_per_ns, self.lateral_phase_rad),
                 (self.vertical_m_per_ns, self.vertical_phase_rad),
@@ -134,11 +136,13 @@ def _mobility(numbers: dict[str, Array], axis: str, omega: Array) -> tuple[Array
     return numbers.get(f"{axis}_mobility_m_per_ns", nothing), phase
 
 
-def _over_frequency(at: Array, known: Array, amplitude: Array, phase: Array) -> ComplexArray:
+def _over_frequency(
+    frequency_hz: Array, rows_hz: Array, amplitude: Array, phase: Array
+) -> ComplexArray:
     """Receptance of a mobility that is linear from zero at 0 Hz; its real part at 0 Hz."""
     mobility = np.concatenate([[0.0], amplitude * np.exp(1j * phase)])
-    frequency = np.asarray(at, dtype=float)
-    static = mobility[1] / (2j * np.pi * known[0])  # below the first row the floor is a spring
+    frequency = np.asarray(frequency_hz, dtype=float)
+    static = mobility[1] / (2j * np.pi * rows_hz[0])  # below the first row the floor is a spring
     moving = np.where(frequency > 0.0, frequency, 1.0)
-    values = np.interp(moving, np.concatenate([[0.0], known]), mobility) / (2j * np.pi * moving)
+    values = np.interp(moving, np.concatenate([[0.0], rows_hz]), mobility) / (2j * np.pi * moving)
     return np.where(frequency > 0.0, values, max(static.real, 0.0))

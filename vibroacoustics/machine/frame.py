@@ -34,7 +34,7 @@ class RoundPart(Parameters):
 
     @property
     def inertia_kg_m2(self) -> Array:
-        """About its middle, shape (3, 3)."""
+        """Inertia about its middle, shape (3, 3)."""
         polar = 0.5 * self.mass_kg * self.radius_m**2
         across = 0.5 * polar + self.mass_kg * self.thickness_m**2 / 12.0
         return np.diag([across, across, polar])
@@ -48,11 +48,12 @@ class Bolts(Parameters):
     height_m: float = HEIGHT
     first_angle_rad: float = Field(default=0.0, ge=-2.0 * pi, le=2.0 * pi)
     lateral_stiffness_n_per_m: float = STIFFNESS
-    """Of each, with the friction of what it presses together."""
+    """Stiffness of each, with the friction of what it presses together."""
     axial_stiffness_n_per_m: float = STIFFNESS
-    """Of each, with the members."""
+    """Stiffness of each, with the members."""
     guide_stiffness_n_per_m: float = STIFFNESS
-    """Of each along z in place of the axial one where the fixed scroll may slide along it."""
+    """Stiffness of each along z in place of the axial one where the fixed scroll may slide along
+    it."""
 
 
 class Face(Parameters):
@@ -61,7 +62,7 @@ class Face(Parameters):
     radius_m: float = RADIUS
     height_m: float = HEIGHT
     stiffness_n_per_m: float = STIFFNESS
-    """Of the face around."""
+    """Stiffness of the face around."""
 
 
 class PlainBearing(Parameters):
@@ -73,23 +74,23 @@ class PlainBearing(Parameters):
 
 
 class ContactStiffness(Parameters):
-    """Of each contact of the frame with the shell, alike in all directions."""
+    """Stiffness of each contact of the frame with the shell, alike in all directions."""
 
     weld_n_per_m: float = STIFFNESS
-    """Of the bearing housing."""
+    """Stiffness of the bearing housing."""
     leg_n_per_m: float = STIFFNESS
-    """Of the lower bearing's bracket with its weld."""
+    """Stiffness of the lower bearing's bracket with its weld."""
     seal_n_per_m: float = STIFFNESS
-    """Of the fixed scroll."""
+    """Stiffness of the fixed scroll."""
     land_n_per_m: float = STIFFNESS
-    """Of the stator."""
+    """Stiffness of the stator."""
 
 
 class Frame(Parameters):
     """Bodies, bolts, faces, bearings and contacts; the shaft is a table of its own."""
 
     keys_on: Literal["fixed-scroll", "bearing-housing"]
-    """Which part has the slots that stand."""
+    """Part with the fixed slots."""
     radially_compliant: bool
     """The drive lets the flanks close: their contact takes the radial gas force."""
     axially_compliant: bool
@@ -108,7 +109,7 @@ class Frame(Parameters):
     tips: Face
     keys_radius_m: float = RADIUS
     keys_stiffness_n_per_m: float = STIFFNESS
-    """Of the keys between orbiting scroll and standing slots, around the shaft."""
+    """Stiffness of the keys between orbiting scroll and standing slots, around the shaft."""
     pin_stiffness_n_per_m: float = STIFFNESS
     """Metal of bushing and pin; the oil film is in series."""
     pin_load_n: float = Field(gt=0.0, le=1e6)
@@ -123,14 +124,14 @@ class Frame(Parameters):
     metal_loss_factor_ratio: float = LOSS
     """Steel of shaft, pin and bearing seats."""
     joint_loss_factor_ratio: float = LOSS
-    """Of bolts, faces, keys and contacts with the shell."""
+    """Loss factor of bolts, faces, keys and contacts with the shell."""
     contacts: ContactStiffness
     legs: Joint
-    """Of the lower bearing's bracket on the wall."""
+    """Joint of the lower bearing's bracket on the wall."""
 
     @property
     def mass_kg(self) -> float:
-        """Of all bodies."""
+        """Mass of all bodies."""
         return float(sum(getattr(self, part.name).mass_kg for part in PARTS))
 
 
@@ -144,8 +145,8 @@ class Part(Port):
 
     Attributes
     ----------
-    tables : of every port in the shell
-    joint : of the shell, to which the part hands its load on in a machine without a frame
+    tables : tables of every port in the shell
+    joint : joint of the shell, to which the part hands its load on in a machine without a frame
     handed_on : components of the load that it hands on so
 
     Examples

@@ -8,9 +8,9 @@ from pydantic import Field
 from ..base.parameters import Parameters
 
 GAS_PATH_PARTLY: Final = (
-    "Of the gas only what a study's sources name is modelled: in an empty shell, without what it "
+    "The model holds only the gas that a study's sources name: in an empty shell, without what it "
     "does to the block; gas and bearing forces are pairs within the rigid block. Oil, and walls "
-    "that bend, are left out."
+    "that bend, are neglected."
 )
 SOUND = Field(ge=50.0, le=1500.0)
 DENSITY = Field(ge=0.05, le=500.0)
@@ -25,17 +25,17 @@ class DischargeGas(Parameters):
 
 
 class ShellGas(Parameters):
-    """Gas in the shell as an empty cylinder, out of which the suction valve draws."""
+    """Gas in the shell as an empty cylinder, from which the suction valve takes gas."""
 
     radius_m: float = Field(ge=5e-3, le=5.0)
     height_m: float = Field(ge=5e-3, le=5.0)
     middle_height_m: float = Field(ge=-2.0, le=2.0)
-    """Of its middle above the shell's centre of mass."""
+    """Height of its middle above the shell's centre of mass."""
     speed_of_sound_m_per_s: float = SOUND
     density_kg_per_m3: float = DENSITY
     loss_factor_ratio: float = Field(gt=0.0, le=1.0)
-    """Of its modes."""
+    """Loss factor of its modes."""
     intake_ratio: float = Field(ge=0.0, le=1.0)
-    """Of the intake from the axis, over the radius."""
+    """Distance of the intake from the axis, over the radius."""
     intake_angle_rad: float = Field(ge=-2.0 * pi, le=2.0 * pi)
-    """From x towards y."""
+    """Angle from x towards y."""

@@ -20,7 +20,7 @@ def natural_frequency_hz(stiffness_n_per_m: float, mass_kg: float) -> float:
 
     Parameters
     ----------
-    stiffness_n_per_m : of all springs
+    stiffness_n_per_m : stiffness of all springs
     mass_kg : that they carry
     """
     return sqrt(stiffness_n_per_m / mass_kg) / (2.0 * pi)
@@ -34,7 +34,7 @@ def total_stiffness(
     Parameters
     ----------
     mounts : that feet have without a stiffness of their own; four where there are no feet
-    feet : of the machine
+    feet : feet of the machine
     stiffness : over frequency, of mounts without a stiffness of their own
     frequency_hz : at which they count
     """
@@ -42,7 +42,7 @@ def total_stiffness(
     for foot in feet or [Foot(x_m=0.0, y_m=0.0)] * 4:
         table = foot.stiffness or (None if foot.has_constant_values else stiffness)
         if table is not None:
-            total += table.at(np.array(frequency_hz)).real[1:]
+            total += table.dynamic_stiffness(np.array(frequency_hz)).real[1:]
         else:
             total += (
                 foot.lateral_stiffness_n_per_m or mounts.lateral_stiffness_n_per_m,
@@ -58,8 +58,8 @@ def doubts_of_isolation(
 
     Parameters
     ----------
-    name : of the table of mounts
-    stiffness_n_per_m : of all mounts, lateral and vertical
+    name : name of the table of mounts
+    stiffness_n_per_m : stiffness of all mounts, lateral and vertical
     mass_kg : that they carry
     speed_rpm : lowest one of the study
     """

@@ -14,7 +14,7 @@ class Limit:
     Attributes
     ----------
     name : dotted, from the machine, in SI
-    rule : of the machine with the other values, least and greatest that the value may be
+    rule : rule of the machine with the other values: least and greatest that the value may be
     """
 
     name: str

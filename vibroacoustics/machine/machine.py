@@ -1,4 +1,4 @@
-"""What every machine has: mass, mounts, shell, noise, the errors of its source document.
+"""Machine: mass, mounts, shell, noise, the errors of its source document.
 
 Heights are those of the machine's frame: z up, zero at the centre of mass at rest.
 """
@@ -30,7 +30,7 @@ from .isolation import doubts_of_isolation, total_stiffness
 from .limits import OF_EVERY_MACHINE, Limit
 from .mount_stiffness import MountStiffness
 from .mounts import Mounts
-from .remainder import OF_THE_REMAINDER, OverallNoise, Remainder
+from .remainder import UNMODELLED_KEYS, OverallNoise, UnmodelledNoise
 from .shell import Shell
 from .shell_structure import ShellStructure
 from .speed_growth import Growth
@@ -74,36 +74,36 @@ class Machine(KindOfParameters):
 
     name: str = Field(min_length=1)
     refrigerant: str | None = Field(None, min_length=1)
-    """By its number, such as R410A; the data sheet states it."""
+    """Refrigerant by its number, such as R410A; the data sheet states it."""
     housing: Housing
-    """What moves on the mounts as one rigid body; moving parts included, a suspended block not."""
+    """Rigid body on the mounts; moving parts included, a suspended block not."""
     mounts: Mounts
     shell: Shell
     overall_noise: OverallNoise | None = None
-    """What a catalogue gives; without it levels hold only what the model holds."""
-    remainder: Remainder = Remainder()
+    """Published level; without it levels hold the modelled sources only."""
+    remainder: UnmodelledNoise = UnmodelledNoise()
     feet: Feet | None = None
     """Anywhere; four in a square, as `mounts` says, where there are none."""
     mount_stiffness: MountStiffness | None = None
-    """Over frequency, of mounts that give none of their own."""
+    """Stiffness over frequency, of mounts that give none of their own."""
     floor: Floor | None = None
-    """That gives way under the feet; rigid where neither this table nor the next is given."""
+    """Compliant floor under the feet; rigid where neither this table nor the next is given."""
     floor_mobility: FloorMobility | None = None
     suspension: Suspension | None = None
     """Springs between the block with the mechanism and the shell; none where both are one."""
     discharge_gas: DischargeGas | None = None
-    """Of a reciprocating compressor; a source reads it."""
+    """Gas of a reciprocating compressor; a source reads it."""
     shell_gas: ShellGas | None = None
-    """The same round the block."""
+    """Gas in the shell around the block."""
     balance_quality: BalanceQuality | None = None
-    """How well its rotor is balanced; a study that names no residual unbalance leaves it out."""
+    """Balance quality of its rotor; a study that names no residual unbalance neglects it."""
     errata: tuple[Erratum, ...] = ()
     _attached: AttachedBodies = PrivateAttr(NO_BODIES)
 
     axes: ClassVar[str] = "x, y and z"
-    """What x, y and z are on this machine."""
+    """Axes x, y and z on this machine."""
     orders: ClassVar[str] = "Orders are multiples of the mean shaft frequency in time."
-    """Where the orders of the force come from."""
+    """Origin of the orders of the force."""
     labels: ClassVar[Mapping[str, str]] = {}
     """Plain words for its reported figures, where the name does not say it."""
     derived: ClassVar[tuple[Derived, ...]] = INERTIAS
@@ -117,7 +117,7 @@ class Machine(KindOfParameters):
     template: ClassVar[str | None] = None
     """Shipped study with which `new` begins a machine of the kind; none where there is none."""
     template_with_sources: ClassVar[str | None] = None
-    """Such a study with sources of sound."""
+    """Template of a study with sources of sound."""
 
     reads: ClassVar[frozenset[str]] = frozenset(
         {
@@ -133,7 +133,7 @@ class Machine(KindOfParameters):
     """Tables that may be left out and that the machine itself reads where it has them."""
 
     limits: ClassVar[tuple[Limit, ...]] = OF_EVERY_MACHINE
-    """What other values leave of a value's range, in the order in which they are sampled."""
+    """Limits that other values set to a value's range, in the order of sampling."""
 
     def contradictions(self) -> Contradictions:
         if self.floor is not None and self.floor_mobility is not None:
@@ -167,11 +167,11 @@ class Machine(KindOfParameters):
         return Scale(self.shell, self.housing.mass_kg + block, block)
 
     def doubts(self) -> Iterable[str]:
-        """What is hardly right otherwise, with the dotted name of the value, a line each."""
+        """Yield what is doubtful otherwise, with the dotted name of the value, a line each."""
         return ()
 
     def doubts_at(self, speeds_rpm: Sequence[float]) -> Iterable[str]:
-        """What is hardly right at the speeds of a study: mounts near order 1, a line each."""
+        """Yield what is doubtful at the speeds of a study: mounts near order 1, a line each."""
         lowest, scale = min(speeds_rpm), self.scale
         feet = () if self.feet is None else tuple(self.feet.by_name.values())
         hertz = shaft_frequency_hz(lowest)
@@ -207,7 +207,7 @@ class Machine(KindOfParameters):
         return ()
 
     def curves(self, speed_rpm: float) -> Iterable[Curve]:
-        """What goes on inside at a speed: forces, pressures, films, torques and the like.
+        """Yield inner curves at a speed: forces, pressures, films, torques and the like.
 
         Parameters
         ----------
@@ -221,7 +221,7 @@ class Machine(KindOfParameters):
         return ()
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What the model of this kind leaves out, a sentence or two each."""
+        """Effects that the model of this kind neglects, a sentence or two each."""
         return ()
 
     @property
@@ -260,7 +260,7 @@ class Machine(KindOfParameters):
     def unread(self) -> frozenset[str]:
         """Values without effect beside the machine's other tables, dotted, in SI."""
         of_mounts = values_not_read(self.feet, self.mount_stiffness)
-        return of_mounts if self.overall_noise is not None else of_mounts | OF_THE_REMAINDER
+        return of_mounts if self.overall_noise is not None else of_mounts | UNMODELLED_KEYS
 
     @property
     def crank_frame(self) -> CrankFrame:
@@ -269,7 +269,7 @@ class Machine(KindOfParameters):
 
     @property
     def capabilities(self) -> tuple[Capability, ...]:
-        """What options can work on."""
+        """Capabilities that options can work on."""
         return ()
 
     def capability(self, needed: type[C]) -> C | None:

@@ -53,8 +53,9 @@ class MountStiffness(FileTable):
         of_fields = zip(fields, (frequency, lateral, vertical, loss), strict=True)
         return {name: tuple(values.tolist()) for name, values in of_fields}
 
-    def at(self, frequency_hz: Array) -> ComplexArray:
-        """Along x, y and z, shape (..., 3), N/m; without loss at frequency zero.
+    def dynamic_stiffness(self, frequency_hz: Array) -> ComplexArray:
+        """Return the stiffness along x, y and z, shape (..., 3), N/m; without loss at frequency
+        zero.
 
         Parameters
         ----------
@@ -66,10 +67,10 @@ class MountStiffness(FileTable):
             _linear(frequency, self.frequency_hz, np.array(stiffness) * (1.0 + loss))
             for stiffness in (self.lateral_n_per_m, self.vertical_n_per_m)
         )
-        both = np.stack([lateral, lateral, vertical], axis=-1)
-        return np.asarray(np.where(frequency[..., None] > 0.0, both, both.real))
+        stiffness = np.stack([lateral, lateral, vertical], axis=-1)
+        return np.asarray(np.where(frequency[..., None] > 0.0, stiffness, stiffness.real))
 
 
-def _linear(at: Array, known: tuple[float, ...], values: ComplexArray) -> ComplexArray:
+def _linear(frequency_hz: Array, rows_hz: tuple[float, ...], values: ComplexArray) -> ComplexArray:
     """Linear between known points, held beyond the ends."""
-    return np.asarray(np.interp(at, known, values))
+    return np.asarray(np.interp(frequency_hz, rows_hz, values))

@@ -21,7 +21,7 @@ Figures = Mapping[str, Array]
 class Option(KindOfParameters):
     """One way of balancing or quieting a machine.
 
-    A further one is one file of `balancers`, or of a stranger, whose class is registered: others
+    A further one is one file of `balancers`, or of a third party, whose class is registered: others
     ask what it adds, never which one it is.
 
     Examples
@@ -39,7 +39,7 @@ class Option(KindOfParameters):
     """
 
     needs: ClassVar[type[Capability] | None] = None
-    """What a machine must have for it."""
+    """Tables that a machine must have for it."""
     changes_machine: ClassVar[bool] = False
     """Whether its table `change` gives values of the machine, filled in as the field `machine`."""
     to_be_built: ClassVar[bool] = True
@@ -63,7 +63,7 @@ class Option(KindOfParameters):
 
         Parameters
         ----------
-        machine : as the option leaves it, with the values of a sample
+        machine : machine with the option, with the values of a sample
         """
         return NO_BODIES
 
@@ -73,12 +73,13 @@ class Option(KindOfParameters):
         return changed.carrying(self.attached(changed))
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
-        """What the option adds, among it the figure `added_mass_kg`; nothing where not overridden.
+        """Return what the option adds, with the figure `added_mass_kg`; nothing where not
+        overridden.
 
         Parameters
         ----------
-        machine : as the option leaves it
-        revolution : of it
+        machine : machine with the option
+        revolution : revolution of that machine
 
         Raises
         ------
@@ -88,15 +89,15 @@ class Option(KindOfParameters):
         return Added(figures={"added_mass_kg": 0.0})
 
     def insertion_loss(self) -> InsertionLoss | None:
-        """What it takes off the airborne sound; none where nothing."""
+        """Return the insertion loss for airborne sound; none where there is none."""
         return None
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What its model leaves out, a sentence or two each."""
+        """Effects that its model neglects, a sentence or two each."""
         return ()
 
     def sentences(self, figures: Figures) -> tuple[str, ...]:
-        """What its reported figures mean, for the report."""
+        """Explain its reported figures, for the report."""
         return ()
 
 

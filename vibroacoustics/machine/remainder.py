@@ -1,4 +1,4 @@
-"""What no source explains of a machine's sound: how it goes with speed and frequency."""
+"""Unmodelled noise of a machine: its growth with speed and its spectrum."""
 
 from math import inf
 from typing import Annotated, Final
@@ -10,12 +10,12 @@ from ..base.arrays import Array
 from ..base.decibel import level_of_power, power_of_level
 from ..base.parameters import Contradictions, Held, Parameters, Regime
 
-PRIOR: Final = Held("say what is held of the remainder before anything is sampled")
+PRIOR: Final = Held("are the prior of unmodelled noise before anything is sampled")
 LEAST_FLAT_DB: Final = 1.0
-OF_THE_REMAINDER: Final = frozenset(
+UNMODELLED_KEYS: Final = frozenset(
     f"remainder.{name}" for name in ("speed_growth_db", "peak_frequency_hz", "slope_db")
 )
-"""Without effect where a machine has no published level that leaves a remainder."""
+"""Keys without effect where a machine has no published level that leaves unmodelled noise."""
 PEAKS: Final = (
     Regime("unmodelled noise with its peak up to 1 kHz", 0.0, 1000.0),
     Regime("unmodelled noise with its peak from 1 kHz", 1000.0, inf),
@@ -34,7 +34,7 @@ class SpectralShare(Parameters):
 
 
 class OverallNoise(Parameters):
-    """The A-weighted sound pressure level of the whole machine, from a catalogue or assumed."""
+    """A-weighted sound pressure level of the machine, published or assumed."""
 
     level_dba: Annotated[float, DATUM] = Field(ge=0.0, le=140.0)
     speed_rpm: Annotated[float, DATUM] = Field(ge=60.0, le=60000.0)
@@ -54,7 +54,7 @@ class OverallNoise(Parameters):
             yield f"other_speed_rpm = {self.speed_rpm:g} rpm: must differ from speed_rpm"
 
 
-class Remainder(Parameters):
+class UnmodelledNoise(Parameters):
     """Growth with speed and A-weighted third-octave spectrum of unmodelled noise.
 
     The level grows by so many decibels for ten times the speed; the spectrum falls from its peak
@@ -63,11 +63,12 @@ class Remainder(Parameters):
     """
 
     speed_growth_db: float = Field(default=30.0, ge=-100.0, le=200.0)
-    """For ten times the speed; below zero where a resonance makes the slower speed the louder."""
+    """Growth for ten times the speed; below zero where a resonance makes the slower speed the
+    louder."""
     peak_frequency_hz: Annotated[float, *PEAKS] = Field(default=1600.0, ge=100.0, le=10000.0)
-    """Of the A-weighted spectrum in third octaves."""
+    """Peak of the A-weighted spectrum in third octaves."""
     slope_db: float = Field(default=4.0, ge=0.0, le=30.0)
-    """For each octave off the peak."""
+    """Slope for each octave off the peak."""
     flat_lowest_db: Annotated[float, PRIOR] = Field(default=-26.0, ge=-40.0, le=10.0)
     flat_highest_db: Annotated[float, PRIOR] = Field(default=4.0, ge=-40.0, le=10.0)
     near_level_db: Annotated[float, PRIOR] = Field(default=-2.0, ge=-30.0, le=5.0)

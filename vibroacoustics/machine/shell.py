@@ -30,7 +30,7 @@ class Shell(Parameters):
 
     outer_diameter_m: Annotated[float | None, OUTSIDE] = Field(default=None, ge=0.02, le=2.0)
     height_m: Annotated[float | None, OUTSIDE] = Field(default=None, ge=0.02, le=3.0)
-    """From bottom to top, domes included."""
+    """Height from bottom to top, domes included."""
     dome_height_m: Annotated[float, OUTSIDE] = Field(default=0.0, ge=0.0, le=1.0)
     """Height of each cap, a half-ellipsoid; 0 is flat."""
     profile_m: Annotated[tuple[Point, ...] | None, OUTSIDE] = None

@@ -47,7 +47,7 @@ class ShellStructure(Parameters):
     loss_factor_ratio: float = Field(gt=0.0, le=1.0)
     """Structural, the same at every frequency."""
     span_m: Annotated[float | None, ENDS] = Field(default=None, gt=0.0, le=3.0)
-    """Free length in the middle of the wall: at both of its ends internal parts or the skirts of
+    """Free length between the ends of the wall: at both of its ends internal parts or the skirts of
     the caps keep the section round. None: only the caps do, at the ends of the wall."""
     changes_modes: ClassVar[tuple[str, ...]] = (
         "thickness_m",
@@ -55,7 +55,7 @@ class ShellStructure(Parameters):
         "poisson_ratio",
         "density_kg_per_m3",
     )
-    """Values that modes change with; they are sampled by projection on the modes as given."""
+    """Values that modes change with; they are sampled by projection on the nominal modes."""
     changes_shapes: ClassVar[tuple[str, ...]] = ("thickness_m", "poisson_ratio")
     """Those that also change the shapes of modes: their projection is not exact."""
     bearing_housing: Joint
@@ -64,7 +64,7 @@ class ShellStructure(Parameters):
 
 
 class ShellVariation(Parameters):
-    """How the real shell may differ from the empty closed cylinder of the model."""
+    """Differences of the real shell from the empty closed cylinder of the model."""
 
     mobility_change_db: float = Field(ge=-40.0, le=40.0)
     """Added to the level of every path through the shell."""

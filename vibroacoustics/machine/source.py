@@ -39,10 +39,11 @@ class Case:
 
     Attributes
     ----------
-    machine : as the option leaves it, with the values of a sample
+    machine : machine with the option, with the values of a sample
     added : by the option
-    revolution : steady, of the machine as given
-    supply_frequency_hz : of the motor, as the study gives it or a source derives it; else none
+    revolution : steady revolution of the nominal machine
+    supply_frequency_hz : supply frequency of the motor, from the study or derived by a source; else
+        none
     maximum_frequency_hz : lines and noise up to here
     shared : with the other cases of the sample
 
@@ -83,9 +84,9 @@ CaseKey = tuple[float, str]
 
 
 class Source(KindOfParameters):
-    """Who drives the machine: what a study's table says of it, its loads and its words.
+    """Source of vibration and sound: its table in a study, its loads and its words.
 
-    A further one is one folder of `sources`, or a file of a stranger, whose class is registered.
+    A further one is one folder of `sources`, or a file of a third party, whose class is registered.
 
     Examples
     --------
@@ -104,7 +105,7 @@ class Source(KindOfParameters):
     tables: ClassVar[Mapping[str, type[Parameters]]] = {}
     """Tables of the machine that it reads."""
     needs: ClassVar[type[Capability] | None] = None
-    """What a machine must have for it beside the tables."""
+    """Capabilities that a machine must have for it beside the tables."""
     drives_shell: ClassVar[bool] = False
     """Whether it loads parts in an elastic shell."""
     label: ClassVar[str] = ""
@@ -114,7 +115,7 @@ class Source(KindOfParameters):
 
     @classmethod
     def why_not(cls, machine: Machine) -> str | None:
-        """Why a machine cannot have this source; None where it can."""
+        """Say why a machine cannot have this source; None where it can."""
         if cls.needs is not None and machine.capability(cls.needs) is None:
             return f"needs {cls.needs.words}; the machine is {machine.kind}"
         for name, table in cls.tables_read(machine).items():
@@ -128,7 +129,7 @@ class Source(KindOfParameters):
         return cls.tables
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
-        """What the source does in one case.
+        """Return the loads of the source in one case.
 
         Parameters
         ----------
@@ -149,7 +150,7 @@ class Source(KindOfParameters):
 
         Parameters
         ----------
-        case : of the reference option, without a supply
+        case : case of the reference option, without a supply
         before : see `loads`
 
         Raises
@@ -160,7 +161,7 @@ class Source(KindOfParameters):
         return None
 
     def curves(self, case: Case) -> Iterable[Curve]:
-        """What goes on inside the source in one case.
+        """Yield inner curves of the source in one case.
 
         Parameters
         ----------

@@ -15,21 +15,21 @@ class StatorYoke(Parameters):
     """A uniform ring, fitted into the shell all around where the machine's stator is."""
 
     bore_radius_m: float = RADIUS
-    """Of the stator, where the forces act."""
+    """Radius of the stator, where the forces act."""
     mean_radius_m: float = RADIUS
     """Middle of the yoke."""
     thickness_m: float = RADIUS
-    """Of the yoke behind the slots."""
+    """Thickness of the yoke behind the slots."""
     length_m: float = RADIUS
-    """Of the stack."""
+    """Length of the stack."""
     youngs_modulus_pa: float = Field(gt=0.0, le=1e13)
-    """Of the laminations in their plane."""
+    """Young's modulus of the laminations in their plane."""
     density_kg_per_m3: float = Field(gt=0.0, le=1e5)
     teeth_mass_ratio: float = Field(ge=0.0, le=10.0)
     """Teeth and windings over the yoke: they move with it and do not stiffen it."""
     loss_factor_ratio: float = Field(ge=0.0, le=1.0)
     fit_stiffness_n_per_m: float = Field(gt=0.0, le=1e15)
-    """Between yoke and wall, outwards, all around together."""
+    """Stiffness between yoke and wall, outwards, all around together."""
 
     def contradictions(self) -> Contradictions:
         if self.thickness_m >= self.mean_radius_m:

@@ -56,8 +56,8 @@ class Suspension(Parameters):
     block: Housing
     """Mass and moments of inertia of block, motor and moving parts."""
     height_m: float = Field(ge=-2.0, le=2.0)
-    """Of the block's centre of mass above the shell's."""
+    """Height of the block's centre of mass above the shell's."""
     springs: Mounts
     springs_height_m: float = Field(ge=-2.0, le=2.0)
-    """Of the springs from the block's centre of mass."""
+    """Height of the springs from the block's centre of mass."""
     discharge_tube: DischargeTube | None = None

@@ -1,4 +1,4 @@
-"""Which values are usual for a machine: outside, a decimal point or a unit may be wrong."""
+"""Usual values of a machine: outside, a decimal point or a unit may be wrong."""
 
 import re
 import tomllib
@@ -45,13 +45,13 @@ class Usual:
 
 @dataclass(frozen=True)
 class Scale:
-    """What sizes of parts are compared with.
+    """Scale for sizes of parts.
 
     Attributes
     ----------
-    shell : of the machine
-    mass_kg : of shell and block
-    block_kg : of the block on springs in the shell; zero without one
+    shell : shell of the machine
+    mass_kg : mass of shell and block
+    block_kg : mass of the block on springs in the shell; zero without one
     """
 
     shell: Shell
@@ -81,7 +81,7 @@ def usual_of(scale: Scale, field: str, unit: str) -> Usual | None:
 
     Parameters
     ----------
-    scale : of the machine
+    scale : scale of the machine
     field : dotted, from the machine, in SI
     unit : suffix of the SI key
     """
@@ -109,24 +109,25 @@ def of_mounts(table: str, mass_kg: float, number: int) -> Iterator[Usual]:
 
     Parameters
     ----------
-    table : of the mounts
+    table : table of the mounts
     mass_kg : that all of them carry
-    number : of mounts
+    number : number of mounts
     """
     lowest, highest = ((2.0 * pi * hertz) ** 2 * mass_kg / number for hertz in MOUNTED_HZ)
     why = f"a natural frequency of 2 to 60 Hz with {mass_kg:.3g} kg on {number}"
-    for way in ("lateral", "vertical"):
-        yield Usual(f"{table}.{way}_stiffness_n_per_m", lowest, highest, why)
+    for direction in ("lateral", "vertical"):
+        yield Usual(f"{table}.{direction}_stiffness_n_per_m", lowest, highest, why)
 
 
 def doubt_of_forces(mass_kg: float, force_n: float, speed_rad_per_s: float) -> str:
-    """What is doubtful in a force at order 1: how far it moves the machine; empty where nothing.
+    """Say what is doubtful in a force at order 1, from the motion of the machine; empty where
+    nothing.
 
     Parameters
     ----------
-    mass_kg : of the machine
+    mass_kg : mass of the machine
     force_n : peak
-    speed_rad_per_s : of the shaft
+    speed_rad_per_s : speed of the shaft
     """
     motion = force_n / (mass_kg * speed_rad_per_s**2)
     if motion <= FREE_MOTION_M:
@@ -140,14 +141,14 @@ def doubt_of_forces(mass_kg: float, force_n: float, speed_rad_per_s: float) -> s
 def doubt_of_mass(
     table: str, force_n: float, mass_kg: float, radius_m: float, speed_rpm: float
 ) -> str:
-    """What is doubtful in a moving mass beside a table of forces; empty where nothing.
+    """Say what is doubtful in a moving mass beside a table of forces; empty where nothing.
 
     Parameters
     ----------
-    table : of the mass
+    table : table of the mass
     force_n : peak at order 1 along its stroke
-    mass_kg, radius_m : of the mass, half its stroke
-    speed_rpm : of the shaft
+    mass_kg, radius_m : mass and radius of the moving part; the radius is half its stroke
+    speed_rpm : speed of the shaft
     """
     inertia = mass_kg * radius_m * (2.0 * pi * shaft_frequency_hz(speed_rpm)) ** 2
     if force_n / INERTIA_FACTOR <= inertia <= force_n * INERTIA_FACTOR:

@@ -1,1 +1,1 @@
-"""What measurements alone say: orders, levels, sound power, forces, and levels after a change."""
+"""Results of measurements: orders, levels, sound power, forces, and levels after a change."""

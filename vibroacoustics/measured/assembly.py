@@ -15,17 +15,17 @@ from .settings import Measured, Point
 
 @dataclass(frozen=True)
 class Bench:
-    """What was measured, each function once, and which of them is where.
+    """Measurements, each function once, and which of them is where.
 
     Attributes
     ----------
     frequency_hz : shape (frequency,)
     values, error : functions and the RMS of their complex error, shape (function, frequency)
     compliance : function of each pair of points, shape (point, point)
-    transfer : of each microphone by point, shape (receiver, point)
-    response : of each point, shape (point,)
-    pressure : of each microphone, shape (receiver,)
-    sign : of each point's direction, shape (point,)
+    transfer : response of each microphone by point, shape (receiver, point)
+    response : response of each point, shape (point,)
+    pressure : pressure of each microphone, shape (receiver,)
+    sign : sign of each point's direction, shape (point,)
     """
 
     frequency_hz: Array
@@ -52,8 +52,10 @@ def assemble(settings: Measured, names: Sequence[str], folder: Path) -> Bench:
     points = [node_of(settings.points[name]) for name in names]
     nodes = [unsigned(point) for point in points]
     microphones = [node_of(microphone) for microphone in settings.microphones.values()]
-    compliance = [[library.response(one, other, "m") for other in nodes] for one in nodes]
-    transfer = [[library.response(one, other, "Pa") for other in nodes] for one in microphones]
+    compliance = [[library.response(node, other, "m") for other in nodes] for node in nodes]
+    transfer = [
+        [library.response(microphone, other, "Pa") for other in nodes] for microphone in microphones
+    ]
     response = [library.operating(node, "m") for node in nodes]
     pressure = [library.operating(node, "Pa") for node in microphones]
     values, errors = library.estimates

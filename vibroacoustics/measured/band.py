@@ -17,72 +17,77 @@ _GOOD_ENOUGH: Final = 1.01
 """The least truncation is taken whose error is within this factor of the least error."""
 
 
-def amplitude_band(estimate: ComplexArray, drawn: ComplexArray) -> tuple[Array, Array]:
+def amplitude_band(estimate: ComplexArray, sampled: ComplexArray) -> tuple[Array, Array]:
     """Amplitudes whose noise gives the estimate or less, and or more, with 5 % each.
 
     The error of a response is, to first order in errors of measured complex values, complex
     normal and circular, so that the squared amplitude over half the variance is noncentral χ² of
     two degrees of freedom: its limits are those noncentralities that put the estimate at 95 % and
     at 5 % of the distribution. Quantiles of the drawn amplitudes themselves lie too high where
-    noise exceeds the response. The variance is that of the draws' median, |e|² / ln 2, which a few
-    near-singular draws do not move. The estimate itself is always within.
+    noise exceeds the response. The variance is that of the samples' median, |e|² / ln 2, which a
+    few near-singular samples do not move. The estimate itself is always within.
 
     Parameters
     ----------
     estimate : complex, any shape
-    drawn : estimates of measurements drawn again, shape (draw, ...)
+    sampled : estimates from sampled measurements, shape (sample, ...)
 
     Returns
     -------
     lower and upper limits, the shape of the estimate
     """
-    variance = np.median(np.abs(drawn - estimate) ** 2, axis=0) / np.log(2.0)
+    variance = np.median(np.abs(sampled - estimate) ** 2, axis=0) / np.log(2.0)
     half = np.maximum(variance, np.finfo(float).tiny) / 2.0
     size = np.abs(estimate) ** 2 / half
     # far above the noise the normal distribution is the limit, and χ² loses its digits
     far = size > 1e6
-    at = np.where(far, 1.0, size)
+    bounded = np.where(far, 1.0, size)
     limits = []
     for probability, normal in ((0.5 + SHARE / 2.0, -1.0), (0.5 - SHARE / 2.0, 1.0)):
-        inner = chndtr(at, 2.0, 0.0) < probability
-        power = np.where(inner, 0.0, chndtrinc(np.where(inner, 9.0, at), 2.0, probability))
+        inner = chndtr(bounded, 2.0, 0.0) < probability
+        power = np.where(inner, 0.0, chndtrinc(np.where(inner, 9.0, bounded), 2.0, probability))
         near = np.sqrt(power * half)
         limits.append(np.where(far, np.abs(estimate) + normal * 1.645 * np.sqrt(half), near))
     return np.minimum(limits[0], np.abs(estimate)), np.maximum(limits[1], np.abs(estimate))
 
 
-def power_band(estimate: Array, drawn: Array) -> tuple[Array, Array]:
+def power_band(estimate: Array, sampled: Array) -> tuple[Array, Array]:
     """Band of a sum of powers, or of a ratio of such sums, not below zero.
 
-    Quantiles of the draws, reflected at the estimate: draws lie above the estimate by the power of
-    their noise, and the estimate lies as much above the truth. Basic bootstrap, Davison and
+    Quantiles of the samples, reflected at the estimate: samples lie above the estimate by the power
+    of their noise, and the estimate lies as much above the truth. Basic bootstrap, Davison and
     Hinkley, Bootstrap Methods and their Application, section 5.2.1.
 
     Parameters
     ----------
     estimate : any shape
-    drawn : shape (draw, ...)
+    sampled : samples, shape (sample, ...)
     """
-    low, high = np.quantile(drawn, [0.5 - SHARE / 2.0, 0.5 + SHARE / 2.0], axis=0)
+    low, high = np.quantile(sampled, [0.5 - SHARE / 2.0, 0.5 + SHARE / 2.0], axis=0)
     return np.maximum(2.0 * estimate - high, 0.0), np.maximum(2.0 * estimate - low, 0.0)
 
 
 def truncation_errors(
-    of_measured: ComplexArray, of_draws: Sequence[Callable[[float], ComplexArray]]
+    of_measured: ComplexArray, of_samples: Sequence[Callable[[float], ComplexArray]]
 ) -> Array:
     """Mean error of a line's level for each of `TRIED`, dB, shape (truncation,).
 
-    As if the measurements were the truth, and those drawn again were measured.
+    The measurements count as the truth, their samples as measured.
 
     Parameters
     ----------
     of_measured : predicted without truncation, shape (...)
-    of_draws : each predicts from measurements drawn again, with a truncation
+    of_samples : each predicts from measurements drawn again, with a truncation
     """
     level = sound_pressure_level(of_measured)
     return np.array(
         [
-            np.mean([np.abs(sound_pressure_level(one(share)) - level).mean() for one in of_draws])
+            np.mean(
+                [
+                    np.abs(sound_pressure_level(of_sample(share)) - level).mean()
+                    for of_sample in of_samples
+                ]
+            )
             for share in TRIED
         ]
     )
@@ -93,7 +98,7 @@ def chosen_truncation(errors: Array) -> float:
 
     Parameters
     ----------
-    errors : of each of `TRIED`
+    errors : errors of each of `TRIED`, shape (truncation,)
     """
     good = errors <= _GOOD_ENOUGH * errors.min()
     return TRIED[int(np.argmax(good))]

@@ -27,7 +27,7 @@ class Inverted:
     ----------
     force : along each set of forces, N, shape (frequency, set)
     predicted : m or Pa, shape (frequency, validation)
-    measured : the same while the source ran
+    measured : responses while the source ran, shape (frequency, validation)
     """
 
     force: ComplexArray
@@ -89,26 +89,26 @@ def _inverted(measurement: Measurement, truncation: float) -> Inverted:
 
 def _truncation(settings: BlockedForces, measurement: Measurement) -> tuple[float, Array]:
     """The truncation, given or chosen, and what each tried one makes wrong; see docs."""
-    given = settings.measured.truncation_ratio
+    stated = settings.measured.truncation_ratio
     rows, columns = measurement.compliance.shape[1:]
-    if rows == columns:  # without one response the others do not tell the forces
-        return given or 0.0, np.full(len(TRIED), np.nan)
+    if rows == columns:  # without one response the others do not determine the forces
+        return stated or 0.0, np.full(len(TRIED), np.nan)
     made = left_out_responses(measurement.operating, measurement.compliance, TRIED)
     levels = level_of_amplitude(np.abs(made)) - level_of_amplitude(np.abs(measurement.operating))
     errors = np.abs(levels).mean(axis=(1, 2))
-    return chosen_truncation(errors) if given is None else given, errors
+    return chosen_truncation(errors) if stated is None else stated, errors
 
 
 def _labelled(settings: BlockedForces, bench: InSitu, path: Path) -> xr.Dataset:
     measurement = bench.measurement(bench.values)
     truncation, errors = _truncation(settings, measurement)
     again = measured_again(bench.values, bench.error, settings.measured.draws)
-    drawn = [_inverted(bench.measurement(values), truncation) for values in again]
+    samples = [_inverted(bench.measurement(values), truncation) for values in again]
     result, interface = _inverted(measurement, truncation), settings.blocked_forces
     frequency = {"frequency": bench.frequency_hz}
     variables = force_variables(
         result.force @ bench.sets.T,
-        np.stack([one.force for one in drawn]) @ bench.sets.T,
+        np.stack([sample.force for sample in samples]) @ bench.sets.T,
         {"force_point": list(interface.points), **frequency},
         wrench_per_force(settings) if settings.needs_positions else None,
     )
@@ -119,8 +119,8 @@ def _labelled(settings: BlockedForces, bench: InSitu, path: Path) -> xr.Dataset:
     variables |= validation_variables(
         result.predicted,
         result.measured,
-        np.array([one.predicted for one in drawn]),
-        np.array([one.measured for one in drawn]),
+        np.array([sample.predicted for sample in samples]),
+        np.array([sample.measured for sample in samples]),
         units,
         {"validation_point": list(interface.validation), **frequency},
     )

@@ -1,4 +1,4 @@
-"""What a file for `blocked-forces` may say."""
+"""Settings of a file for `blocked-forces`."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,7 +19,7 @@ class MeasuredBench(Measured):
 
 
 class Position(Parameters):
-    """Of a point, from the machine's centre of mass at rest, in its axes."""
+    """Position of a point, from the machine's centre of mass at rest, in its axes."""
 
     x_m: float = Field(ge=-10.0, le=10.0)
     y_m: float = Field(ge=-10.0, le=10.0)
@@ -27,7 +27,8 @@ class Position(Parameters):
 
 
 class Interface(Parameters):
-    """Where a source hands its forces on, and what they are inverted from and validated at."""
+    """Interface at which a source hands its forces on, and the nodes of inversion and
+    validation."""
 
     points: tuple[str, ...] = Field(min_length=1)
     responses: tuple[str, ...] = Field(min_length=1)
@@ -35,7 +36,7 @@ class Interface(Parameters):
     rigid_source: bool = False
     """Whether the points move as one rigid body, so that only its force and moment count."""
     speed_rpm: float | None = Field(default=None, ge=60.0, le=60000.0)
-    """At which it ran; its orders are written where it is given."""
+    """Speed at which it ran; its orders are written where it is given."""
     positions: dict[str, Position] = Field(default_factory=dict)
 
 
@@ -54,22 +55,22 @@ class BlockedForces(Parameters):
         return self
 
     def _problems(self) -> Iterator[str]:
-        """What names something that is not there or does not fit, or nothing."""
+        """Yield names that do not exist or do not fit, or nothing."""
         interface, measured = self.blocked_forces, self.measured
-        both = set(measured.points) & set(measured.microphones)
-        if both:
-            yield f"measured.microphones.{min(both)}: is the name of a point too"
-        for field, known in {
+        in_both_tables = set(measured.points) & set(measured.microphones)
+        if in_both_tables:
+            yield f"measured.microphones.{min(in_both_tables)}: is the name of a point too"
+        for field, names_of_kind in {
             "points": [*measured.points],
             "responses": [*measured.points],
             "validation": [*measured.points, *measured.microphones],
         }.items():
             names: tuple[str, ...] = getattr(interface, field)
             for name in names:
-                if name not in known:
+                if name not in names_of_kind:
                     yield (
                         f"blocked_forces.{field} = {name}: no such point; known are "
-                        f"{', '.join(known)}"
+                        f"{', '.join(names_of_kind)}"
                     )
             if len(set(names)) < len(names):
                 yield f"blocked_forces.{field}: names a point twice"
@@ -90,8 +91,8 @@ class BlockedForces(Parameters):
     def needs_positions(self) -> bool:
         """Whether positions of the points are given or asked for."""
         interface = self.blocked_forces
-        asked = interface.rigid_source or interface.speed_rpm is not None
-        return asked or bool(interface.positions)
+        is_mount_model = interface.rigid_source or interface.speed_rpm is not None
+        return is_mount_model or bool(interface.positions)
 
 
 def load_blocked_forces(path: Path) -> BlockedForces:

@@ -21,18 +21,18 @@ Variables = dict[str, xr.DataArray]
 
 
 def force_variables(
-    force: ComplexArray, drawn: ComplexArray, coords: Mapping[str, Any], wrench: Array | None
+    force: ComplexArray, sampled: ComplexArray, coords: Mapping[str, Any], wrench: Array | None
 ) -> Variables:
     """Forces with their band, and their sum and moment where positions are known.
 
     Parameters
     ----------
     force : peak, N, shape (frequency, point)
-    drawn : of measurements drawn again, shape (draw, frequency, point)
+    sampled : samples of the forces by measurements with errors, shape (sample, frequency, point)
     coords : `force_point` and `frequency`
     wrench : force and moment per force, shape (6, point)
     """
-    low, high = amplitude_band(force, drawn)
+    low, high = amplitude_band(force, sampled)
     variables = {
         "blocked_force": stamp("blocked_force", force.T, coords),
         "blocked_force_low": stamp("blocked_force_low", low.T, coords),
@@ -40,16 +40,16 @@ def force_variables(
     }
     if wrench is not None:
         total = wrench @ force.T
-        at = {"axis": list(AXES), "frequency": coords["frequency"]}
-        variables["blocked_force_sum"] = stamp("blocked_force_sum", total[:3], at)
-        variables["blocked_moment_sum"] = stamp("blocked_moment_sum", total[3:], at)
+        coordinates = {"axis": list(AXES), "frequency": coords["frequency"]}
+        variables["blocked_force_sum"] = stamp("blocked_force_sum", total[:3], coordinates)
+        variables["blocked_moment_sum"] = stamp("blocked_moment_sum", total[3:], coordinates)
     return variables
 
 
 def inversion_variables(
     condition: Array, truncation: float, errors: Array, frequency_hz: Array
 ) -> Variables:
-    """How well the inversion is conditioned, and what its truncation was chosen by."""
+    """Return the condition of the inversion, and the errors that its truncation was chosen by."""
     tried = {"tried_truncation": list(TRIED)}
     return {
         "condition_number": stamp("condition_number", condition, {"frequency": frequency_hz}),
@@ -61,8 +61,8 @@ def inversion_variables(
 def validation_variables(
     predicted: ComplexArray,
     measured: ComplexArray,
-    drawn: ComplexArray,
-    drawn_measured: ComplexArray,
+    sampled: ComplexArray,
+    sampled_measurement: ComplexArray,
     units: Sequence[str],
     coords: Mapping[str, Any],
 ) -> Variables:
@@ -71,7 +71,8 @@ def validation_variables(
     Parameters
     ----------
     predicted, measured : displacement, m, or pressure, Pa, shape (frequency, validation)
-    drawn, drawn_measured : of measurements drawn again, shape (draw, frequency, validation)
+    sampled, sampled_measurement : samples by measurements with errors, shape (sample, frequency,
+        validation)
     units : `m` or `Pa` of each; displacements become accelerations
     coords : `validation_point` and `frequency`
     """
@@ -81,8 +82,8 @@ def validation_variables(
     # effective values over the reference
     scale = np.where(are_points, derived, 1.0 / REFERENCE_PRESSURE_PA) / np.sqrt(2.0)
     predicted, measured = predicted * scale, measured * scale
-    drawn, drawn_measured = drawn * scale, drawn_measured * scale
-    low, high = amplitude_band(predicted, drawn)
+    sampled, sampled_measurement = sampled * scale, sampled_measurement * scale
+    low, high = amplitude_band(predicted, sampled)
     lines = {
         "validation_measured": np.abs(measured),
         "validation_predicted": np.abs(predicted),
@@ -90,7 +91,7 @@ def validation_variables(
         "validation_predicted_high": high,
         "validation_difference": np.abs(predicted) / np.maximum(np.abs(measured), 1e-300),
     }
-    at = {
+    coordinates = {
         **coords,
         "validation_quantity": (
             "validation_point",
@@ -98,24 +99,25 @@ def validation_variables(
         ),
     }
     variables = {
-        name: stamp(name, level_of_amplitude(values).T, at) for name, values in lines.items()
+        name: stamp(name, level_of_amplitude(values).T, coordinates)
+        for name, values in lines.items()
     }
     bands = bands_between(3, frequency[0], frequency[-1])
-    by_band = {key: value for key, value in at.items() if key != "frequency"}
+    by_band = {key: value for key, value in coordinates.items() if key != "frequency"}
     return variables | _band_variables(
         _powers(predicted, frequency, bands),
         _powers(measured, frequency, bands),
-        _powers(drawn, frequency, bands) / _powers(drawn_measured, frequency, bands),
+        _powers(sampled, frequency, bands) / _powers(sampled_measurement, frequency, bands),
         {**by_band, "band": [band.nominal_hz for band in bands]},
     )
 
 
 def _band_variables(
-    predicted: Array, measured: Array, ratios: Array, at: Mapping[str, Any]
+    predicted: Array, measured: Array, ratios: Array, coordinates: Mapping[str, Any]
 ) -> Variables:
-    """Of powers re the reference, shape (validation, band); empty bands are no numbers.
+    """Levels of powers re the reference, shape (validation, band); empty bands are no numbers.
 
-    `ratios` are those of measurements drawn again, shape (draw, validation, band).
+    `ratios` are those of sampled measurements, shape (sample, validation, band).
     """
     ratio = predicted / measured
     low, high = power_band(ratio, ratios)
@@ -126,11 +128,14 @@ def _band_variables(
         "validation_band_difference_low": low,
         "validation_band_difference_high": high,
     }
-    return {name: stamp(name, level_of_power(values), at) for name, values in powers.items()}
+    return {
+        name: stamp(name, level_of_power(values), coordinates) for name, values in powers.items()
+    }
 
 
 def _powers(values: ComplexArray, frequency_hz: Array, bands: Sequence[Band]) -> Array:
-    """Of all lines of each band, shape (..., validation, band); no number where it has none."""
+    """Power of all lines of each band, shape (..., validation, band); no number where it has
+    none."""
     numbers = third_octave_number(np.array([band.middle_hz for band in bands]))
     lines = third_octave_number(frequency_hz)[:, None] == numbers
     powers = np.swapaxes(np.abs(values) ** 2, -1, -2) @ lines.astype(float)

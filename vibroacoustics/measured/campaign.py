@@ -56,7 +56,7 @@ def analyse_campaign(
 
     Parameters
     ----------
-    files : of the recordings, each once
+    files : files of the recordings, each once
     run_of : gives labels, reading and analysis of a file, such as `load_campaign(path).run_of`
     progress : called with the advance
 

@@ -155,7 +155,7 @@ class CampaignRun(NamedTuple):
 
     Attributes
     ----------
-    file : of the recording
+    file : file of the recording
     machine, run : labels
     reading : arguments of `read_recording`
     analysis : speed and orders

@@ -30,7 +30,7 @@ def changed_response(
     compliance : B Y Bᵀ, elongation per pair of forces, m/N, shape (frequency, element, element)
     elongation : B u, before the change, shape (frequency, element)
     stiffness_change : dZ, dynamic stiffness, N/m, shape (frequency, element, element)
-    truncation : singular values of I + dZ B Y Bᵀ below this share of the largest are left out
+    truncation : singular values of I + dZ B Y Bᵀ below this share of the largest are omitted
 
     Returns
     -------
@@ -59,16 +59,16 @@ def changed_response(
 
 
 def _solve(matrix: ComplexArray, right: ComplexArray, truncation: float) -> ComplexArray:
-    """Solution of each system, of its larger singular values alone where some are left out."""
+    """Solution of each system, of its larger singular values alone where some are omitted."""
     if truncation == 0.0:
         try:
             return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
         except np.linalg.LinAlgError:
             raise SolverError("the changed structure resonates without damping") from None
-    left, sizes, rows = np.linalg.svd(matrix)
+    left_vectors, sizes, rows = np.linalg.svd(matrix)
     kept = sizes > truncation * sizes[..., :1]
     inverse = np.where(kept, 1.0 / np.where(kept, sizes, 1.0), 0.0)
-    parts = inverse * (left.conj().swapaxes(-1, -2) @ right[..., None])[..., 0]
+    parts = inverse * (left_vectors.conj().swapaxes(-1, -2) @ right[..., None])[..., 0]
     return np.asarray((rows.conj().swapaxes(-1, -2) @ parts[..., None])[..., 0])
 
 
@@ -80,7 +80,7 @@ def mount_stiffness(
     Parameters
     ----------
     frequency_hz : shape (frequency,)
-    stiffness_n_per_m, loss_factor : of all frequencies, or shape (frequency,)
+    stiffness_n_per_m, loss_factor : stiffness and loss factor, one number or shape (frequency,)
     """
     return np.asarray(
         np.broadcast_to(stiffness_n_per_m * (1.0 + 1j * loss_factor), frequency_hz.shape)
@@ -102,8 +102,9 @@ def absorber_stiffness(
     Parameters
     ----------
     frequency_hz : shape (frequency,)
-    mass_kg : of the absorber
-    stiffness_n_per_m, loss_factor : of its spring, loss above zero where it is excited in tune
+    mass_kg : mass of the absorber
+    stiffness_n_per_m, loss_factor : stiffness and loss factor of its spring, loss above zero where
+        it is excited in tune
     """
     inertia = mass_stiffness(frequency_hz, mass_kg)
     spring = stiffness_n_per_m * (1.0 + 1j * loss_factor)

@@ -12,11 +12,11 @@ from .settings import Change, Prediction
 
 @dataclass(frozen=True)
 class Elements:
-    """What a change puts between points.
+    """Elements of a change between points.
 
     Attributes
     ----------
-    elongation : of each element by the points' displacements, shape (element, point)
+    elongation : elongation of each element by the points' displacements, shape (element, point)
     stiffness : change of its dynamic stiffness, N/m, shape (frequency, element, element)
     """
 
@@ -49,13 +49,13 @@ def elements_of(settings: Prediction, change: Change, frequency_hz: Array) -> El
         stiffness += [mass_stiffness(frequency_hz, mass.mass_kg)] * len(mass.points)
     for absorber in change.absorbers.values():
         rows += [_row(points, point) for point in absorber.points]
-        one = absorber_stiffness(
+        absorber_n_per_m = absorber_stiffness(
             frequency_hz,
             absorber.mass_kg,
             absorber.stiffness_n_per_m,
             absorber.loss_factor_ratio,
         )
-        stiffness += [one] * len(absorber.points)
+        stiffness += [absorber_n_per_m] * len(absorber.points)
     matrices = np.einsum("ef,eg->feg", np.array(stiffness), np.eye(len(rows)))
     return Elements(np.array(rows), matrices)
 

@@ -27,7 +27,8 @@ def naming_settings(path: Path) -> Iterator[None]:
 def attributes(
     command: str, path: Path, title: str, settings: Parameters, measured: Measured
 ) -> dict[str, Any]:
-    """Where a result of measured functions comes from: settings, hashes of files, software."""
+    """Return the provenance of a result of measured functions: settings, hashes of files,
+    software."""
     parameters = canonical_json(settings.model_dump(mode="json"))
     named = (*measured.frequency_responses, *measured.operating)
     files = {name: sha256((path.parent / name).read_bytes()) for name in named}

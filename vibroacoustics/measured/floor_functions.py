@@ -52,13 +52,14 @@ def _of_foot(points: Sequence[FloorPoint], groups: dict[Key, list[MeasuredFuncti
     frequency, vertical = by_axis[True]
     lateral: ComplexArray = np.zeros(frequency.size, dtype=complex)
     if False in by_axis:
-        at, values = by_axis[False]
-        if at[0] > frequency[0] or at[-1] < frequency[-1]:
+        sideways_hz, values = by_axis[False]
+        if sideways_hz[0] > frequency[0] or sideways_hz[-1] < frequency[-1]:
             raise ParameterError(
-                f"measured.floor: {points[0].foot}: sideways from {at[0]:g} to {at[-1]:g} Hz, must "
-                f"cover {frequency[0]:g} to {frequency[-1]:g} Hz as up and down"
+                f"measured.floor: {points[0].foot}: sideways from {sideways_hz[0]:g} to "
+                f"{sideways_hz[-1]:g} Hz, must cover {frequency[0]:g} to "
+                f"{frequency[-1]:g} Hz as up and down"
             )
-        lateral = np.interp(frequency, at, values)
+        lateral = np.interp(frequency, sideways_hz, values)
     columns = [frequency, *(part(each) for each in (vertical, lateral) for part in (abs, np.angle))]
     return np.stack(columns, axis=1)
 
@@ -75,12 +76,15 @@ def _driving_point(
             "files"
         )
     first = functions[0].frequency_hz
-    for one in functions:
-        if one.reference_unit != "N":
+    for function in functions:
+        if function.reference_unit != "N":
             raise ParameterError(
-                f"measured.floor: {one}: reference in {one.reference_unit}: must be a force, N"
+                f"measured.floor: {function}: reference in {function.reference_unit}: "
+                "must be a force, N"
             )
-        if one.frequency_hz.shape != first.shape or not np.allclose(one.frequency_hz, first):
-            raise ParameterError(f"measured.floor: {one}: repeats differ in their frequencies")
-    mobilities = [one.with_response_in("m/s").values for one in functions]
+        if function.frequency_hz.shape != first.shape or not np.allclose(
+            function.frequency_hz, first
+        ):
+            raise ParameterError(f"measured.floor: {function}: repeats differ in their frequencies")
+    mobilities = [function.with_response_in("m/s").values for function in functions]
     return first, np.asarray(np.mean(mobilities, axis=0))

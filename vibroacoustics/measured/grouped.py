@@ -27,7 +27,7 @@ def signs(nodes: Sequence[Node]) -> Array:
 def read_all(
     names: Sequence[str], units: Mapping[str, str], folder: Path = Path()
 ) -> list[MeasuredFunction]:
-    """Functions of some files, of a folder where their names do not tell it."""
+    """Functions of some files, of a folder where their names do not show it."""
     return [function for name in names for function in read_functions(folder / name, units=units)]
 
 

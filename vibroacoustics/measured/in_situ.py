@@ -21,9 +21,9 @@ class Measurement:
 
     Attributes
     ----------
-    compliance : of the responses, m/N, shape (frequency, response, force)
-    operating : of the responses, m, shape (frequency, response)
-    transfer : of the validation, m/N or Pa/N, shape (frequency, validation, force)
+    compliance : compliance of the responses, m/N, shape (frequency, response, force)
+    operating : operating of the responses, m, shape (frequency, response)
+    transfer : transfer of the validation, m/N or Pa/N, shape (frequency, validation, force)
     validation : m or Pa, shape (frequency, validation)
     """
 
@@ -35,16 +35,17 @@ class Measurement:
 
 @dataclass(frozen=True)
 class InSitu:
-    """What was measured, each function once, and which of them is where.
+    """Measurements, each function once, and which of them is where.
 
     Attributes
     ----------
     frequency_hz : shape (frequency,)
     values, error : functions and the RMS of their complex error, shape (function, frequency)
-    compliance, transfer : function of each response and validation by force
-    operating, validation : function of each response and validation
-    forces, responses, validations : sign of each one's direction
-    sets : of forces that are solved for, shape (force, set)
+    compliance, transfer : numbers of functions, shapes (response, force) and (validation, force)
+    operating, validation : numbers of functions, shapes (response,) and (validation,)
+    forces, responses, validations : signs of directions, shapes (force,), (response,) and
+        (validation,)
+    sets : sets of forces that are solved for, shape (force, set)
     """
 
     frequency_hz: Array
@@ -83,9 +84,9 @@ def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
     """
     interface, measured = settings.blocked_forces, settings.measured
     library = Library(measured, folder)
-    known = measured.points | measured.microphones
+    nodes = measured.points | measured.microphones
     forces, responses, validations = (
-        [node_of(known[name]) for name in names]
+        [node_of(nodes[name]) for name in names]
         for names in (interface.points, interface.responses, interface.validation)
     )
     units = [unit_of(settings, name) for name in interface.validation]
@@ -120,7 +121,7 @@ def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
 
 
 def unit_of(settings: BlockedForces, name: str) -> str:
-    """Of what a point or a microphone measures: m or Pa."""
+    """Unit of what a point or a microphone measures: m or Pa."""
     return "m" if name in settings.measured.points else "Pa"
 
 
@@ -133,4 +134,7 @@ def wrench_per_force(settings: BlockedForces) -> Array:
         [(-1.0 if along[0] == "-" else 1.0) * float(along[-1] == each) for each in "xyz"]
         for along in directions
     ]
-    return rigid_wrench(np.array([(at.x_m, at.y_m, at.z_m) for at in positions]), np.array(vectors))
+    return rigid_wrench(
+        np.array([(position.x_m, position.y_m, position.z_m) for position in positions]),
+        np.array(vectors),
+    )

@@ -59,14 +59,14 @@ def truncated_inverses(matrix: ComplexArray, truncations: Sequence[float]) -> Co
     Parameters
     ----------
     matrix : shape (frequency, row, column)
-    truncations : shares of the largest singular value below which others are left out
+    truncations : shares of the largest singular value below which others are omitted
     """
-    left, sizes, right = np.linalg.svd(matrix, full_matrices=False)
+    left_vectors, sizes, right = np.linalg.svd(matrix, full_matrices=False)
     inverses = []
     for truncation in truncations:
         kept = sizes > max(truncation, ROUNDING) * sizes[..., :1]
         inverse = np.where(kept, 1.0 / np.where(kept, sizes, 1.0), 0.0)
-        inverses.append((right.conj().swapaxes(-1, -2) * inverse[:, None]) @ _adjoint(left))
+        inverses.append((right.conj().swapaxes(-1, -2) * inverse[:, None]) @ _adjoint(left_vectors))
     return np.array(inverses)
 
 
@@ -91,16 +91,16 @@ def left_out_responses(
 
     Parameters
     ----------
-    response, compliance : as of `inverted_forces`; more responses than forces
+    response, compliance : see `inverted_forces`; more responses than forces
     truncations : to try
     """
     count = response.shape[1]
     made = np.empty((len(truncations), *response.shape), dtype=complex)
-    for left in range(count):
-        others = [row for row in range(count) if row != left]
+    for omitted in range(count):
+        others = [row for row in range(count) if row != omitted]
         inverses = truncated_inverses(compliance[:, others], truncations)
         forces = inverses @ response[:, others, None]
-        made[:, :, left] = (compliance[:, left, None] @ forces)[..., 0, 0]
+        made[:, :, omitted] = (compliance[:, omitted, None] @ forces)[..., 0, 0]
     return made
 
 
@@ -109,7 +109,7 @@ def rigid_wrench(position_m: Array, direction: Array) -> Array:
 
     Parameters
     ----------
-    position_m : of the points from the centre of mass, shape (point, 3)
+    position_m : position of the points from the centre of mass, shape (point, 3)
     direction : unit vectors, shape (point, 3)
     """
     return np.asarray(np.concatenate([direction, np.cross(position_m, direction)], axis=1).T)
@@ -124,8 +124,8 @@ def rigid_forces(wrench: Array) -> Array:
     ----------
     wrench : per unit force at each point, shape (6, point)
     """
-    left, sizes, _ = np.linalg.svd(wrench.T, full_matrices=False)
-    return np.asarray(left[:, sizes > 1e-9 * sizes[0]])
+    left_vectors, sizes, _ = np.linalg.svd(wrench.T, full_matrices=False)
+    return np.asarray(left_vectors[:, sizes > 1e-9 * sizes[0]])
 
 
 def _adjoint(matrix: ComplexArray) -> ComplexArray:

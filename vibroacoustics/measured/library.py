@@ -165,7 +165,7 @@ class Library:
         return np.asarray(lines)
 
     def _kept(self, function: MeasuredFunction) -> Array:
-        """Which lines of an operating function count."""
+        """Lines of an operating function that count."""
         responses = [f.frequency_hz for each in self._responses.values() for f in each]
         low = max(*(f[0] for f in responses), self._settings.lowest_frequency_hz)
         high = min(*(f[-1] for f in responses), self._settings.highest_frequency_hz)

@@ -55,7 +55,7 @@ def supplies_within_slip(speed_rpm: float) -> Iterator[Supply]:
 
     Parameters
     ----------
-    speed_rpm : of the shaft under load
+    speed_rpm : speed of the shaft under load
     """
     for mains_hz in MAINS_HZ:
         for pole_pairs in range(1, MOST_POLE_PAIRS + 1):

@@ -1,4 +1,4 @@
-"""Where the microphones of a sound power measurement stand."""
+"""Measurement surface of a sound power measurement: positions of its microphones."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ class MeasurementSurface:
     Attributes
     ----------
     name : in words, with its sizes
-    area_m2 : of the surface
+    area_m2 : area of the surface
     positions : numbers of microphones that the standard has for it
 
     Examples

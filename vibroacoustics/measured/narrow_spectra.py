@@ -19,7 +19,7 @@ from ..study.baseline_files import BaselineContent
 
 BANDS: Final = bands_between(3, LOWEST_HZ, HIGHEST_HZ)
 HIGHEST_ORDER: Final = 100
-"""That is taken out of a spectrum; higher ones count with their band."""
+"""Highest order that is taken out of a spectrum; higher ones count with their band."""
 UNEVEN: Final = 0.01
 """Largest distance of a frequency from its place among even ones, in steps."""
 
@@ -32,8 +32,8 @@ class NarrowSpectrum:
     ----------
     microphone, speed_rpm : where and when
     frequency_hz : shape (line,)
-    mean_square : of a tone on the line, shape (line,), Pa²
-    block_rpm : of the block of a run-up that counts to the speed; none where it is the speed
+    mean_square : mean square of a tone on the line, shape (line,), Pa²
+    block_rpm : block of a run-up that counts to the speed; none where it is the speed
     """
 
     microphone: str
@@ -60,7 +60,7 @@ def of_spectra(
 ) -> BaselineContent:
     """Orders and third octaves of spectra; those of one microphone and speed are averaged.
 
-    Orders and bands that not all speeds of a microphone tell are left out.
+    Orders and bands that some speeds of a microphone lack are omitted.
 
     Parameters
     ----------
@@ -74,51 +74,51 @@ def of_spectra(
         Frequencies are not even, or a spectrum covers no third octave.
     """
     content = BaselineContent()
-    for name in dict.fromkeys(one.microphone for one in spectra):
-        here = [one for one in spectra if one.microphone == name]
+    for name in dict.fromkeys(spectrum.microphone for spectrum in spectra):
+        here = [spectrum for spectrum in spectra if spectrum.microphone == name]
         numbers = np.array(_whole_orders(here) if orders is None else orders, dtype=float)
         by_speed: dict[float, list[TakenApart]] = {}
-        for one in here:
-            by_speed.setdefault(one.speed_rpm, []).append(_apart(one, window, numbers))
-        order = {at: _mean(few, "order") for at, few in by_speed.items()}
-        band = {at: _mean(few, "band") for at, few in by_speed.items()}
+        for spectrum in here:
+            by_speed.setdefault(spectrum.speed_rpm, []).append(_apart(spectrum, window, numbers))
+        order = {speed_rpm: _mean(few, "order") for speed_rpm, few in by_speed.items()}
+        band = {speed_rpm: _mean(few, "band") for speed_rpm, few in by_speed.items()}
         kept = np.all([np.isfinite(each) for each in order.values()], axis=0)
         covered = np.all([np.isfinite(each) for each in band.values()], axis=0)
         if not covered.any():
             raise ParameterError(f"{name}: spectrum covers no third octave")
         for speed in by_speed:
-            at = {"microphone": name, "speed_rpm": speed}
+            row = {"microphone": name, "speed_rpm": speed}
             content.third_octaves.append(
-                at | _bands(covered, band[speed]) | {"without_orders": True}
+                row | _bands(covered, band[speed]) | {"without_orders": True}
             )
             if kept.any():
-                content.orders.append(at | _orders(numbers[kept], order[speed][kept]))
+                content.orders.append(row | _orders(numbers[kept], order[speed][kept]))
     return content
 
 
 def _whole_orders(spectra: Sequence[NarrowSpectrum]) -> list[int]:
-    highest = [int(one.frequency_hz[-1] / one.shaft_hz) for one in spectra]
+    highest = [int(spectrum.frequency_hz[-1] / spectrum.shaft_hz) for spectrum in spectra]
     return list(range(1, min([*highest, HIGHEST_ORDER]) + 1))
 
 
 def _apart(spectrum: NarrowSpectrum, window: str, orders: Array) -> TakenApart:
-    known = WINDOWS[window]
+    lines_of_window = WINDOWS[window]
     return taken_apart(
         spectrum.frequency_hz,
         spectrum.mean_square,
-        0.5 * known.main_lobe_lines,
-        known.noise_bandwidth_lines,
+        0.5 * lines_of_window.main_lobe_lines,
+        lines_of_window.noise_bandwidth_lines,
         orders * spectrum.shaft_hz,
         BANDS,
     )
 
 
 def _mean(few: Sequence[TakenApart], part: str) -> Array:
-    return np.asarray(np.mean([getattr(one, part) for one in few], axis=0))
+    return np.asarray(np.mean([getattr(spectrum, part) for spectrum in few], axis=0))
 
 
 def _bands(covered: Array, square: Array) -> dict[str, object]:
-    names = [band.nominal_hz for band, there in zip(BANDS, covered, strict=True) if there]
+    names = [band.nominal_hz for band, is_covered in zip(BANDS, covered, strict=True) if is_covered]
     return {"band_hz": tuple(names), "level_db": _levels(square[covered])}
 
 

@@ -49,11 +49,11 @@ class OrderRatio:
 
 @dataclass(frozen=True)
 class OptionRatios:
-    """What an option changes in a response.
+    """Ratios of responses with an option to those without it.
 
     Attributes
     ----------
-    speed_rpm : of the study, rising, shape (speed,)
+    speed_rpm : speed of the study, rising, shape (speed,)
     orders : that the option changes, and that can be changed
     unchanged : why other lines that the option changes stay, by name
     """
@@ -70,11 +70,11 @@ def option_ratios(
 
     Parameters
     ----------
-    results : of a run
+    results : results of a run
     option : name in the results
     response : microphone, or channel of the study as `channel_orders` names it
-    lowest_rpm, highest_rpm : of the study's shaft in the recording; ratios at other speeds are not
-        judged
+    lowest_rpm, highest_rpm : lowest and highest speed of the study's shaft in the recording; ratios
+        at other speeds are not judged
 
     Raises
     ------
@@ -171,7 +171,7 @@ def changed_noise_bands(results: xr.Dataset, option: str, response: str) -> list
 
     Parameters
     ----------
-    results : of a run; without noise, none changes
+    results : results of a run; without noise, none changes
     option, response : names in the results
     """
     if "noise_band_level" not in results:
@@ -198,7 +198,7 @@ def _square(results: xr.Dataset, name: str, option: str) -> Array:
 
 
 def _reason(order: float, before: ComplexArray, after: ComplexArray) -> str:
-    """Why a line that the option changes stays as it is; empty where it can be changed."""
+    """Say why a line that the option changes stays as it is; empty where it can be changed."""
     if not order > 0.0:
         return "no shaft order"
     if np.any(before == 0.0):

@@ -21,7 +21,7 @@ from .files import attributes, naming_settings
 from .scatter import measured_again
 from .settings import Prediction, load_prediction
 
-DRAWS_OF_TRUNCATION: Final = 10
+SAMPLES_OF_TRUNCATION: Final = 10
 
 
 def predict(path: str | Path) -> xr.Dataset:
@@ -80,23 +80,26 @@ def _changed(bench: Bench, elements: Elements, truncation: float) -> ComplexArra
 
 def _labelled(settings: Prediction, bench: Bench, path: Path) -> xr.Dataset:
     again = measured_again(bench.values, bench.error, settings.measured.draws)
-    draws = [replace(bench, values=values) for values in again]
+    samples = [replace(bench, values=values) for values in again]
     measured = bench.values[bench.pressure]
-    pressures, drawn = [measured], [np.array([draw.values[draw.pressure] for draw in draws])]
+    pressures, sampled = (
+        [measured],
+        [np.array([sample.values[sample.pressure] for sample in samples])],
+    )
     truncations, errors = [0.0], [[0.0] * len(TRIED)]
     for change in settings.changes.values():
         elements = elements_of(settings, change, bench.frequency_hz)
-        truncation, tried = _truncation(settings, bench, draws, elements)
+        truncation, tried = _truncation(settings, bench, samples, elements)
         truncations.append(truncation)
         errors.append(tried.tolist())
         pressures.append(_changed(bench, elements, truncation))
-        drawn.append(np.array([_changed(draw, elements, truncation) for draw in draws]))
+        sampled.append(np.array([_changed(sample, elements, truncation) for sample in samples]))
     lines = {
         "option": [REFERENCE_OPTION, *settings.changes],
         "receiver": list(settings.measured.microphones),
         "frequency": bench.frequency_hz,
     }
-    by_sample = np.stack(drawn, axis=1)
+    by_sample = np.stack(sampled, axis=1)
     variables = line_variables(np.array(pressures), by_sample, lines)
     variables |= total_variables(np.array(pressures), by_sample, lines)
     tried_at = {"option": lines["option"], "tried_truncation": list(TRIED)}
@@ -109,30 +112,30 @@ def _labelled(settings: Prediction, bench: Bench, path: Path) -> xr.Dataset:
 
 
 def _truncation(
-    settings: Prediction, bench: Bench, draws: Sequence[Bench], elements: Elements
+    settings: Prediction, bench: Bench, samples: Sequence[Bench], elements: Elements
 ) -> tuple[float, Array]:
     """The truncation, given or chosen, and what each tried one makes wrong."""
     tries = [
-        lambda share, draw=draw: _changed(draw, elements, share)
-        for draw in draws[:DRAWS_OF_TRUNCATION]
+        lambda share, sample=sample: _changed(sample, elements, share)
+        for sample in samples[:SAMPLES_OF_TRUNCATION]
     ]
     errors = truncation_errors(_changed(bench, elements, 0.0), tries)
-    given = settings.measured.truncation_ratio
-    return chosen_truncation(errors) if given is None else given, errors
+    stated = settings.measured.truncation_ratio
+    return chosen_truncation(errors) if stated is None else stated, errors
 
 
 def line_variables(
-    pressure: ComplexArray, drawn: ComplexArray, coords: Mapping[str, Any]
+    pressure: ComplexArray, sampled: ComplexArray, coords: Mapping[str, Any]
 ) -> dict[str, xr.DataArray]:
     """Pressure and level of each line with its band.
 
     Parameters
     ----------
     pressure : peak, Pa, shape (option, receiver, frequency)
-    drawn : of measurements drawn again, shape (draw, option, receiver, frequency)
-    coords : of these three
+    sampled : samples by measurements with errors, shape (sample, option, receiver, frequency)
+    coords : coordinates of these three
     """
-    low, high = amplitude_band(pressure, drawn)
+    low, high = amplitude_band(pressure, sampled)
     return {
         "predicted_pressure": stamp("predicted_pressure", pressure, coords),
         "predicted_level": stamp("predicted_level", sound_pressure_level(pressure), coords),
@@ -142,23 +145,31 @@ def line_variables(
 
 
 def total_variables(
-    pressure: ComplexArray, drawn: ComplexArray, coords: Mapping[str, Any]
+    pressure: ComplexArray, sampled: ComplexArray, coords: Mapping[str, Any]
 ) -> dict[str, xr.DataArray]:
     """Level of all lines and its change against the first option; see `line_variables`."""
     frequency = np.asarray(coords["frequency"])
-    at = {"option": coords["option"], "receiver": coords["receiver"], "weighting": list(WEIGHTINGS)}
-    power, powers = _powers(pressure, frequency), _powers(drawn, frequency)
+    coordinates = {
+        "option": coords["option"],
+        "receiver": coords["receiver"],
+        "weighting": list(WEIGHTINGS),
+    }
+    power, powers = _powers(pressure, frequency), _powers(sampled, frequency)
     ratio, ratios = power / power[:1], powers / powers[:, :1]
     low, high = map(level_of_power, power_band(power, powers))
     change_low, change_high = map(level_of_power, power_band(ratio, ratios))
     change_low[0] = change_high[0] = 0.0  # of the reference against itself
     return {
-        "predicted_total_level": stamp("predicted_total_level", level_of_power(power), at),
-        "predicted_total_level_low": stamp("predicted_total_level_low", low, at),
-        "predicted_total_level_high": stamp("predicted_total_level_high", high, at),
-        "predicted_total_change": stamp("predicted_total_change", level_of_power(ratio), at),
-        "predicted_total_change_low": stamp("predicted_total_change_low", change_low, at),
-        "predicted_total_change_high": stamp("predicted_total_change_high", change_high, at),
+        "predicted_total_level": stamp("predicted_total_level", level_of_power(power), coordinates),
+        "predicted_total_level_low": stamp("predicted_total_level_low", low, coordinates),
+        "predicted_total_level_high": stamp("predicted_total_level_high", high, coordinates),
+        "predicted_total_change": stamp(
+            "predicted_total_change", level_of_power(ratio), coordinates
+        ),
+        "predicted_total_change_low": stamp("predicted_total_change_low", change_low, coordinates),
+        "predicted_total_change_high": stamp(
+            "predicted_total_change_high", change_high, coordinates
+        ),
     }
 
 

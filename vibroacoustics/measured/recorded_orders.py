@@ -1,4 +1,4 @@
-"""What is computed from a recording: orders and levels, tracked orders, a map over the speed."""
+"""Results of a recording: orders and levels, tracked orders, a map over the speed."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -81,7 +81,7 @@ def track_orders(
     ----------
     recording : from `read_recording` or `label_recording`
     speed : where the speed comes from: `SpeedChannel`, `NominalSpeed` or `TacholessSpeed`
-    orders : what to track, multiples of the shaft's speed, whole or not
+    orders : multiples of the shaft's speed that are tracked, whole or not
     bandwidth_hz : full width at -3 dB of what passes around each order; below the distance of
         orders that stay side by side, and up to √s where two cross with s Hz/s
     poles : 1, 2 or 3; each steepens the filter by 40 dB a decade
@@ -173,7 +173,7 @@ def _at_once(
     what: str,
     compute: Callable[[xr.DataArray, float, CrankMotion], xr.Dataset],
 ) -> xr.Dataset:
-    """What is computed from all channels but those of the speed, with where it comes from."""
+    """Results of all channels but those of the speed, with their provenance."""
     with provenance.naming(recording.attrs):
         of_shaft = recorded_speed(LabelledBlocks(recording), speed)
         signal = channels_without_speed(recording["signal"], speed)

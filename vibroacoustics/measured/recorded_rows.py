@@ -13,7 +13,8 @@ from ..base.vocabulary import NO_ANGLE_ZERO
 from .narrow_spectra import BANDS
 
 LEAST_COHERENCE: Final = 0.8
-"""Of an order whose phase counts; noise in five independent blocks reaches it once in 600 times."""
+"""Coherence of an order whose phase counts; noise in five independent blocks reaches it once in 600
+times."""
 
 Row = dict[str, Any]
 """Values of `BaselineSpectrum` or `BaselineOrders`."""
@@ -24,19 +25,19 @@ def order_row(results: xr.Dataset, channel: str, key: tuple[str, float], apart: 
 
     Parameters
     ----------
-    results : of `analyse_orders`
+    results : result of `analyse_orders`
     channel : name
     key : microphone and speed
     apart : orders taken out of the narrow band there; the RMS in an order's band stands for others
     """
-    one = results.sel(channel=channel, speed=key[1])
-    one = one.isel(order=one["order"].values > 0.0)
-    orders = one["order"].values.tolist()
-    peak = one["channel_order"].values
+    spectrum = results.sel(channel=channel, speed=key[1])
+    spectrum = spectrum.isel(order=spectrum["order"].values > 0.0)
+    orders = spectrum["order"].values.tolist()
+    peak = spectrum["channel_order"].values
     has_mark = str(results.attrs.get("angle_zero", NO_ANGLE_ZERO)) != NO_ANGLE_ZERO
-    held = (one["channel_order_coherence"].values >= LEAST_COHERENCE) & has_mark
+    held = (spectrum["channel_order_coherence"].values >= LEAST_COHERENCE) & has_mark
     tone = _tones(orders, apart)
-    power = np.where(np.isnan(tone), one["channel_order_rms"].values ** 2, tone)
+    power = np.where(np.isnan(tone), spectrum["channel_order_rms"].values ** 2, tone)
     square = np.where(held, 0.5 * np.abs(peak) ** 2, power)
     phase = zip(np.angle(peak).tolist(), held.tolist(), strict=True)
     return {
@@ -44,19 +45,21 @@ def order_row(results: xr.Dataset, channel: str, key: tuple[str, float], apart: 
         "speed_rpm": key[1],
         "order": tuple(orders),
         "level_db": tuple(mean_square_level(square, REFERENCE_PRESSURE_PA).tolist()),
-        "phase_rad": tuple(value if known else None for value, known in phase),
+        "phase_rad": tuple(value if has_phase else None for value, has_phase in phase),
     }
 
 
 def _tones(orders: list[float], apart: Row | None) -> Array:
     """Mean square of each order above the noise beside it, Pa²; not a number where unknown."""
-    known = {} if apart is None else dict(zip(apart["order"], apart["level_db"], strict=True))
-    level = np.array([known.get(order, np.nan) for order in orders])
+    level_of_order = (
+        {} if apart is None else dict(zip(apart["order"], apart["level_db"], strict=True))
+    )
+    level = np.array([level_of_order.get(order, np.nan) for order in orders])
     return np.asarray(REFERENCE_PRESSURE_PA**2 * power_of_level(level))
 
 
 def band_row(row: Row, orders: Row, apart: Row | None, steady: xr.DataArray | None) -> Row:
-    """Third octaves without the orders, also those that the narrow band did not tell apart.
+    """Third octaves without the orders, also those that the narrow band did not separate.
 
     Parameters
     ----------
@@ -66,21 +69,23 @@ def band_row(row: Row, orders: Row, apart: Row | None, steady: xr.DataArray | No
     steady : levels of the whole recording by band, for bands that the row has not; none of a run-up
     """
     power = dict(zip(row["band_hz"], power_of_level(np.array(row["level_db"])), strict=True))
-    known = set() if apart is None else set(apart["order"])
-    left = {name: float(value) for name, value in power.items()}
+    orders_apart = set() if apart is None else set(apart["order"])
+    remaining_power = {name: float(value) for name, value in power.items()}
     hertz = np.array(orders["order"]) * shaft_frequency_hz(row["speed_rpm"])
     tone = power_of_level(np.array(orders["level_db"]))
-    in_row = np.array([order not in known for order in orders["order"]])
+    in_row = np.array([order not in orders_apart for order in orders["order"]])
     for band in BANDS:
         within = (hertz >= band.lower_hz) & (hertz < band.upper_hz)
         if band.nominal_hz in power:
             off = tone[within & in_row].sum()
         elif steady is not None and band.nominal_hz in steady["band"].values:
-            left[band.nominal_hz] = power_of_level(steady.sel(band=band.nominal_hz).item())
+            remaining_power[band.nominal_hz] = power_of_level(
+                steady.sel(band=band.nominal_hz).item()
+            )
             off = tone[within].sum()
         else:
             continue
-        left[band.nominal_hz] = max(left[band.nominal_hz] - float(off), 0.0)
-    rising = sorted(left)
-    levels = tuple(float(level_of_power(left[name])) for name in rising)
+        remaining_power[band.nominal_hz] = max(remaining_power[band.nominal_hz] - float(off), 0.0)
+    rising = sorted(remaining_power)
+    levels = tuple(float(level_of_power(remaining_power[name])) for name in rising)
     return row | {"band_hz": tuple(rising), "level_db": levels}

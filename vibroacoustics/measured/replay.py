@@ -45,7 +45,7 @@ class Replay(NamedTuple):
     ----------
     summary : levels of orders and of the whole; attribute `unchanged`: reasons by channel and line
     before, after : where the speed is known, in the unit of each channel, shape (channel, time)
-    sample_rate_hz : of both
+    sample_rate_hz : sample rate of both
 
     Examples
     --------
@@ -68,9 +68,9 @@ class _Line(NamedTuple):
     Attributes
     ----------
     name : in the study
-    before : of the order, without noise
+    before : signal of the order, without noise
     noise : within the bandwidth
-    after : of the changed order
+    after : signal of the changed order
     low, high : ends of the interval of `after`
     wider : these ends less `after`, shape (end, weighting)
     has_interval : whether the study has an interval
@@ -106,7 +106,7 @@ def replay(
     Parameters
     ----------
     recording : from `read_recording` or `label_recording`
-    results : of a run
+    results : results of a run
     option : name in the results
     pairs : response of the study by channel of the recording: a microphone, or a channel as
         `compare` names it, such as `foot acceleration rear_left z`

@@ -98,11 +98,11 @@ def run_up_sound(
     Parameters
     ----------
     recording : that was analysed, see `analyse_orders`
-    settings : of the analysis
+    settings : settings of the analysis
     orders : results of the analysis
     channel : one of its channels
     wanted : orders, shape (order,)
-    motion : of the shaft, where it is found already; None to find it by the settings
+    motion : motion of the shaft, where it is known already; None to find it by the settings
 
     Raises
     ------
@@ -142,7 +142,7 @@ def played(signal: Array, sample_rate_hz: float) -> tuple[Array, float]:
     Parameters
     ----------
     signal : shape (sample,)
-    sample_rate_hz : of the signal
+    sample_rate_hz : sample rate of the signal
     """
     up, down = max(int(np.ceil(_LOWEST_RATE_HZ / sample_rate_hz)), 1), 1
     if sample_rate_hz > PLAYED_RATE_HZ:

@@ -53,7 +53,7 @@ def measured_again(values: ComplexArray, error: Array, count: int) -> list[Compl
     Parameters
     ----------
     values, error : estimates and the RMS of their complex error, any shape
-    count : of draws
+    count : number of samples
     """
     random = np.random.default_rng(RANDOM_STATE)
     shape = values.shape

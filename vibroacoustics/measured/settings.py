@@ -1,4 +1,4 @@
-"""What a file for `predict` may say."""
+"""Settings of a file for `predict`."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -42,12 +42,12 @@ class Measured(Parameters):
 
 
 class NewMount(Parameters):
-    """What takes the place of a mount; of stiffness zero where it is removed."""
+    """Mount in place of another; of stiffness zero where it is removed."""
 
     stiffness_n_per_m: float | None = Field(default=None, ge=0.0, le=1e12)
     loss_factor_ratio: float = Field(default=0.0, ge=0.0, le=2.0)
     stiffness: MountStiffness | None = None
-    """Over frequency, in place of the constant one."""
+    """Stiffness over frequency, in place of the constant one."""
 
     @model_validator(mode="after")
     def _one_stiffness(self) -> "NewMount":
@@ -63,11 +63,11 @@ class NewMount(Parameters):
         Parameters
         ----------
         frequency_hz : above zero, shape (frequency,)
-        direction : of the mount, `+x` to `-z`
+        direction : direction of the mount, `+x` to `-z`
         """
         if self.stiffness is not None:
             axis = "xyz".index(direction[-1:] or "z")
-            return np.asarray(self.stiffness.at(frequency_hz)[:, axis])
+            return np.asarray(self.stiffness.dynamic_stiffness(frequency_hz)[:, axis])
         return mount_stiffness(frequency_hz, self.stiffness_n_per_m or 0.0, self.loss_factor_ratio)
 
 
@@ -118,7 +118,7 @@ class Prediction(Parameters):
         return self
 
     def _problems(self) -> Iterator[str]:
-        """What names something that is not there, or nothing."""
+        """Yield names that do not exist, or nothing."""
         points = self.measured.points
         named: list[tuple[str, tuple[str, ...]]] = [
             (f"mounts.{name}.ends", mount.ends) for name, mount in self.mounts.items()
@@ -130,16 +130,16 @@ class Prediction(Parameters):
                 yield f"changes.{name}: changes nothing: needs mounts, masses or absorbers"
             for mount in change.mounts:
                 if mount not in self.mounts:
-                    known = ", ".join(self.mounts) or "none"
-                    yield f"changes.{name}.mounts.{mount}: no such mount; known are {known}"
-            added = [(f"masses.{one}", mass.points) for one, mass in change.masses.items()]
-            added += [(f"absorbers.{one}", each.points) for one, each in change.absorbers.items()]
+                    listed = ", ".join(self.mounts) or "none"
+                    yield f"changes.{name}.mounts.{mount}: no such mount; known are {listed}"
+            added = [(f"masses.{key}", mass.points) for key, mass in change.masses.items()]
+            added += [(f"absorbers.{key}", each.points) for key, each in change.absorbers.items()]
             named += [(f"changes.{name}.{part}.points", used) for part, used in added]
         for where, used in named:
             for point in used:
                 if point not in points:
-                    known = ", ".join(points)
-                    yield f"{where} = {point}: no such point; measured.points has {known}"
+                    listed = ", ".join(points)
+                    yield f"{where} = {point}: no such point; measured.points has {listed}"
             if len(set(used)) < len(used):
                 yield f"{where}: names a point twice"
 

@@ -14,7 +14,7 @@ from .grouped import by_key, read_all, unsigned
 from .library import SAME_FREQUENCY
 
 LEAST_LINES: Final = 3
-"""That make a peak."""
+"""Least number of lines that make a peak."""
 
 
 def read_shell_mobilities(settings: MeasuredShell, highest_hz: float) -> ShellMobilities:
@@ -43,11 +43,11 @@ def read_shell_mobilities(settings: MeasuredShell, highest_hz: float) -> ShellMo
         )
     frequency, kept = _lines(settings, groups["frequency response", *pairs[0]][0], highest_hz)
     rows = [_mean(groups["frequency response", *pair], frequency, kept) for pair in pairs]
-    signs = [wall[one][1] * every[other][1] for one, other in pairs if other is not None]
+    signs = [wall[name][1] * every[other][1] for name, other in pairs if other is not None]
     return ShellMobilities(
         frequency[kept],
         np.array(rows) * np.array(signs)[:, None],
-        tuple(wall[one][0] for one, _ in pairs),
+        tuple(wall[name][0] for name, _ in pairs),
         tuple(every[other][0] for _, other in pairs if other is not None),
         len(groups) - len(pairs),
     )
@@ -79,13 +79,16 @@ def _lines(
 
 
 def _mean(functions: list[MeasuredFunction], frequency_hz: Array, kept: IndexArray) -> ComplexArray:
-    for one in functions:
-        same = one.frequency_hz.shape == frequency_hz.shape
-        if not same or not np.allclose(one.frequency_hz, frequency_hz, rtol=SAME_FREQUENCY):
-            raise ParameterError(f"measured.shell: {one}: has other frequencies than the first")
-        if one.reference_unit != "N":
+    for function in functions:
+        same = function.frequency_hz.shape == frequency_hz.shape
+        if not same or not np.allclose(function.frequency_hz, frequency_hz, rtol=SAME_FREQUENCY):
             raise ParameterError(
-                f"measured.shell: {one}: reference in {one.reference_unit}: must be a force, N"
+                f"measured.shell: {function}: has other frequencies than the first"
             )
-    mobilities = [one.with_response_in("m/s").values[kept] for one in functions]
+        if function.reference_unit != "N":
+            raise ParameterError(
+                f"measured.shell: {function}: reference in {function.reference_unit}: "
+                "must be a force, N"
+            )
+    mobilities = [function.with_response_in("m/s").values[kept] for function in functions]
     return np.asarray(np.mean(mobilities, axis=0))

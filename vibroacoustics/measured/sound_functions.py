@@ -26,7 +26,7 @@ def force_sound_of(study: Study) -> ForceSound:
     Raises
     ------
     ParameterError
-        The files do not fit, or the study asks for what they cannot tell.
+        The files do not fit, or the study needs what they do not hold.
     StorageError
         A file cannot be read.
     """
@@ -34,22 +34,22 @@ def force_sound_of(study: Study) -> ForceSound:
     if settings is None:
         raise ParameterError("measured.sound: the study has no such table")
     fields = ("sound_power", "map", "directivity")
-    asked = [name for name in fields if getattr(study, name) is not None]
-    asked += ["operation.stopping"] * study.operation.stopping
-    asked += ["sources that drive an elastic shell"] * study.drives_shell
-    if asked:
+    unsupported = [name for name in fields if getattr(study, name) is not None]
+    unsupported += ["operation.stopping"] * study.operation.stopping
+    unsupported += ["sources that drive an elastic shell"] * study.drives_shell
+    if unsupported:
         raise ParameterError(
-            f"measured.sound: tells the sound of forces at the microphones alone; leave out "
-            f"{asked[0]}"
+            f"measured.sound: gives the sound of forces at the microphones alone; remove "
+            f"{unsupported[0]}"
         )
-    given = on_mounts(study.machine)
+    machine = on_mounts(study.machine)
     for name, option in study.options.items():
-        if not settings.is_at_feet and on_mounts(option.built_into(study.machine)) != given:
+        if not settings.is_at_feet and on_mounts(option.built_into(study.machine)) != machine:
             raise ParameterError(
                 f"measured.sound: options.{name}: stands otherwise than the machine that was hit; "
                 "hit the floor under the feet, or leave the option out"
             )
-    sound = read_force_sound(settings, list(study.receivers), given)
+    sound = read_force_sound(settings, list(study.receivers), machine)
     lowest = shaft_frequency_hz(min(study.operation.speed_rpm))
     if sound.frequency_hz[0] > lowest:
         raise ParameterError(
@@ -80,8 +80,8 @@ def read_force_sound(
     ]
     frequency = functions[0][0][0]
     for row in functions:
-        for at, _ in row:
-            if at.shape != frequency.shape or not np.allclose(at, frequency):
+        for hertz, _ in row:
+            if hertz.shape != frequency.shape or not np.allclose(hertz, frequency):
                 raise ParameterError("measured.sound: functions differ in their frequencies")
     pressure = np.array([[values for _, values in row] for row in functions])
     if settings.is_at_feet:
@@ -105,7 +105,8 @@ def _by_foot(
 
 
 def _by_wrench(points: Sequence[ForcePoint], pressure: ComplexArray) -> ComplexArray:
-    """Of the least forces at the points that make a wrench, shape (receiver, 6, frequency)."""
+    """Response of the least forces at the points that make a wrench, shape (receiver, 6,
+    frequency)."""
     positions = np.array([(point.x_m, point.y_m, point.z_m) for point in points], dtype=float)
     directions = np.array(
         [[_sign(point) * float(point.direction[1] == axis) for axis in "xyz"] for point in points]
@@ -137,11 +138,14 @@ def _measured(
             f"measured.sound: frequency response {response}/{node} is in none of the files"
         )
     first = functions[0].frequency_hz
-    for one in functions:
-        if (one.response_unit, one.reference_unit) != ("Pa", "N"):
+    for function in functions:
+        if (function.response_unit, function.reference_unit) != ("Pa", "N"):
             raise ParameterError(
-                f"measured.sound: {one}: in {one.response_unit}/{one.reference_unit}, must be Pa/N"
+                f"measured.sound: {function}: in {function.response_unit}/"
+                f"{function.reference_unit}, must be Pa/N"
             )
-        if one.frequency_hz.shape != first.shape or not np.allclose(one.frequency_hz, first):
-            raise ParameterError(f"measured.sound: {one}: repeats differ in their frequencies")
-    return first, np.asarray(np.mean([one.values for one in functions], axis=0))
+        if function.frequency_hz.shape != first.shape or not np.allclose(
+            function.frequency_hz, first
+        ):
+            raise ParameterError(f"measured.sound: {function}: repeats differ in their frequencies")
+    return first, np.asarray(np.mean([function.values for function in functions], axis=0))

@@ -32,8 +32,8 @@ def sound_power(
     recordings : from `read_recording`; every channel of sound pressure is a microphone
     surface : on which they stand
     background : recordings at these microphones while the machine stands still
-    absorption_area_m2 : of the test room, one number or by nominal midband frequency; default: a
-        free field over the floor
+    absorption_area_m2 : absorption area of the test room, one number or by nominal midband
+        frequency; default: a free field over the floor
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What a balancing option adds to a machine."""
+"""Additions of a balancing option to a machine."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ from .moving_parts import MovingPart
 
 @dataclass(frozen=True)
 class RingForce:
-    """Force of what an option hangs on an Oldham ring, along the ring's stroke.
+    """Force of a part that an option adds to an Oldham ring, along the ring's stroke.
 
     Attributes
     ----------
@@ -43,8 +43,8 @@ class FurtherRing:
     mass_kg : mass
     stroke_m : amplitude of its stroke
     height_m : from the centre of mass at rest
-    driven_inertia_kg_m2 : of the piece that it keeps from turning, about its centre; that of the
-        orbiting scroll where it is none
+    driven_inertia_kg_m2 : inertia of the piece that it keeps from turning, about its centre; that
+        of the orbiting scroll where it is none
     moment_n_m : turns this piece against the housing: a spring, drag
     on_ring : force along its stroke, towards its own crank pin at crank angle zero
 
@@ -65,13 +65,13 @@ class FurtherRing:
 
 @dataclass(frozen=True)
 class Added:
-    """What an option adds at one speed.
+    """Additions of an option at one speed.
 
     Attributes
     ----------
     parts : moving parts
     figures : to report of it, by name; the unit is the suffix of the name
-    on_ring : force of what hangs on the machine's Oldham ring; none where nothing does
+    on_ring : force of a part on the machine's Oldham ring; none without one
     rings : further Oldham rings
     on_scroll_n_m : moment between housing and the part that the machine's ring keeps from turning
 
@@ -96,7 +96,7 @@ class InsertionLoss:
 
     Attributes
     ----------
-    band_hz : nominal middle of the bands, shape (band,)
+    band_hz : nominal midband frequency, shape (band,)
     loss_db : shape (band,)
 
     Examples

@@ -11,7 +11,7 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 
-NODE_FREEDOMS: Final = 4
+NODE_DOFS: Final = 4
 _SAME_NODE_M: Final = 1e-9
 """Distance below which positions are those of one node."""
 X_PLANE: Final = np.eye(8)[[0, 3, 4, 7]]
@@ -39,7 +39,7 @@ class Section:
 
 @dataclass(frozen=True)
 class RotorMatrices:
-    """Mass, gyroscopic matrix per rad/s of spin and stiffness, all (freedoms, freedoms)."""
+    """Mass, gyroscopic matrix per rad/s of spin and stiffness, all of shape (dof, dof)."""
 
     mass: Array
     gyroscopic: Array
@@ -137,7 +137,7 @@ def assemble(section: Section, node_positions_m: Array) -> RotorMatrices:
     lengths = np.diff(node_positions_m)
     if lengths.size == 0 or np.min(lengths) <= 0.0:
         raise ParameterError(f"node_positions_m = {node_positions_m}: must ascend")
-    size = NODE_FREEDOMS * (lengths.size + 1)
+    size = NODE_DOFS * (lengths.size + 1)
     total = RotorMatrices(*(np.zeros((size, size)) for _ in range(3)))
     for first, length in enumerate(lengths):
         _add(total, first, beam_element(section, float(length)))
@@ -155,7 +155,7 @@ def with_ring(
     rotor : between the nodes
     node_positions_m : along the shaft, both ends of the ring among them, shape (nodes,)
     ends_m : lower and upper end of the ring
-    mass_kg : of the ring
+    mass_kg : mass of the ring
     diameters_m : inner and outer diameter
     """
     total = RotorMatrices(rotor.mass.copy(), rotor.gyroscopic.copy(), rotor.stiffness.copy())
@@ -170,7 +170,7 @@ def with_ring(
 
 def _add(total: RotorMatrices, first: int, element: RotorMatrices) -> None:
     """Add the matrices of the element after a node, in place."""
-    rows = slice(NODE_FREEDOMS * first, NODE_FREEDOMS * (first + 2))
+    rows = slice(NODE_DOFS * first, NODE_DOFS * (first + 2))
     total.mass[rows, rows] += element.mass
     total.gyroscopic[rows, rows] += element.gyroscopic
     total.stiffness[rows, rows] += element.stiffness
@@ -181,10 +181,10 @@ def with_disc(
 ) -> RotorMatrices:
     """The rotor with a rigid disc at a node (Nelson & McVaugh 1976, eq. 10)."""
     mass, gyroscopic = rotor.mass.copy(), rotor.gyroscopic.copy()
-    at = NODE_FREEDOMS * node + np.arange(NODE_FREEDOMS)
-    mass[at, at] += [mass_kg, mass_kg, transverse_kg_m2, transverse_kg_m2]
-    gyroscopic[at[2], at[3]] += axial_kg_m2
-    gyroscopic[at[3], at[2]] -= axial_kg_m2
+    dofs = NODE_DOFS * node + np.arange(NODE_DOFS)
+    mass[dofs, dofs] += [mass_kg, mass_kg, transverse_kg_m2, transverse_kg_m2]
+    gyroscopic[dofs[2], dofs[3]] += axial_kg_m2
+    gyroscopic[dofs[3], dofs[2]] -= axial_kg_m2
     return RotorMatrices(mass, gyroscopic, rotor.stiffness)
 
 

@@ -18,7 +18,7 @@ from ..base.arrays import Array
 from ..base.errors import SolverError
 
 STEPS: Final = 256
-"""In a revolution; two crossings of zero within one would be missed."""
+"""Steps in a revolution; two crossings of zero within one would be missed."""
 SETTLING_REVOLUTIONS: Final = 60
 NEWTON_STEPS: Final = 30
 TOLERANCE: Final = 1e-11
@@ -61,9 +61,9 @@ class Bilinear:
 
         Parameters
         ----------
-        start : w and w'
+        start : w and w', shape (2,)
         steps : in a revolution
-        count : of steps
+        count : number of steps
         """
         length = 2.0 * pi / steps
         flows = {stiff: expm(self._system(stiff) * length) for stiff in (True, False)}
@@ -83,17 +83,17 @@ class Bilinear:
     ) -> tuple[Array, Array]:
         """A step that changes sides: state after it and derivative by the state before."""
 
-        def at(time: float) -> Array:
-            moved = expm(self._system(stiff) * time) @ apart
-            return np.asarray(moved + self._particular(stiff, angle + time))
+        def state_after(time: float) -> Array:
+            homogeneous = expm(self._system(stiff) * time) @ apart
+            return np.asarray(homogeneous + self._particular(stiff, angle + time))
 
         begun = 1e-9 * length
         crossing = 0.0  # of a step that starts at zero
-        if at(begun)[0] * at(length)[0] < 0.0:
-            crossing = float(brentq(lambda time: at(time)[0], begun, length, xtol=1e-15))
+        if state_after(begun)[0] * state_after(length)[0] < 0.0:
+            crossing = float(brentq(lambda time: state_after(time)[0], begun, length, xtol=1e-15))
         first = expm(self._system(stiff) * crossing)
         second = expm(self._system(not stiff) * (length - crossing))
-        other = at(crossing) - self._particular(not stiff, angle + crossing)
+        other = state_after(crossing) - self._particular(not stiff, angle + crossing)
         after = second @ other + self._particular(not stiff, angle + length)
         return np.asarray(after), np.asarray(second @ first)
 
@@ -129,8 +129,8 @@ def settled_start(oscillator: Bilinear) -> tuple[float, float]:
 def _after(oscillator: Bilinear, start: Array, revolutions: int) -> tuple[Array, Array]:
     """State after some revolutions, and its derivative by the state before."""
     state, tangent = start, np.eye(2)
-    for moved, flow in oscillator.steps(start, STEPS, revolutions * STEPS):
-        state, tangent = moved, flow @ tangent
+    for following, flow in oscillator.steps(start, STEPS, revolutions * STEPS):
+        state, tangent = following, flow @ tangent
     return state, tangent
 
 

@@ -86,7 +86,7 @@ class RigidBody(_ByContent):
 
     @property
     def mass_matrix(self) -> Array:
-        """About the centre of mass, shape (6, 6), kg and kg m²."""
+        """Mass matrix about the centre of mass, shape (6, 6), kg and kg m²."""
         matrix = np.zeros((6, 6))
         matrix[:3, :3], matrix[3:, 3:] = self.mass_kg * np.eye(3), self.inertia_kg_m2
         return matrix
@@ -109,8 +109,8 @@ class Bushing(_ByContent):
     damping : viscous, symmetric, positive semidefinite, shape (6, 6), N s/m, N s and N m s
     loss_factor_ratio : structural loss factor of the stiffness
     axes : its own axes as columns, a rotation, shape (3, 3)
-    over_frequency : of frequencies, shape (...), to complex stiffness along the axes of the frame,
-        shape (..., 3), N/m, in place of stiffness and loss but in natural modes
+    over_frequency : function of frequencies, shape (...), to complex stiffness along the axes of
+        the frame, shape (..., 3), N/m, in place of stiffness and loss but in natural modes
 
     Examples
     --------
@@ -154,7 +154,7 @@ class Bushing(_ByContent):
             )
 
     def added_stiffness(self, frequency_hz: Array | float) -> ComplexArray:
-        """What stiffness over frequency adds to the constant one, shape (..., 3), N/m.
+        """Return what stiffness over frequency adds to the constant one, shape (..., 3), N/m.
 
         Parameters
         ----------
@@ -229,7 +229,7 @@ def check_joined(names: Sequence[str], bushings: Sequence[Bushing]) -> None:
 
     Parameters
     ----------
-    names : of all bodies
+    names : names of all bodies
     bushings : between them and the ground
 
     Raises

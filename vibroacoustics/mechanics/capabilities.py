@@ -1,4 +1,4 @@
-"""What a machine has that an option can work on: its shaft's axes, a slider, an Oldham ring."""
+"""Capabilities of a machine for options: its shaft's axes, a slider, an Oldham ring."""
 
 from dataclasses import dataclass
 from typing import ClassVar, Final, NamedTuple
@@ -33,7 +33,7 @@ class BalancePlanes(Parameters):
 
     @property
     def counted_down(self) -> "BalancePlanes":
-        """The same planes where heights count down the shaft."""
+        """Planes where heights count down the shaft."""
         return BalancePlanes(
             upper_height_m=-self.lower_height_m,
             lower_height_m=-self.upper_height_m,
@@ -81,7 +81,7 @@ class Capability:
     """
 
     words: ClassVar[str]
-    """What it is, as a refusal names it."""
+    """Words for it in a refusal."""
 
 
 @dataclass(frozen=True)
@@ -101,9 +101,9 @@ class Slider(Capability):
     mass_kg: float
     amplitude_m: float
     height_m: float
-    """Of the plane in which it slides, along the shaft from the frame's origin."""
+    """Height of the plane in which it slides, along the shaft from the frame's origin."""
     planes: BalancePlanes
-    """Where weights can sit on the shaft; heights along the shaft from the frame's origin."""
+    """Planes for weights on the shaft; heights along the shaft from the frame's origin."""
     frame: CrankFrame
 
 
@@ -123,4 +123,4 @@ class OldhamRing(Capability):
     stroke_m: float
     """Amplitude of its stroke, the radius of the scroll's orbit."""
     height_m: float
-    """From the centre of mass at rest."""
+    """Height from the centre of mass at rest."""

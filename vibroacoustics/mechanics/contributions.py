@@ -12,7 +12,7 @@ class PathName(NamedTuple):
 
     Attributes
     ----------
-    source : what makes the sound
+    source : name of the source
     port : where it acts: `housing`, a part in the shell, a space of gas, the stator's yoke
     direction : motion of the housing (`tx` … `rz`), force or moment on a part (`fx` … `mz`), a
         wave around the yoke, the flow into a space
@@ -29,10 +29,11 @@ class NoiseContribution:
 
     Attributes
     ----------
-    rows : of its paths among those of the case
+    rows : rows of its paths among those of the case
     frequency_hz : shape (frequency,)
-    alone : of each path alone, shape (path, receiver, frequency), Pa²
-    part : what each path adds to the sum, negative where it works against it, as `alone`
+    alone : mean square of each path, shape (path, receiver, frequency), Pa²
+    part : contribution of each path to the sum, negative where it works against it, shape of
+        `alone`
     """
 
     rows: tuple[int, ...]
@@ -47,11 +48,11 @@ class Contributions:
 
     Attributes
     ----------
-    names : of the paths
-    frequency_hz : of the lines, shape (line,), orders from zero first
+    names : names of the paths
+    frequency_hz : frequency of the lines, shape (line,), orders from zero first
     pressure : complex peaks, shape (path, receiver, line), Pa; their sum is that of all sources
-    noise : of the sources that have some
-    motions : what radiates: the housing's six motions as a rigid body, modes of its shell
+    noise : noise of the sources that have some
+    motions : motions that radiate: the housing's six motions as a rigid body, modes of its shell
     by_motion : pressure of all sources by motion, shape (motion, receiver, line), Pa; same sum
     """
 
@@ -63,13 +64,13 @@ class Contributions:
     by_motion: ComplexArray
 
     def behind(self, loss: InsertionLoss | None) -> "Contributions":
-        """What an insertion loss leaves of it."""
+        """Return the contributions behind an insertion loss."""
         if loss is None:
             return self
-        factors = [loss.power_factor(one.frequency_hz) for one in self.noise]
+        factors = [loss.power_factor(noise.frequency_hz) for noise in self.noise]
         noise = [
-            replace(one, alone=factor * one.alone, part=factor * one.part)
-            for one, factor in zip(self.noise, factors, strict=True)
+            replace(noise, alone=factor * noise.alone, part=factor * noise.part)
+            for noise, factor in zip(self.noise, factors, strict=True)
         ]
         factor = loss.amplitude_factor(self.frequency_hz)
         pressure, by_motion = factor * self.pressure, factor * self.by_motion

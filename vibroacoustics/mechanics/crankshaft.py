@@ -66,7 +66,7 @@ def acceleration_of(position: Array, rotation: Rotation) -> Array:
     Parameters
     ----------
     position : value, first and second derivative over crank angle, shape (3, samples)
-    rotation : of the crankshaft
+    rotation : rotation of the crankshaft
     """
     speed, acceleration = rotation.speed_rad_per_s, rotation.acceleration_rad_per_s2
     return np.asarray(position[2] * speed**2 + position[1] * acceleration)
@@ -79,7 +79,7 @@ def reduced_inertia(
 
     Parameters
     ----------
-    crankshaft_inertia_kg_m2 : of what turns with the crankshaft
+    crankshaft_inertia_kg_m2 : inertia of all that turns with the crankshaft
     moving : mass or inertia and its position or angle, shape (3, samples) as `acceleration_of`
 
     Returns
@@ -152,14 +152,14 @@ def _energy(surplus: Array, before: Array, restoring: float) -> Array:
 
 def _speed(inertia: Array, energy: Array, mean_speed: float) -> Array:
     """Speed with the given mean over time of a kinetic energy known up to a constant, rad/s."""
-    rest = -float(np.min(energy))
+    deficit = -float(np.min(energy))
     reference = 0.5 * float(np.max(inertia)) * mean_speed**2
 
     def excess(constant: float) -> float:
         speed = np.sqrt(2.0 * (energy + constant) / inertia)
         return float(1.0 / np.mean(1.0 / speed) - mean_speed)
 
-    lowest, highest = rest + 1e-6 * reference, rest + float(np.ptp(energy)) + 2.0 * reference
+    lowest, highest = deficit + 1e-6 * reference, deficit + float(np.ptp(energy)) + 2.0 * reference
     if excess(lowest) > 0.0:
         raise ParameterError(
             f"speed_rpm = {mean_speed * 30.0 / np.pi:.4g} rpm: the moving parts' inertia does not "

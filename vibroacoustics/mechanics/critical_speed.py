@@ -9,7 +9,7 @@ from scipy.linalg import eigh
 
 from ..base.arrays import Array
 from ..base.constants import STANDARD_GRAVITY_M_PER_S2
-from .beam_rotor import NODE_FREEDOMS, RotorMatrices, Section, assemble, with_disc, with_ring
+from .beam_rotor import NODE_DOFS, RotorMatrices, Section, assemble, with_disc, with_ring
 from .scroll_shaft import ScrollShaft
 
 ELEMENT_LENGTH_M: Final = 0.01
@@ -32,8 +32,8 @@ def on_bearings(rotor: RotorMatrices, nodes: Array, stiffness_n_per_m: float) ->
     """The rotor with springs in x and y at nodes."""
     stiffness = rotor.stiffness.copy()
     for node in nodes:
-        at = NODE_FREEDOMS * int(node)
-        stiffness[[at, at + 1], [at, at + 1]] += stiffness_n_per_m
+        dof = NODE_DOFS * int(node)
+        stiffness[[dof, dof + 1], [dof, dof + 1]] += stiffness_n_per_m
     return replace(rotor, stiffness=stiffness)
 
 
@@ -48,7 +48,7 @@ def forward_critical_speeds(rotor: RotorMatrices) -> Array:
     rotor : alike in both planes, on its bearings
     """
     node = np.array([[1.0, 0.0], [-1j, 0.0], [0.0, 1j], [0.0, 1.0]])  # x, y, θx, θy
-    forward = np.kron(np.eye(len(rotor.mass) // NODE_FREEDOMS), node)
+    forward = np.kron(np.eye(len(rotor.mass) // NODE_DOFS), node)
     stiffness, mass = (
         (forward.conj().T @ matrix @ forward).real
         for matrix in (rotor.stiffness, rotor.mass - 1j * rotor.gyroscopic)
@@ -65,9 +65,9 @@ class FreeShaft:
     Attributes
     ----------
     rotor : beam with the motor's rotor, whose mass is spread over its length
-    heights_m : of the nodes above the lower bearing, the first's, shape (node,)
+    heights_m : heights of the nodes above the lower bearing, the first one's, shape (node,)
     main_node, pin_node : at the main bearing and at the crank pin
-    bearing_stiffness_n_per_m : of each bearing
+    bearing_stiffness_n_per_m : bearing stiffness of each bearing
     """
 
     rotor: RotorMatrices
@@ -111,9 +111,9 @@ def sag_under_weight_m(rotor: RotorMatrices) -> Array:
     rotor : on its bearings
     """
     weight = np.zeros(len(rotor.mass))
-    weight[::NODE_FREEDOMS] = STANDARD_GRAVITY_M_PER_S2
+    weight[::NODE_DOFS] = STANDARD_GRAVITY_M_PER_S2
     sag = np.linalg.solve(rotor.stiffness, rotor.mass @ weight)
-    return np.asarray(sag[::NODE_FREEDOMS])
+    return np.asarray(sag[::NODE_DOFS])
 
 
 def _nodes(fixed: Array, element_length_m: float) -> Array:

@@ -61,8 +61,8 @@ class IdealValveCycle(NamedTuple):
         """
         charge = (1.0 + self.clearance_ratio) / np.maximum(fill, self.fill_at_discharge)
         # Without clearance nothing expands; the smallest number keeps 0/0 out at top dead centre.
-        left = self.fill_at_suction / np.maximum(fill, np.finfo(float).tiny)
-        volume_ratio = np.where(expanding, np.maximum(left, 1.0), charge)
+        expanded = self.fill_at_suction / np.maximum(fill, np.finfo(float).tiny)
+        volume_ratio = np.where(expanding, np.maximum(expanded, 1.0), charge)
         return np.asarray(self.suction_pressure_pa * volume_ratio**self.exponent)
 
 
@@ -92,7 +92,7 @@ class CylinderGas(Parameters):
 
     @property
     def valve_cycle(self) -> IdealValveCycle:
-        """The same cycle over volumes."""
+        """Cycle over volumes."""
         return IdealValveCycle(
             self.suction_pressure_pa,
             self.discharge_pressure_pa,
@@ -118,7 +118,7 @@ class ValvedCylinder(Capability):
     fill: Callable[[Array], Array]
 
     def flows_m3_per_rad(self, samples: int) -> tuple[Array, Array]:
-        """Out of the suction side and into the discharge side, at the pressure there.
+        """Flows out of the suction side and into the discharge side, at the pressure there.
 
         Times the angular frequency they are flows in m³/s; the shaft is taken to turn evenly.
 

@@ -20,7 +20,7 @@ class JournalFilm:
 
     Attributes
     ----------
-    eccentricity_ratio : of the journal, per clearance
+    eccentricity_ratio : eccentricity of the journal per clearance
     stiffness : shape (2, 2), N/m
     damping : shape (2, 2), N s/m
     """
@@ -59,10 +59,10 @@ def short_bearing(
 
     Parameters
     ----------
-    diameter_m, length_m : of the bearing
+    diameter_m, length_m : diameter and length of the bearing
     clearance_m : radial
-    viscosity_pa_s : of the oil
-    speed_rad_per_s : of the journal
+    viscosity_pa_s : viscosity of the oil
+    speed_rad_per_s : speed of the journal
     load_n : constant, turning with the journal or at rest, along the first axis
 
     Raises

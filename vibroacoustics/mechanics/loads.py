@@ -28,8 +28,8 @@ _FORMER: Final = {
 class _OnPorts:
     """Refuses arguments that were names of ports."""
 
-    def __new__(cls, *_: Any, **given: Any) -> Any:
-        for name in given:
+    def __new__(cls, *_: Any, **fields: Any) -> Any:
+        for name in fields:
             if name in _FORMER:
                 raise ParameterError(
                     f"{cls.__name__}({name}=...): give the load by its port: {_FORMER[name]}"
@@ -43,7 +43,7 @@ class Tone(_OnPorts):
 
     Attributes
     ----------
-    name : what makes it
+    name : name of the source
     frequency_hz : above zero
     loads : by port, shape (component,)
     figure : name of the reported figure of the largest force that it makes in a foot; none for none
@@ -87,7 +87,7 @@ class Noise(_OnPorts):
 
 @dataclass(frozen=True)
 class Loads(_OnPorts):
-    """Loads of one source in one case; what a source does not do is left out.
+    """Loads of one source in one case; loads that are zero may be absent.
 
     Attributes
     ----------
@@ -130,7 +130,7 @@ class Lines:
 
     Attributes
     ----------
-    names : of the lines
+    names : names of the lines
     frequency_hz : shape (line,)
     loads : by source and port, shape (component, line)
     """
@@ -155,7 +155,7 @@ def lines_of(
     highest : order
     wrenches : spectra of the wrenches over crank angle by source and port, (component, order)
     """
-    tones = [(source, tone) for source, given in loads.items() for tone in given.tones]
+    tones = [(source, tone) for source, load in loads.items() for tone in load.tones]
     orders = highest + 1
     count = orders + len(tones)
     laid: dict[str, dict[Port, ComplexArray]] = {}
@@ -164,9 +164,9 @@ def lines_of(
         still = np.zeros((len(port.components), count), dtype=complex)
         return laid[source].setdefault(port, still)
 
-    for source, given in loads.items():
+    for source, load in loads.items():
         laid[source] = {}
-        for port, amplitudes in (*wrenches.get(source, {}).items(), *given.lines.items()):
+        for port, amplitudes in (*wrenches.get(source, {}).items(), *load.lines.items()):
             held = amplitudes[:, :orders]
             at_lines(source, port)[:, : held.shape[1]] += held
     for number, (source, tone) in enumerate(tones, orders):

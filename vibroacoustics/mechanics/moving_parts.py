@@ -72,8 +72,8 @@ class Revolution:
     Attributes
     ----------
     speed_rpm : mean over time
-    rotation : of its shaft
-    wrenches : what its moving parts do to the housing by change of momentum, by source
+    rotation : rotation of its shaft
+    wrenches : wrench of its moving parts on the housing by change of momentum, by source
     figures : to report of it, such as losses, by name; the unit is the suffix of the name
 
     Examples
@@ -115,7 +115,7 @@ def circling(
     ----------
     source : who makes the force, as in the results
     mass_kg : mass
-    radius_m : of the circle
+    radius_m : radius of the circle
     height_m : along the shaft from the frame's origin
     crank_angle : uniform over one revolution, shape (samples,), rad
     frame : axes of the mechanism in the machine; default: stroke x, shaft z
@@ -154,7 +154,7 @@ def wrench(parts: Sequence[MovingPart], rotation: Rotation) -> Wrench:
     Parameters
     ----------
     parts : moving parts, all sampled at the crank angles of the rotation
-    rotation : of the shaft
+    rotation : rotation of the shaft
     """
     samples = rotation.speed_rad_per_s.size
     force, moment = np.zeros((3, samples)), np.zeros((3, samples))
@@ -168,12 +168,12 @@ def wrench(parts: Sequence[MovingPart], rotation: Rotation) -> Wrench:
 
 
 def wrenches_of_parts(parts: Sequence[MovingPart], rotation: Rotation) -> dict[str, Wrench]:
-    """What moving parts do to the housing, by source in the order of the parts.
+    """Return the wrenches of moving parts on the housing, by source in the order of the parts.
 
     Parameters
     ----------
     parts : moving parts, all sampled at the crank angles of the rotation
-    rotation : of the shaft
+    rotation : rotation of the shaft
 
     Returns
     -------

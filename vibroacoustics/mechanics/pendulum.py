@@ -15,9 +15,9 @@ from ..base.errors import SolverError
 
 SETTLING_REVOLUTIONS = 300
 SETTLING_ROUNDS = 4
-"""Of so many revolutions each, until Newton's method leads to a stable motion."""
+"""Rounds of so many revolutions each, until Newton's method leads to a stable motion."""
 SETTLING_STEPS = 32
-"""Of order eight, in a revolution."""
+"""Steps in a revolution, of order eight."""
 REVOLUTION_STEPS = 96
 """The error of a revolution is below 1e-12 rad."""
 NEWTON_STEPS = 30
@@ -146,9 +146,10 @@ def states_at(
 
     Parameters
     ----------
-    crank_angle : not below zero, rad
-    start : at crank angle zero: angle and rate; and, where they are wanted, the deviations of
-        angle and rate that follow a small change of the first, then of the second starting value
+    crank_angle : crank angle, not below zero, shape (angle,), rad
+    start : state at crank angle zero, shape (component,): angle and rate; and, where they are
+        wanted, the deviations of angle and rate that follow a small change of the first, then of
+        the second starting value
     longest_step : rad
     motion : push, stiffness and damping of the equation of motion, see `pendulum.Drive`
     """

@@ -15,8 +15,8 @@ class Port:
 
     Attributes
     ----------
-    name : of the place
-    components : of a load; components of one name are one direction of a transfer path
+    name : name of the position
+    components : components of a load; components of one name are one direction of a transfer path
     tables : tables of the machine that its response reads, beside its mounts
 
     Examples

@@ -30,9 +30,9 @@ class ReceivedSound:
 
     Attributes
     ----------
-    lines : of all sources
+    lines : lines of all sources
     pressure : complex peaks at the lines, shape (source, receiver, line), Pa
-    noise : of the sources that have some
+    noise : noise of the sources that have some
     """
 
     lines: Lines
@@ -40,7 +40,7 @@ class ReceivedSound:
     noise: tuple[NoisePower, ...]
 
     def behind(self, loss: InsertionLoss | None) -> "ReceivedSound":
-        """What an insertion loss leaves of it."""
+        """Return the sound behind an insertion loss."""
         if loss is None:
             return self
         noise = [
@@ -57,8 +57,8 @@ class PlateSound(NamedTuple):
     Attributes
     ----------
     input_power_w : into the plate
-    power_w : as sound to one side; zero where there is no line
-    variance : of the sound power by the plate's modes, over its squared mean
+    power_w : sound power to one side; zero where there is no line
+    variance : variance of the sound power by the plate's modes, over its squared mean
     """
 
     input_power_w: Array

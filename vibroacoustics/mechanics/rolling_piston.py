@@ -1,4 +1,4 @@
-"""What a rolling piston does inside its shell, as sources ask for it."""
+"""Time histories of a rolling piston for sources."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,12 +8,12 @@ from ..base.arrays import Array
 from .capabilities import Capability
 
 
-class RollingCourses(NamedTuple):
-    """Courses over uniform crank angles of a turn, shape (samples,) each.
+class RollingHistories(NamedTuple):
+    """Time histories over uniform crank angles of a turn, shape (samples,) each.
 
     Attributes
     ----------
-    speed_rad_per_s : of the shaft
+    speed_rad_per_s : speed of the shaft
     discharge_m3_per_s : flow into the shell, at the density there
     block_torque_n_m : on the cylinder block about the shaft, by gas, vane and films
     motor_torque_n_m : on the shaft
@@ -33,13 +33,13 @@ class RollingPiston(Capability):
 
     Attributes
     ----------
-    courses : of a mean speed in rpm and a least number of samples
-    density_kg_per_m3, sound_speed_m_per_s : of the discharged gas
+    histories : function of a mean speed in rpm and a least number of samples
+    density_kg_per_m3, sound_speed_m_per_s : density and sound speed of the discharged gas
     vane_height_m : mean height of the vanes from the centre of mass at rest
     """
 
     words: ClassVar[str] = "a rolling piston"
-    courses: Callable[[float, int], RollingCourses]
+    histories: Callable[[float, int], RollingHistories]
     density_kg_per_m3: float
     sound_speed_m_per_s: float
     vane_height_m: float

@@ -14,7 +14,7 @@ class ScrollShaft(Parameters):
     """A uniform vertical shaft; heights are above its lower end, where the lower bearing is."""
 
     length_m: float = LENGTH
-    """From the middle of the lower bearing to the middle of the crank pin."""
+    """Length from the centre of the lower bearing to the centre of the crank pin."""
     diameter_m: float = LENGTH
     youngs_modulus_pa: float = Field(gt=0.0, le=1e13)
     density_kg_per_m3: float = Field(gt=0.0, le=1e5)
@@ -26,13 +26,13 @@ class ScrollShaft(Parameters):
     rotor_length_m: float = LENGTH
     rotor_diameter_m: float = LENGTH
     rotor_mass_kg: float = MASS
-    """With the counterweights; its stiffness is left out."""
+    """Mass of the rotor with the counterweights; its stiffness is neglected."""
     pin_mass_kg: float = Field(ge=0.0, le=100.0)
     """Scroll and brake as a point mass on the crank pin, as in the thesis's model."""
 
     @property
     def mass_kg(self) -> float:
-        """Of shaft and rotor."""
+        """Mass of shaft and rotor."""
         volume = 0.25 * pi * self.diameter_m**2 * self.length_m
         return self.density_kg_per_m3 * volume + self.rotor_mass_kg
 

@@ -32,7 +32,7 @@ def campbell_curve(
     frequencies_hz : ascending, of a spin in rad/s; as many at each speed, or more
     highest_rpm : end of the range of speeds
     modes : number of the lowest frequencies that are shown
-    source : of the curve
+    source : source of the curve
     lowest_rpm : start of the range of speeds
     """
     speeds = np.linspace(lowest_rpm, highest_rpm, SPEEDS)
@@ -58,7 +58,7 @@ def critical_speed_curves(rotor: RotorMatrices, source: str) -> Iterator[Curve]:
     Parameters
     ----------
     rotor : on its bearings
-    source : of the rule of thumb
+    source : source of the rule of thumb
     """
     critical = RPM * forward_critical_speeds(rotor)[:CRITICAL_SPEEDS]
     yield campbell_curve(

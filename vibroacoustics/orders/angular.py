@@ -54,15 +54,15 @@ def joined(first: AngularSignal | None, second: AngularSignal) -> AngularSignal:
 
 def check_finite(signal: Array) -> None:
     """Refuse a signal with samples that are not finite: one spoils every spectrum it enters."""
-    # Their sum tells it quickly; where it overflows the samples are looked at.
+    # Their sum shows it quickly; where it overflows the samples are looked at.
     if not np.isfinite(np.sum(signal)) and not np.all(np.isfinite(signal)):
         raise ParameterError("signal: has samples that are not finite")
 
 
 def check_whole(samples: int, revolutions: int) -> int:
     """Samples of each revolution; refused where they are no whole number."""
-    each, rest = divmod(samples, revolutions)
-    if rest:
+    each, incomplete = divmod(samples, revolutions)
+    if incomplete:
         raise ParameterError(
             f"signal: {samples} samples are not a whole number for each of "
             f"{revolutions} revolutions"

@@ -1,4 +1,4 @@
-"""From samples over time to samples over crank angle, without aliasing.
+"""Plan of the conversion of samples over time to samples over crank angle, without aliasing.
 
 With the angle φ(t) in revolutions, y(φ0) = ∫ x(t) h(φ(t) - φ0) φ'(t) dt is the signal over the
 angle after the low-pass h: one kernel, of fixed length in angle, interpolates between the samples
@@ -20,21 +20,23 @@ from .crank_motion import CrankMotion
 from .low_pass import LowPass, kaiser_low_pass
 
 ATTENUATION_DB: Final = 100.0
-"""Of everything that could alias; the gain up to the maximum order is as near to 1: 1e-5."""
+"""Attenuation of everything that could alias; the gain up to the maximum order is as near to 1:
+1e-5."""
 HIGHEST_PASS_BAND_RATIO: Final = 0.9
-"""Of half the sample rate at the highest speed: what is left is the kernel's transition."""
+"""Largest part of half the sample rate at the highest speed; above it is the kernel's
+transition."""
 _PIECE: Final = 2**18
 """Samples of which the motion is worked out at a time: a spline takes memory."""
 
 
 @dataclass(frozen=True)
 class AngularPlan:
-    """How a recording of a length becomes samples over the crank angle.
+    """Plan of the conversion of a recording of a length to samples over the crank angle.
 
     Attributes
     ----------
-    sample_rate_hz : of the recording
-    samples : of the recording, a channel
+    sample_rate_hz : sample rate of the recording
+    samples : number of samples of the recording, a channel
     motion : crank angle over (a part of) that time
     maximum_order : highest order to keep
 
@@ -67,14 +69,14 @@ class AngularPlan:
             )
 
     @cached_property
-    def known(self) -> tuple[int, int]:
+    def covered(self) -> tuple[int, int]:
         """First sample at which the motion is known, and the one after the last."""
         return known_samples(self.motion, self.sample_rate_hz, self.samples)
 
     @cached_property
     def highest_hz(self) -> float:
         """Highest shaft frequency at a sample."""
-        start, stop = self.known
+        start, stop = self.covered
         return max(
             float(np.max(self.motion.frequency_hz(np.arange(first, last) / self.sample_rate_hz)))
             for first, last in pieces(start, stop)
@@ -82,7 +84,7 @@ class AngularPlan:
 
     @cached_property
     def samples_per_revolution(self) -> int:
-        """Of the angular grid: at least four times the maximum order."""
+        """Samples per revolution of the angular grid: at least four times the maximum order."""
         return 2 * int(scipy.fft.next_fast_len(int(np.ceil(2.0 * self.maximum_order))))
 
     @cached_property
@@ -102,13 +104,13 @@ class AngularPlan:
     @cached_property
     def grid(self) -> tuple[int, int]:
         """First and last index of the grid around which the whole kernel has samples."""
-        start, stop = self.known
+        start, stop = self.covered
         begin, end = self.position(np.array([start, stop - 1]))
         half = self.low_pass.half_length
         return int(np.ceil(begin)) + half, int(np.floor(end)) - half
 
     def position(self, sample: Array) -> Array:
-        """On the grid, of samples."""
+        """Return the position of samples on the grid."""
         angle = self.motion.angle_rad(sample / self.sample_rate_hz)
         return np.asarray(angle * (self.samples_per_revolution / (2.0 * np.pi)))
 

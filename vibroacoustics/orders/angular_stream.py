@@ -53,7 +53,7 @@ class AngularStream:
 
     Parameters
     ----------
-    plan : of the recording
+    plan : plan of the recording
     channels : number of its channels
     """
 
@@ -63,7 +63,7 @@ class AngularStream:
         self._added = 0
         self._next = plan.grid[0]
         # Samples under the kernel of index `_next` and what follows.
-        self._begin = plan.known[0]
+        self._begin = plan.covered[0]
         self._rows: Array = np.empty((channels, 0))
         self._position: Array = np.empty(0)
         self._width: Array = np.empty(0)
@@ -77,7 +77,7 @@ class AngularStream:
             A sample is not finite.
         """
         check_finite(block)
-        start, stop = self.plan.known
+        start, stop = self.plan.covered
         first, self._added = self._added, self._added + block.shape[1]
         self._join(block[:, max(start - first, 0) : max(stop - first, 0)])
         last = self._next - 1
@@ -142,8 +142,8 @@ class AngularStream:
             )
             sums = np.zeros((rows.shape[0], stop - start + 4 * half))
             block = np.ascontiguousarray(rows[:, near], dtype=float)
-            at = position[near] - (start - half)
-            add_samples(block, at, self._width[near], self._table, sums)
+            offset = position[near] - (start - half)
+            add_samples(block, offset, self._width[near], self._table, sums)
             wanted = 2 * half - 1  # sums begin at grid index start - half + 1 - half
             values[:, start - first : stop - first] = sums[:, wanted : wanted + stop - start]
 

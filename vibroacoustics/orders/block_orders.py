@@ -18,7 +18,7 @@ from .windows import window_by_name
 WINDOW: Final = "hann"
 OVERLAP_RATIO: Final = 0.5
 MOST_MAP_BYTES: Final = 2**30
-"""Of an order map that is kept: 16 a line, block and channel."""
+"""Largest size of an order map that is kept: 16 bytes a line, block and channel."""
 MOST_UNASKED_MAP_BYTES: Final = 2**27
 """Largest order map of a run-up that is kept where the settings leave the choice."""
 STEADY_RATIO: Final = 0.02
@@ -27,18 +27,18 @@ STEADY_RATIO: Final = 0.02
 
 @dataclass(frozen=True)
 class OrdersOfBlocks:
-    """What is found in the blocks of a recording.
+    """Orders in the blocks of a recording.
 
     Attributes
     ----------
     phasor : complex peak of the orders wanted, shape (channel, block, order)
     rms : in their bands, shape (channel, block, order)
     mean_spectrum : RMS of each line from the mean power over the blocks, (channel, line)
-    map_order : of the lines
+    map_order : order of the lines, shape (line,)
     amplitude : complex peaks, shape (channel, block, line); None where no map is wanted
-    time_s : middle of the blocks, shape (block,)
+    time_s : mid-time of the blocks, s, shape (block,)
     shaft_frequency_hz : mean over each block, shape (block,)
-    revolutions : of a block, whole; of a fit any
+    revolutions : revolutions of a block, a whole number; any number for a fit
     resolution_order : noise bandwidth of a line, orders
     band_order : width of the bands, orders
     """
@@ -65,7 +65,7 @@ class BlockOrders:
 
     Parameters
     ----------
-    plan : of the recording
+    plan : plan of the recording
     channels : number of its channels
     settings : the orders that are wanted
 
@@ -130,7 +130,7 @@ class BlockOrders:
         self._pending = signal.behind(int(spectra.starts[-1]) + hop)
 
     def result(self) -> OrdersOfBlocks:
-        """Of all that has been added."""
+        """Return the orders of all blocks added."""
         last = self._spectra[-1]
         time_s = np.concatenate([spectra.time_s for spectra in self._spectra])
         shaft_frequency_hz = np.concatenate(

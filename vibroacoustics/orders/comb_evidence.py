@@ -16,26 +16,26 @@ _PADDING: Final = 4
 _MAIN_LOBE: Final = 4
 """Half of the window's, Blackman-Harris, in lines of a block: its side lobes are 92 dB down."""
 STEADY_WIDTH: Final = 1.9
-"""Of a steady tone at half of its power, in lines of a block."""
+"""Width of a steady tone at half of its power, in lines of a block."""
 _NOISE_LEVEL: Final = 0.7
 """Mean of ln(1 + p / m) for the power p of white noise with the median m of its mean."""
 _CLEAR: Final = 2.3
-"""Above it, of a clear line in a single block: nearly four standard deviations."""
+"""Level of a clear line in a single block: nearly four standard deviations."""
 _DYNAMIC_RANGE: Final = 1e-12
 _LIKELY: Final = 0.78
 """Probability that the first order of the comb is a clear line."""
 _LESS_LIKELY: Final = 0.02
 """Less with each order: of speeds that explain the same lines as lowest orders is the shaft's."""
 _LEAST_CHANCE: Final = 5e-3
-"""Of a line where a tooth is: the background is never known better."""
+"""Least chance of a line where a tooth is: the background is never known better."""
 _NEIGHBOURHOOD: Final = 0.3
 """Relative distance over which strange lines are counted."""
 _TOLERANCE: Final = 1.5e-3
 """Relative distance of a line from its tooth."""
 _TOLERANCE_LINES: Final = 0.35
-"""And in lines of a block."""
+"""Tolerance in lines of a block."""
 _BETWEEN: Final = np.array([1.0, 1.5, 2.0]) / 3.0
-"""Where no line should be; see `speed_comb`."""
+"""Orders at which no line should be; see `speed_comb`."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Lines:
     step: float
 
     def density(self) -> Array:
-        """Of lines at least as strong as each one, near it, per unit of frequency."""
+        """Density of lines at least as strong as each one, near it, per unit of frequency."""
         ratio = self.frequency[:, None] / self.frequency
         near = np.abs(np.log(ratio)) < _NEIGHBOURHOOD
         strong = self.level >= self.level[:, None]
@@ -78,9 +78,9 @@ def clear_lines(signal: Array, sample_rate: float, length: int, floor_width: flo
     Parameters
     ----------
     signal : shape (sample,)
-    sample_rate : of the signal, in the unit of the frequencies that are wanted
-    length : of a block, samples
-    floor_width : of the running median that is the noise floor
+    sample_rate : sample rate of the signal, in the unit of the wanted frequencies
+    length : length of a block, samples
+    floor_width : width of the running median that is the noise floor
     """
     starts = np.arange(0, signal.size - length + 1, max(length // 2, 1))
     window = scipy.signal.windows.blackmanharris(length, sym=False)
@@ -95,15 +95,15 @@ def clear_lines(signal: Array, sample_rate: float, length: int, floor_width: flo
     level = np.log1p(power / floor).mean(axis=0)
     threshold = _NOISE_LEVEL + _CLEAR / np.sqrt(max(1.0, 0.7 * starts.size))
     top = maximum_filter1d(level, 2 * (_MAIN_LOBE * _PADDING // 2) + 1)
-    at = np.flatnonzero((level >= top) & (level > threshold))
-    at = at[(at > _MAIN_LOBE * _PADDING) & (at < level.size - 1)]
-    left, mid, right = (level[at + offset] for offset in (-1, 0, 1))
-    shift = 0.5 * (left - right) / np.minimum(left - 2.0 * mid + right, -1e-9)
+    peaks = np.flatnonzero((level >= top) & (level > threshold))
+    peaks = peaks[(peaks > _MAIN_LOBE * _PADDING) & (peaks < level.size - 1)]
+    below, mid, right = (level[peaks + offset] for offset in (-1, 0, 1))
+    shift = 0.5 * (below - right) / np.minimum(below - 2.0 * mid + right, -1e-9)
     ratio = np.expm1(level)
-    width = scipy.signal.peak_widths(ratio, at, 0.5)[0] / _PADDING if at.size else np.empty(0)
+    width = scipy.signal.peak_widths(ratio, peaks, 0.5)[0] / _PADDING if peaks.size else np.empty(0)
     return Lines(
-        frequency=(at + shift) * step,
-        level=ratio[at],
+        frequency=(peaks + shift) * step,
+        level=ratio[peaks],
         width=width,
         resolution=sample_rate / length,
         highest=0.5 * sample_rate,
@@ -119,8 +119,8 @@ def sharpness(lines: Lines, orders: Array) -> float:
 
     Parameters
     ----------
-    lines : of an order spectrum
-    orders : of the comb
+    lines : lines of an order spectrum
+    orders : orders of the comb, shape (order,)
     """
     covered = orders[orders < lines.highest]
     reach = tolerance(lines, covered)
@@ -139,8 +139,8 @@ def evidence(lines: Lines, orders: Array, speeds: Array) -> Array:
 
     Parameters
     ----------
-    lines : of a spectrum
-    orders : of the comb, rising
+    lines : lines of a spectrum
+    orders : orders of the comb, rising, shape (order,)
     speeds : shape (speed,), in the unit of the lines' frequency
 
     Returns
@@ -166,16 +166,18 @@ def nearest_line(lines: Lines, frequency: Array) -> tuple[Array, Array]:
     right = np.clip(np.searchsorted(lines.frequency, frequency), 1, lines.frequency.size - 1)
     if lines.frequency.size == 1:
         right = np.zeros(frequency.shape, dtype=int)
-    left = np.maximum(right - 1, 0)
-    is_left = np.abs(lines.frequency[left] - frequency) < np.abs(lines.frequency[right] - frequency)
-    nearest = np.where(is_left, left, right)
+    below = np.maximum(right - 1, 0)
+    is_left = np.abs(lines.frequency[below] - frequency) < np.abs(
+        lines.frequency[right] - frequency
+    )
+    nearest = np.where(is_left, below, right)
     return nearest, lines.frequency[nearest] - frequency
 
 
 def _tooth_evidence(lines: Lines, orders: Array, speeds: Array) -> Array:
-    at = speeds[:, None] * orders
-    allowed = tolerance(lines, at)
-    nearest, distance = nearest_line(lines, at)
+    line_hz = speeds[:, None] * orders
+    allowed = tolerance(lines, line_hz)
+    nearest, distance = nearest_line(lines, line_hz)
     chance = 1.0 - np.exp(-2.0 * allowed * lines.density()[nearest])
     likely = np.maximum(_LIKELY - _LESS_LIKELY * np.arange(orders.size), 0.5)
     chance = np.clip(chance, _LEAST_CHANCE, 0.9 * likely)
@@ -183,7 +185,7 @@ def _tooth_evidence(lines: Lines, orders: Array, speeds: Array) -> Array:
     hit = np.log(likely / chance) - 0.5 * off**2
     any_line = np.clip(2.0 * allowed * np.sum(lines.frequency > 0) / lines.highest, 0.0, 0.7)
     miss = np.log((1.0 - likely) / (1.0 - any_line))
-    covered = at < lines.highest
+    covered = line_hz < lines.highest
     return np.where(covered, np.where(off <= 1.5, np.maximum(hit, miss), miss), 0.0)
 
 
@@ -194,7 +196,7 @@ def best_speeds(
 
     Parameters
     ----------
-    lines, orders : as in `evidence`
+    lines, orders : see `evidence`
     lowest, highest : limits of the speed
     apart : relative distance
     """
@@ -217,9 +219,9 @@ def best_speeds(
 
 def _fitted(lines: Lines, orders: Array, speeds: Array) -> Array:
     """Speeds that fit the lines near their teeth best (least squares)."""
-    at = speeds[:, None] * orders
-    distance = nearest_line(lines, at)[1]
-    allowed = tolerance(lines, at)
+    line_hz = speeds[:, None] * orders
+    distance = nearest_line(lines, line_hz)[1]
+    allowed = tolerance(lines, line_hz)
     weight = np.where(np.abs(distance) <= 1.5 * allowed, 1.0 / allowed**2, 0.0)
     change = np.sum(weight * orders * distance, axis=1) / np.sum(weight * orders**2, axis=1)
     return np.asarray(speeds + np.nan_to_num(change))
@@ -230,8 +232,8 @@ def are_in_place(lines: Lines, frequency: Array) -> NDArray[np.bool_]:
 
     Parameters
     ----------
-    lines : of a spectrum
-    frequency : in the unit of the lines' frequency
+    lines : lines of a spectrum
+    frequency : frequency in the unit of that of the lines, shape (...)
     """
     if lines.frequency.size == 0:
         return np.zeros(frequency.shape, dtype=bool)
@@ -243,8 +245,8 @@ def lines_in_place(lines: Lines, orders: Array) -> tuple[int, int, float]:
 
     Parameters
     ----------
-    lines : of an order spectrum
-    orders : of the comb
+    lines : lines of an order spectrum
+    orders : orders of the comb, shape (order,)
 
     Returns
     -------

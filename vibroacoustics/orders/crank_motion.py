@@ -92,8 +92,8 @@ def from_curve(curve: PPoly) -> CrankMotion:
     """
     slope = PPoly(curve.c, curve.x).derivative()
     turning_points = slope.derivative().roots(extrapolate=False)
-    at = np.concatenate([curve.x, turning_points[np.isfinite(turning_points)]])
-    _check_turning(np.asarray(slope(at)) / (2.0 * np.pi))
+    instants = np.concatenate([curve.x, turning_points[np.isfinite(turning_points)]])
+    _check_turning(np.asarray(slope(instants)) / (2.0 * np.pi))
     return CrankMotion(PPoly(curve.c, curve.x))
 
 

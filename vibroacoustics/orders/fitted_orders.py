@@ -22,7 +22,7 @@ from .crank_motion import CrankMotion
 LEAST_SPACING_LINES: Final = 1.0
 """Least product of spacing and revolutions: orders nearer to each other are not resolved."""
 TAPERED_SPACING_LINES: Final = 1.5
-"""From this product the samples have Hann weights, which keep other sound out."""
+"""Product from which on samples have Hann weights, which keep other sound out."""
 MOST_FIT_BYTES: Final = 2**30
 MOST_DENOMINATOR: Final = 1000
 _SLACK: Final = 1e-3
@@ -67,9 +67,9 @@ class FittedOrders:
 
     Parameters
     ----------
-    rate_hz, samples : of the recording
+    rate_hz, samples : sample rate and number of samples of the recording
     channels : number of its channels
-    motion : of the shaft
+    motion : motion of the shaft
     settings : the orders that are wanted; the fit has all multiples of their spacing up to the
         maximum order
 

@@ -24,7 +24,7 @@ def labelled_map(
 
     Parameters
     ----------
-    mapped : of the signal
+    mapped : map of the signal
     signal : (channel, time), with `channel_unit`
     maximum_frequency_hz : highest that is kept; None for all
 

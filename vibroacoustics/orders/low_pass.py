@@ -23,7 +23,7 @@ class LowPass:
     """
 
     cutoff: float
-    """c, amplitude 1/2, middle of the transition, cycles a step."""
+    """Cut-off frequency c, of amplitude 1/2 within the transition, cycles a step."""
     half_length: int
     """H, steps."""
     kaiser_beta: float
@@ -59,7 +59,7 @@ def add_samples(signal: Array, position: Array, width: Array, table: Array, outp
     signal : x, shape (channel, sample)
     position : u_n from 0 to the number of outputs less 2 H, in output steps, shape (sample,)
     width : Δu_n, steps between samples there, shape (sample,)
-    table : of the kernel, shape (position between two outputs, output)
+    table : values of the kernel, shape (position between two outputs, output)
     output : y, shape (channel, output); it is changed
     """
     taps = table.shape[1]

@@ -12,12 +12,12 @@ _DEVIATION: Final = 0.004
 _NOMINAL_HZ: Final = (50.0, 60.0, 100.0, 120.0)
 """Lowest lines of hum: of the mains themselves, and of what hums twice in a period."""
 _AS_EVEN: Final = 0.002
-"""As near as the mains keep to their frequency, relative."""
+"""Deviation of the mains from their nominal frequency, relative."""
 _TRIALS: Final = 401
 _HALF_WIDTH_LINES: Final = 2.5
 """Lines of the transform that a steady line fills to each side, with a Hann window."""
 _DRIFT: Final = 2e-4
-"""Of the mains frequency within a recording, relative."""
+"""Drift of the mains frequency within a recording, relative."""
 
 
 def without_mains(signal: Array, sample_rate_hz: float, nominal_hz: float) -> Array:
@@ -30,8 +30,8 @@ def without_mains(signal: Array, sample_rate_hz: float, nominal_hz: float) -> Ar
     Parameters
     ----------
     signal : shape (time,)
-    sample_rate_hz : of the signal
-    nominal_hz : of the mains, 50 or 60
+    sample_rate_hz : sample rate of the signal
+    nominal_hz : nominal frequency of the mains, 50 or 60
     """
     spectrum = fft.rfft(signal)
     line_hz = sample_rate_hz / signal.size
@@ -65,15 +65,15 @@ def mains_frequency_hz(signal: Array, sample_rate_hz: float, nominal_hz: float) 
 
     Parameters
     ----------
-    signal, sample_rate_hz, nominal_hz : as in `without_mains`
+    signal, sample_rate_hz, nominal_hz : see `without_mains`
     """
     window = np.hanning(signal.size)
     level = np.log(np.abs(fft.rfft(window * signal)) + 1e-300)
     trials = nominal_hz * np.linspace(1.0 - _DEVIATION, 1.0 + _DEVIATION, _TRIALS)
     multiple = np.arange(1, max(int(0.5 * sample_rate_hz / trials[-1]), 1) + 1)
-    at = np.outer(trials, multiple) * signal.size / sample_rate_hz
-    covered = at < level.size - 1
-    values = np.where(covered, np.interp(at, np.arange(level.size), level), 0.0)
+    bins = np.outer(trials, multiple) * signal.size / sample_rate_hz
+    covered = bins < level.size - 1
+    values = np.where(covered, np.interp(bins, np.arange(level.size), level), 0.0)
     # The clearest few: most multiples hold nothing.
     clearest = np.sort(values - np.median(values, axis=0), axis=1)[:, -6:]
     return float(trials[np.argmax(clearest.sum(axis=1))])

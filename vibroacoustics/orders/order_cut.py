@@ -54,7 +54,7 @@ def order_cut(
 
     Parameters
     ----------
-    spectra : of the run-up
+    spectra : spectra of the run-up
     orders : to cut out
     bandwidth_order : width of each band, orders; at least, and where it is not given, the main
         lobe's width
@@ -180,7 +180,7 @@ def _check_bands(spectra: OrderMap, orders: Array, bandwidth: float) -> None:
 
 
 def warn_of_neighbours(orders: Array, needed: float, why: str, stacklevel: int = 3) -> None:
-    """Warn of orders that are nearer to each other than is needed to tell them apart."""
+    """Warn of orders that are nearer to each other than the resolution."""
     for lower, upper in pairwise(np.unique(orders)):
         if upper - lower < needed * (1.0 - _SAME_LINE):
             warnings.warn(

@@ -23,7 +23,7 @@ class OrderMap:
     order: Array
     """Multiples of 1 / revolutions, shape (order,)."""
     revolutions: int
-    """In each block."""
+    """Revolutions in each block."""
     window: Window
     starts: NDArray[np.int64]
     """First sample of the blocks in the signal, shape (block,)."""
@@ -92,7 +92,7 @@ def block_revolutions(window: Window, resolution_order: float, spanned: float) -
 
     Parameters
     ----------
-    window : of the blocks
+    window : window of the blocks
     resolution_order : coarsest noise bandwidth of a line, orders
     spanned : revolutions of the signal
 

@@ -16,12 +16,13 @@ from .tacho_states import TachoStates
 Blocks = Callable[[], Iterator[Array]]
 
 _HYSTERESIS: Final = 0.4
-"""Of the swing: noise has to cross the middle 40 % to make a pulse, and a pulse of two or three
-samples, which a converter's filter rounds, still reaches 70 % of the swing."""
+"""Share of the swing: noise has to cross the middle 40 % to make a pulse, and a pulse of two or
+three samples, which a converter's filter rounds, still reaches 70 % of the swing."""
 _STEEPER: Final = 0.5
 """Time of the falling edge over that of the rising one, below which the falling one is taken."""
 _ROUNDS: Final = 5
-"""In which the threshold follows the height: each reaches pulses of a fifth of the last height."""
+"""Rounds in which the threshold follows the height: each reaches pulses of a fifth of the last
+height."""
 
 
 @dataclass(frozen=True)
@@ -94,15 +95,15 @@ def pulses_of(
     ----------
     blocks : starts over with the channel's blocks, each of shape (time,): they are read twice, and
         again where the height of the pulses changes
-    samples : of all blocks
-    sample_rate_hz, edge, threshold, hysteresis : of `pulse_times`
+    samples : number of samples of all blocks
+    sample_rate_hz, edge, threshold, hysteresis : see `pulse_times`
     """
     states = TachoStates(samples)
     for block in blocks():
         states.add(block)
     low, high, are_two_states = states.levels()
     levels = _Levels(
-        rest=states.rest(),
+        idle=states.idle(),
         middle=0.5 * (low + high) if threshold is None else threshold,
         band=_HYSTERESIS * (high - low) if hysteresis is None else hysteresis,
         middle_follows=threshold is None,
@@ -123,7 +124,7 @@ def pulses_of(
 class _Levels(NamedTuple):
     """Threshold and band around it at full height, the level at rest, what follows the height."""
 
-    rest: float
+    idle: float
     middle: float
     band: float
     middle_follows: bool
@@ -166,14 +167,14 @@ def _detected(
 
     Parameters
     ----------
-    blocks, edge, levels : as above
+    blocks, edge, levels : see above
     heights : relative, which the levels follow; None where they are 1
     """
     sign = 1.0 if edge == "rising" else -1.0
     state, first, parts = np.array([np.nan, 0.0, 0.0, -np.inf, np.inf, 0.0]), 0, []
     for block in blocks():
-        height = np.ones(1) if heights is None else heights.at(first, block.size)
-        middle = levels.rest + (levels.middle - levels.rest) * height
+        height = np.ones(1) if heights is None else heights.height_at(first, block.size)
+        middle = levels.idle + (levels.middle - levels.idle) * height
         half = 0.5 * levels.band * (height if levels.band_follows else np.ones(height.size))
         middle = middle if levels.middle_follows else np.full(height.size, levels.middle)
         parts.append(_crossings(block, first, sign, sign * middle, half, state))
@@ -190,14 +191,15 @@ def _crossings(
 
     Parameters
     ----------
-    signal : the next samples; times `sign` they are what goes upward
+    signal : the next samples, shape (sample,); times `sign` they are what goes upward
     first : number of its first sample
     sign : 1 or -1
-    middles : threshold of each sample, or one of all
-    halves : of the band about it, likewise
-    state : the sample before, over its threshold, not a number at the start; 1 where the signal has
-        been below the lower level since the last crossing; the last crossing of the middle; highest
-        and lowest sample since the last pulse; last sample below the lower level. It is changed
+    middles : threshold, shape (sample,) or (1,)
+    halves : halves of the band about it, of the same shape
+    state : shape (6,): the sample before, over its threshold, not a number at the start; 1 where
+        the signal has been below the lower level since the last crossing; the last crossing of the
+        middle; highest and lowest sample since the last pulse; last sample below the lower level.
+        It is changed
 
     Returns
     -------
@@ -212,16 +214,16 @@ def _crossings(
         after = sign * signal[k]
         middle, half = (middles[0], halves[0]) if is_one else (middles[k], halves[k])
         highest, lowest = max(highest, after), min(lowest, after)
-        over = after - middle
-        if armed and before < 0.0 <= over:
-            crossing = first + k - 1 - before / (over - before)
-        if armed and over >= half:
+        current = after - middle
+        if armed and before < 0.0 <= current:
+            crossing = first + k - 1 - before / (current - before)
+        if armed and current >= half:
             crossings[count], swings[count] = crossing, highest - lowest
             lengths[count] = first + k - below
             count += 1
             armed, highest, lowest = False, after, after
-        elif over <= -half:
+        elif current <= -half:
             armed, below = True, float(first + k)
-        before = over
+        before = current
     state[:] = (before, 1.0 if armed else 0.0, crossing, highest, lowest, below)
     return crossings[:count].copy(), swings[:count].copy(), lengths[:count].copy()

@@ -27,7 +27,7 @@ _LOOK_BACK: Final = 64
 _MOST_FAULTS: Final = 0.25
 """Share of the pulses above which they are no train of pulses."""
 _COINCIDENT: Final = 1e-12
-"""Of the whole time: pulses closer than that differ by rounding only."""
+"""Share of the whole time: pulses closer than that differ by rounding only."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class PulseFault:
 
     kind: Literal["missing", "double"]
     time_s: float
-    """When it came, or should have come."""
+    """Time at which it came, or should have come."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class NumberedPulses:
     time_s: Array
     number: Indices
     faults: tuple[PulseFault, ...]
-    """In the order of time."""
+    """Faults in the order of time."""
 
 
 def number_pulses(time_s: Array) -> NumberedPulses:
@@ -118,7 +118,8 @@ def _cheapest(time_s: Array, rate: Array) -> tuple[Indices, Indices]:
 
 @numba.njit(cache=True, nogil=True)
 def _search(time_s: Array, rate: Array) -> tuple[Indices, Indices, int]:
-    """For each pulse the cheapest one before it and the periods between; the cheapest last one."""
+    """Find for each pulse the cheapest one before it and the periods between; the cheapest last
+    one."""
     cost = _DISCARD_COST * np.arange(time_s.size)
     previous = np.full(time_s.size, -1)
     steps = np.zeros(time_s.size, np.int64)

@@ -11,15 +11,16 @@ from ..base.arrays import Array
 EVEN_HEIGHT: Final = 0.8
 """Least height over the largest one, above which the threshold stays as it is."""
 _NEIGHBOURS: Final = 5
-"""Pulses over which the median of heights and intervals is taken: two spikes are left out."""
+"""Pulses over which the median of heights and intervals is taken: two spikes have no effect."""
 _BEYOND: Final = 0.5
 """Height that is expected beyond the first and last pulse, over theirs."""
 _LEAST_SWING: Final = 0.6
-"""Before and behind a further pulse, over that of its neighbours."""
+"""Least swing before and behind a further pulse, over that of its neighbours."""
 _SECOND_LOBE: Final = 0.6
-"""Of that behind the last pulse of an inductive pickup, which has half its swing there."""
+"""Height of the lobe behind the last pulse of an inductive pickup, which has half its swing
+there."""
 _INTERVALS: Final = (0.6, 3.6)
-"""Of a further pulse over that of its neighbours: a tooth or two may be left out."""
+"""Interval of a further pulse over that of its neighbours: a tooth or two may be missing."""
 _SILENT: Final = 2.5
 """Longest interval, over the longest of its neighbours, in which no pulse is missed."""
 _LONGEST_OF: Final = 150
@@ -33,8 +34,8 @@ class Heights:
 
     Attributes
     ----------
-    sample : of the pulses
-    height : at each, 0 to 1
+    sample : sample numbers of the pulses, shape (pulse,)
+    height : height of each, 0 to 1, shape (pulse,)
     """
 
     sample: Array
@@ -45,7 +46,7 @@ class Heights:
         """Least height."""
         return float(self.height.min())
 
-    def at(self, first: int, samples: int) -> Array:
+    def height_at(self, first: int, samples: int) -> Array:
         """Height at samples from a first one; half of the last one beyond the pulses."""
         before, behind = self.sample[1] - self.sample[0], self.sample[-1] - self.sample[-2]
         ends = np.array([1.0, 0.5])
@@ -66,7 +67,7 @@ def heights_of(pulses: Array, swings: Array) -> Heights | None:
     Parameters
     ----------
     pulses : in samples, shape (pulse,)
-    swings : of the signal before, between and behind the pulses, shape (pulse + 1,)
+    swings : swings of the signal before, between and behind the pulses, shape (pulse + 1,)
     """
     if pulses.size < _NEIGHBOURS:
         return None
@@ -74,7 +75,7 @@ def heights_of(pulses: Array, swings: Array) -> Heights | None:
     return Heights(pulses, height / height.max())
 
 
-def continued(known: Array, pulses: Array, swings: Array, has_lobes: bool) -> tuple[Array, Array]:
+def continued(numbers: Array, pulses: Array, swings: Array, has_lobes: bool) -> tuple[Array, Array]:
     """Pulses between the known ones, and those beyond that go on as evenly, with their swings.
 
     A pulse goes on while swings and interval are near those of the pulses before it: noise at
@@ -82,12 +83,12 @@ def continued(known: Array, pulses: Array, swings: Array, has_lobes: bool) -> tu
 
     Parameters
     ----------
-    known : pulses of the round before, in samples
-    pulses, swings : of this round, as in `heights_of`
+    numbers : pulses of the round before, shape (pulse,), samples
+    pulses, swings : pulses and swings of this round, see `heights_of`
     has_lobes : whether the pulses go to both sides of a rest
     """
     behind = _LEAST_SWING * (_SECOND_LOBE if has_lobes else 1.0)
-    inner = np.flatnonzero((pulses >= known[0] - 0.5) & (pulses <= known[-1] + 0.5))
+    inner = np.flatnonzero((pulses >= numbers[0] - 0.5) & (pulses <= numbers[-1] + 0.5))
     if inner.size < _NEIGHBOURS:
         return pulses[inner], np.append(swings[inner], 0.0)
     interval = np.diff(pulses)
@@ -103,7 +104,7 @@ def _reach(interval: Array, swings: Array, start: int, behind: float) -> int:
     Parameters
     ----------
     interval : between neighbours, shape (pulse - 1,)
-    swings : as in `heights_of`
+    swings : swings, see `heights_of`
     start : pulse, with some before it
     behind : least swing behind a further pulse, over that of its neighbours
     """
@@ -124,11 +125,11 @@ def silent_parts(time: Array, start: float, end: float) -> list[tuple[float, flo
 
     Parameters
     ----------
-    time : of the pulses, rising, two at least
-    start, end : of the recording, in the unit of the pulses' time
+    time : time of the pulses, rising, shape (pulse,), two at least
+    start, end : start and end of the recording, in the unit of the pulses' time
     """
-    at = np.concatenate([[start], time, [end]])
-    interval = np.diff(at)
+    borders = np.concatenate([[start], time, [end]])
+    interval = np.diff(borders)
     inner = interval[1:-1]
     parts = []
     for number in np.flatnonzero(interval > _SILENT * np.median(inner)):
@@ -137,7 +138,7 @@ def silent_parts(time: Array, start: float, end: float) -> list[tuple[float, flo
             [inner[low : max(number - 1, 0)], inner[number : number + _LONGEST_OF]]
         )
         if beside.size == 0 or interval[number] > _SILENT * beside.max():
-            parts.append((float(at[number]), float(at[number + 1])))
+            parts.append((float(borders[number]), float(borders[number + 1])))
     return parts
 
 

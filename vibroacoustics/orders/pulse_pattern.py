@@ -1,4 +1,4 @@
-"""What tacho pulses say of their wheel: teeth left out, unequal pitches, too few samples."""
+"""Pattern of tacho pulses: missing teeth, unequal pitches, too few samples."""
 
 from typing import Final
 
@@ -8,11 +8,13 @@ from ..base.arrays import Array
 from .pulse_faults import NumberedPulses
 
 LEAST_SAMPLES: Final = 4.0
-"""Between two pulses, below which edges are missed: from half the sample rate on pulses alias."""
+"""Samples between two pulses below which edges are missed: from half the sample rate on pulses
+alias."""
 _QUICKEST: Final = 0.01
 """Share of the pulses that come so close, as where an aliasing encoder's speed seems to turn."""
 _UNEQUAL: Final = 0.02
-"""Of a pitch, from which marks are unequally spaced; speed varies less from tooth to tooth."""
+"""Share of a pitch, from which marks are unequally spaced; speed varies less from tooth to
+tooth."""
 _CLEAR: Final = 5.0
 """Standard errors by which the pitches of a revolution differ."""
 _REPEATED: Final = 0.8
@@ -28,7 +30,7 @@ def pulse_notes(pulses: NumberedPulses, pulses_per_revolution: int) -> tuple[tup
     Parameters
     ----------
     pulses : numbered
-    pulses_per_revolution : as stated
+    pulses_per_revolution : number of pulses that was stated
     """
     gap = _gap_note(pulses, pulses_per_revolution)
     if gap is not None:
@@ -56,7 +58,7 @@ def sampling_note(pulse_times_s: Array, sample_rate_hz: float) -> str | None:
     Parameters
     ----------
     pulse_times_s : rising, shape (pulse,)
-    sample_rate_hz : of the channel
+    sample_rate_hz : sample rate of the channel
     """
     if pulse_times_s.size < 2:
         return None
@@ -70,7 +72,7 @@ def sampling_note(pulse_times_s: Array, sample_rate_hz: float) -> str | None:
 
 
 def _gap_note(pulses: NumberedPulses, stated: int) -> tuple[str, bool] | None:
-    """Teeth that are left out in every revolution; whether the stated number counts them."""
+    """Teeth that are missing in every revolution; whether the stated number counts them."""
     steps = np.diff(pulses.number)
     gaps = np.flatnonzero(steps > 1)
     if gaps.size < _LEAST_REVOLUTIONS:
@@ -80,9 +82,7 @@ def _gap_note(pulses: NumberedPulses, stated: int) -> tuple[str, bool] | None:
     regular = np.mean((apart == teeth) & (steps[gaps[1:]] == absent + 1))
     if regular < _REPEATED or teeth < 3:
         return None
-    wheel = (
-        f"{absent} of {teeth} pulses are left out regularly, as on a wheel of {teeth} - {absent}"
-    )
+    wheel = f"{absent} of {teeth} pulses are missing regularly, as on a wheel of {teeth} - {absent}"
     if teeth == stated:
         return f"{wheel} teeth: the gaps are counted", True
     return f"{wheel} teeth; {stated} pulses a revolution are stated: give {teeth}", False

@@ -11,7 +11,7 @@ from ..base.errors import ParameterError
 LARGEST_GAP: Final = 0.05
 """Distance of neighbouring speeds between which a ratio is interpolated, over the lower speed."""
 _BEYOND: Final = 0.005
-"""How far beyond the lowest and highest speed a ratio is constant, over the speed."""
+"""Share beyond the lowest and highest speed to which a ratio is constant."""
 
 
 def ratio_over_speed(speed_rpm: Array, ratio: ComplexArray, wanted_rpm: Array) -> ComplexArray:
@@ -35,9 +35,9 @@ def ratio_over_speed(speed_rpm: Array, ratio: ComplexArray, wanted_rpm: Array) -
     used = used_speeds(speed_rpm, float(np.min(wanted_rpm)), float(np.max(wanted_rpm)))
     phase = np.unwrap(np.angle(ratio[:, used]), axis=-1)
     rows = zip(np.abs(ratio[:, used]), phase, strict=True)
-    course = (wanted_rpm, speed_rpm[used])
+    profile = (wanted_rpm, speed_rpm[used])
     values = [
-        np.interp(*course, size) * np.exp(1j * np.interp(*course, turn)) for size, turn in rows
+        np.interp(*profile, size) * np.exp(1j * np.interp(*profile, turn)) for size, turn in rows
     ]
     return np.array(values, dtype=complex).reshape(len(ratio), wanted_rpm.size)
 
@@ -48,7 +48,7 @@ def used_speeds(speed_rpm: Array, lowest_rpm: float, highest_rpm: float) -> Inde
     Parameters
     ----------
     speed_rpm : rising, shape (speed,)
-    lowest_rpm, highest_rpm : of the recording
+    lowest_rpm, highest_rpm : lowest and highest speed of the recording
 
     Returns
     -------
@@ -84,7 +84,7 @@ def speeds_to_add(speed_rpm: Array, lowest_rpm: float, highest_rpm: float) -> Ar
     Parameters
     ----------
     speed_rpm : rising, shape (speed,)
-    lowest_rpm, highest_rpm : of the recording
+    lowest_rpm, highest_rpm : lowest and highest speed of the recording
     """
     within_range = speed_rpm[(speed_rpm >= lowest_rpm) & (speed_rpm <= highest_rpm)]
     begins = [speed_rpm[speed_rpm < lowest_rpm][-1:], np.floor([lowest_rpm])]

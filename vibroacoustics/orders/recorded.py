@@ -38,7 +38,7 @@ def recorded_orders(
     Parameters
     ----------
     channel : names, with `channel_unit` and `calibration_factor`
-    blocks : of the recording
+    blocks : blocks of the recording
     settings : the orders that are wanted
     """
     block_speed = 60.0 * blocks.shaft_frequency_hz
@@ -102,7 +102,7 @@ def _at_points(
 def synchronous_average(channel: xr.DataArray, revolutions: RevolutionAverage) -> xr.Dataset:
     """Mean revolution of the channels and its standard error.
 
-    Where there are fewer than two revolutions it is left out: the attribute `left_out` says why.
+    Where there are fewer than two revolutions it is omitted: the attribute `left_out` says why.
     """
     try:
         average = revolutions.result()
@@ -119,7 +119,8 @@ def synchronous_average(channel: xr.DataArray, revolutions: RevolutionAverage) -
 
 
 def fault_times(faults: Sequence[PulseFault]) -> xr.Dataset:
-    """When pulses of the tacho were missing or double; empty without faults."""
+    """Return the times at which pulses of the tacho were missing or double; empty without
+    faults."""
     if not faults:
         return xr.Dataset()
     names = [f"{number} {fault.kind}" for number, fault in enumerate(faults, 1)]
@@ -128,7 +129,7 @@ def fault_times(faults: Sequence[PulseFault]) -> xr.Dataset:
 
 
 def resolution(blocks: OrdersOfBlocks) -> dict[str, Any]:
-    """Attributes that say how finely the blocks tell orders apart."""
+    """Attributes on the order resolution of the blocks."""
     return {
         "window": WINDOW,
         "revolutions_per_block": blocks.revolutions,

@@ -32,10 +32,10 @@ from .tacho import tacho_motion
 from .tacholess import tacholess_motion
 
 LEAST_CONFIDENCE: Final = 0.8
-"""Of a speed without a tacho that is not warned of (`SpeedCheck`)."""
+"""Least confidence of a speed without a tacho that causes no warning (`SpeedCheck`)."""
 
 MOST_SPEED_SAMPLES: Final = 2**26
-"""Of a channel in which the speed is looked for: half a GiB, 22 min at 51.2 kHz."""
+"""Most samples of a channel in which the speed is sought: half a GiB, 22 min at 51.2 kHz."""
 
 _PARTS: Final = 3
 """Parts without pulses that are listed."""
@@ -65,7 +65,7 @@ class RecordedSpeed:
 
     motion: CrankMotion
     source: str
-    """Where the speed comes from, in words."""
+    """Source of the speed, in words."""
     angle_zero: str = NO_ANGLE_ZERO
     """The mark on the shaft at which the crank angle is zero."""
     faults: tuple[PulseFault, ...] = ()
@@ -73,7 +73,7 @@ class RecordedSpeed:
     """`jitter` of a tacho in periods, or `confidence` without one."""
 
     def attributes(self) -> dict[str, Any]:
-        """What the results say of the speed."""
+        """Return attributes of the results on the speed."""
         return {
             "speed_source": self.source,
             "angle_zero": self.angle_zero,
@@ -110,9 +110,9 @@ def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSp
     UncertainSpeedWarning
         Other speeds explain the signal as well as the one that was tracked.
     StandstillWarning
-        The shaft stands at the begin or the end: that part is left out.
+        The shaft stands at the begin or the end: that part is omitted.
     PulseWarning
-        Teeth are left out, pulses unequally spaced or too quick for the sample rate, their jitter
+        Teeth are missing, pulses unequally spaced or too quick for the sample rate, their jitter
         is above 5 % of a period, or a part of the recording has none.
     """
     rate_hz = recording.sample_rate_hz

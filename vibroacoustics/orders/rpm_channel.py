@@ -10,7 +10,8 @@ from ..base.errors import ParameterError
 from .crank_motion import CrankMotion, from_angle
 
 _POINTS_PER_S: Final = 20
-"""Of a recorded speed: it holds nothing faster than the 10 Hz that drives are controlled at."""
+"""Points of a recorded speed: it holds nothing faster than the 10 Hz that drives are controlled
+at."""
 _LEAST_POINTS: Final = 4
 _STANDSTILL: Final = 0.01
 """Share of the highest speed up to which a shaft that starts or stops counts as standing."""
@@ -50,7 +51,7 @@ def rpm_motion_of(blocks: Blocks, samples: int, sample_rate_hz: float) -> CrankM
     Parameters
     ----------
     blocks : read twice; thrice where the speed falls to zero
-    samples : of all blocks
+    samples : number of samples of all blocks
     sample_rate_hz : samples per second
     """
     if samples < _LEAST_POINTS:
@@ -59,9 +60,9 @@ def rpm_motion_of(blocks: Blocks, samples: int, sample_rate_hz: float) -> CrankM
         )
     first, last = _turning_part(blocks, samples)
     points = max(_LEAST_POINTS, int(_POINTS_PER_S * (last - first) / sample_rate_hz))
-    at = np.linspace(first, last - 1, min(points, last - first)).round().astype(int)
-    angle_rad = 2.0 * np.pi / 60.0 / sample_rate_hz * _integral(blocks(), at)
-    return from_angle(at / sample_rate_hz, angle_rad)
+    probes = np.linspace(first, last - 1, min(points, last - first)).round().astype(int)
+    angle_rad = 2.0 * np.pi / 60.0 / sample_rate_hz * _integral(blocks(), probes)
+    return from_angle(probes / sample_rate_hz, angle_rad)
 
 
 def _turning_part(blocks: Blocks, samples: int) -> tuple[int, int]:
@@ -95,19 +96,19 @@ def _runs(
         moving += int(np.count_nonzero(np.abs(block) > standing_rpm))
         added, turned = added + block.size, bool(turns[-1])
     edges.append(np.array([samples] if turned else [], dtype=np.intp))
-    at = np.concatenate(edges)
-    return at[::2], at[1::2], moving
+    borders = np.concatenate(edges)
+    return borders[::2], borders[1::2], moving
 
 
-def _integral(blocks: Iterator[Array], at: IndexArray) -> Array:
+def _integral(blocks: Iterator[Array], probes: IndexArray) -> Array:
     """Sum of the trapezoids from the first of some rising samples up to each of them."""
-    integral = np.zeros(at.size)
+    integral = np.zeros(probes.size)
     added, total, before = 0, 0.0, 0.0
     for block in blocks:
         steps = 0.5 * (block + np.concatenate([[before], block[:-1]]))
-        steps[: max(min(at[0] + 1 - added, block.size), 0)] = 0.0  # up to the first
+        steps[: max(min(probes[0] + 1 - added, block.size), 0)] = 0.0  # up to the first
         sums = total + np.cumsum(steps)
-        here = (at >= added) & (at < added + block.size)
-        integral[here] = sums[at[here] - added]
+        here = (probes >= added) & (probes < added + block.size)
+        integral[here] = sums[probes[here] - added]
         added, total, before = added + block.size, float(sums[-1]), float(block[-1])
     return integral

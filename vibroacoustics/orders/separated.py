@@ -42,7 +42,7 @@ class SeparatedOrders:
 
     Attributes
     ----------
-    tracks : of the orders
+    tracks : tracks of the orders
     time_s : shape (time,), from the start of the signal
     envelope : complex peaks in the signal's unit, shape (track, time)
     order_square : mean square of each order, unit², shape (track,)
@@ -75,7 +75,7 @@ def separated_orders(
     Parameters
     ----------
     signal : shape (time,)
-    sample_rate_hz : of the signal
+    sample_rate_hz : sample rate of the signal
     tracks : orders; those that do not cross are at least 8 bandwidths apart
     bandwidth_hz : full width at -3 dB of what belongs to an order at most
 
@@ -124,8 +124,8 @@ def changed_signal(
     Parameters
     ----------
     signal : shape (time,)
-    sample_rate_hz : of the signal
-    orders : of the signal
+    sample_rate_hz : sample rate of the signal
+    orders : orders of the signal
     ratio : new over old complex peak, shape (track, time) of the envelopes
 
     Raises
@@ -156,7 +156,7 @@ def order_sum(
     tracks : orders
     time_s : evenly spaced, shape (time,)
     envelope : complex peaks X, shape (track, time)
-    samples, sample_rate_hz : of the signal
+    samples, sample_rate_hz : samples and sample rate of the signal
 
     Returns
     -------
@@ -217,7 +217,8 @@ def _order_in_noise(
     Parameters
     ----------
     envelope, noise : shape (track, time)
-    lines : of the spectrum within the bandwidth on either side; those beyond are no order
+    lines : number of lines of the spectrum within the bandwidth on either side; those beyond are no
+        order
     """
     of_order, of_noise = (dct(each, axis=-1, norm="ortho") for each in (envelope, noise))
     size = envelope.shape[-1]

@@ -10,11 +10,11 @@ from scipy.linalg import solveh_banded
 from ..base.arrays import Array
 
 _INFLATION: Final = 1.4
-"""Of the degrees of freedom in the criterion: without it, it chooses far too many now and then (Kim
-and Gu 2004)."""
+"""Factor of the degrees of freedom in the criterion: without it, far too many are chosen at times
+(Kim and Gu 2004)."""
 
 _CLEAN_TRIALS: Final = 8
-"""Pieces after the third trial: fewer trials cannot tell a clean curve from luck."""
+"""Pieces after the third trial: fewer trials cannot distinguish a clean curve from luck."""
 
 
 @dataclass(frozen=True)

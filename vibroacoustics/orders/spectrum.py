@@ -52,7 +52,7 @@ def order_spectrum_at_speed(
     Parameters
     ----------
     signal : shape (..., samples), over uniform crank angles of one revolution
-    speed_rad_per_s : of the shaft at these angles, shape (samples,)
+    speed_rad_per_s : speed of the shaft at these angles, shape (samples,)
     maximum_order : highest order to return, below half the samples
 
     Returns
@@ -75,7 +75,7 @@ def order_spectra(signal: Array, speed_rad_per_s: Array, maximum_order: int) -> 
     Parameters
     ----------
     signal : shape (*cases, ..., samples), over uniform crank angles of one revolution
-    speed_rad_per_s : of the shaft at these angles, shape (*cases, samples)
+    speed_rad_per_s : speed of the shaft at these angles, shape (*cases, samples)
     maximum_order : highest order to return, below half the samples
 
     Returns
@@ -91,7 +91,8 @@ def order_spectra(signal: Array, speed_rad_per_s: Array, maximum_order: int) -> 
 
 
 def _series(signal: Array, maximum_order: int, revolutions: int = 1) -> ComplexArray:
-    """One-sided Fourier series of short courses; by scipy, as FFTW plans longer than it computes.
+    """One-sided Fourier series of short time histories; by scipy, as FFTW plans longer than it
+    computes.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How well the orders of a shaft explain short spectra, over candidates of its speed."""
+"""Likelihood of the orders of a shaft in short spectra, over candidates of its speed."""
 
 from typing import Final
 
@@ -13,7 +13,7 @@ from ..base.arrays import Array
 _NOISE_LEVEL: Final = 0.5963473623231941
 """Mean of ln(1 + p) for the power p of white noise, exponentially distributed: e E1(1)."""
 _BETWEEN: Final = np.array([1.0, 1.5, 2.0]) / 3.0
-"""Where the comb looks between two teeth. Twice the shaft's speed leaves lines at a half, three
+"""Orders of the comb between two teeth. Twice the shaft's speed leaves lines at a half, three
 times at a third and two thirds: without them these speeds would explain rich spectra as well."""
 _DYNAMIC_RANGE: Final = 1e-12
 """Least floor over the strongest line: 120 dB, more than a 24-bit converter has."""
@@ -38,7 +38,7 @@ def frame_levels(
     ----------
     signal : shape (time,)
     centres : shape (frames,), in samples
-    length : of a frame, samples; the spectrum is of twice that length
+    length : length of a frame, samples; the spectrum has twice that length
     change_per_sample : shape (frames,), relative change of speed at the centre
     floor_bins : width of the running median
 
@@ -53,8 +53,8 @@ def frame_levels(
     for row, centre, change in zip(
         levels, centres, np.clip(change_per_sample, -bound, bound), strict=True
     ):
-        at = centre + 2.0 * angle / (1.0 + np.sqrt(1.0 + 2.0 * change * angle))
-        power = np.abs(rfft(window * _at(signal, at), 2 * length)) ** 2
+        sample = centre + 2.0 * angle / (1.0 + np.sqrt(1.0 + 2.0 * change * angle))
+        power = np.abs(rfft(window * _at(signal, sample), 2 * length)) ** 2
         least = _DYNAMIC_RANGE * power.max() + np.finfo(float).tiny
         floor = median_filter(power, floor_bins, mode="nearest") / np.log(2.0)
         row[:] = np.log1p(power / np.maximum(floor, least)) - _NOISE_LEVEL
@@ -80,10 +80,13 @@ def comb_scores(levels: Array, orders: Array, candidates: Array) -> Array:
     below = np.concatenate([[0.0], orders[:-1]])
     between = (below[:, None] + _BETWEEN * (orders - below)[:, None]).ravel()
     weight = np.repeat([1.0, -1.0 / _BETWEEN.size], [orders.size, between.size])
-    at = np.concatenate([orders, between])[:, None] * candidates
-    covered = at < levels.shape[1] - 1
-    lower, column = np.floor(at[covered]).astype(int), np.nonzero(covered)[1]
-    share, tooth = at[covered] - lower, np.broadcast_to(weight[:, None], at.shape)[covered]
+    bins_of_comb = np.concatenate([orders, between])[:, None] * candidates
+    covered = bins_of_comb < levels.shape[1] - 1
+    lower, column = np.floor(bins_of_comb[covered]).astype(int), np.nonzero(covered)[1]
+    share, tooth = (
+        bins_of_comb[covered] - lower,
+        np.broadcast_to(weight[:, None], bins_of_comb.shape)[covered],
+    )
     comb = csr_array(
         (
             np.concatenate([tooth * (1.0 - share), tooth * share]),
@@ -104,19 +107,21 @@ def refine(levels: Array, orders: Array, candidates: Array, path: NDArray[np.int
 
     Parameters
     ----------
-    levels, orders, candidates : as in `comb_scores`; the candidates in even ratios
+    levels, orders, candidates : see `comb_scores`; the candidates in even ratios
     path : shape (frames,), position among the candidates
     """
     ratio = candidates[1] / candidates[0]
     trial = candidates[path][:, None] * ratio ** np.arange(-_SEARCH, _SEARCH + 1)
-    at = orders[:, None, None] * trial
-    frame = np.broadcast_to(np.arange(path.size)[:, None], at.shape)
-    level = map_coordinates(levels, [frame, at], order=3, cval=-_NOISE_LEVEL) + _NOISE_LEVEL
+    bins_of_comb = orders[:, None, None] * trial
+    frame = np.broadcast_to(np.arange(path.size)[:, None], bins_of_comb.shape)
+    level = (
+        map_coordinates(levels, [frame, bins_of_comb], order=3, cval=-_NOISE_LEVEL) + _NOISE_LEVEL
+    )
     total = np.log1p((np.expm1(level) / _CLEAR_LINE) ** 2).sum(axis=0)
     best, row = np.clip(np.argmax(total, axis=1), 1, 2 * _SEARCH - 1), np.arange(path.size)
-    left, top, right = (total[row, best + offset] for offset in (-1, 0, 1))
-    curvature = np.minimum(left - 2.0 * top + right, -1e-9)  # flat where a frame is silent
-    shift = np.clip(0.5 * (left - right) / curvature, -1.0, 1.0)
+    below, top, right = (total[row, best + offset] for offset in (-1, 0, 1))
+    curvature = np.minimum(below - 2.0 * top + right, -1e-9)  # flat where a frame is silent
+    shift = np.clip(0.5 * (below - right) / curvature, -1.0, 1.0)
     return np.asarray(trial[row, best] * ratio**shift)
 
 

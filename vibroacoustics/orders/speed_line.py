@@ -27,8 +27,8 @@ class MotionNearLine:
     Attributes
     ----------
     motion : its angle is zero at its start, not at a mark on the shaft
-    check : of all frames together, in the order spectrum that the speed makes; a rival frequency
-        is relative to the line
+    check : check of all frames together, in the order spectrum that the speed makes; a rival
+        frequency is relative to the line
     """
 
     motion: CrankMotion
@@ -53,7 +53,7 @@ def motion_near_line(
     ----------
     signal : shape (time,), of one channel, any unit
     sample_rate_hz : samples per second
-    time_s : of the points of the line, rising, shape (point,), s from the first sample
+    time_s : time of the points of the line, rising, shape (point,), s from the first sample
     shaft_frequency_hz : at the points, shape (point,)
     orders : rising, of the comb
     mains_hz : nominal frequency of the mains, whose multiples are omitted; None where there are

@@ -16,7 +16,8 @@ from .low_pass import LowPass, kaiser_low_pass
 from .order_cut import warn_of_neighbours
 
 ENVELOPE_ATTENUATION_DB: Final = 80.0
-"""Of an order a bandwidth away; modulation within the pass band keeps its size to 1e-4."""
+"""Attenuation of an order a bandwidth away; modulation within the pass band keeps its size to
+1e-4."""
 ENVELOPE_PASS_RATIO: Final = 0.25
 """Pass band over bandwidth: 6.7 revolutions of kernel at a bandwidth of one order. A wider one
 would need a longer kernel, of 20 at 0.75."""

@@ -1,4 +1,4 @@
-"""What repeats with the shaft: its average over the revolutions."""
+"""Synchronous average of a signal over the revolutions of the shaft."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ class SynchronousAverage:
     mean: Array
     """Shape (..., angle), from crank angle zero."""
     standard_error: Array
-    """Of the mean, from what is left after subtracting it, shape (..., angle)."""
+    """Standard error of the mean, from the residual after subtracting it, shape (..., angle)."""
     averages: int
 
 
@@ -45,7 +45,7 @@ class RevolutionAverage:
 
     Parameters
     ----------
-    samples_per_revolution : of the signal
+    samples_per_revolution : samples per revolution of the signal
     revolutions : after which it repeats
     """
 

@@ -14,7 +14,7 @@ from .pulse_pattern import pulse_notes
 from .smoothing import smooth_curve
 
 MOST_JITTER: Final = 0.05
-"""Of the pulses in periods, without a note."""
+"""Jitter of the pulses in periods, without a note."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class TachoResult:
     jitter: float
     """Standard deviation of the pulses about the motion, in pulse periods."""
     notes: tuple[str, ...] = ()
-    """What the pulses say of the wheel: teeth left out, unequal pitches, much jitter."""
+    """Notes on the wheel from its pulses: missing teeth, unequal pitches, much jitter."""
 
 
 def tacho_motion(
@@ -39,12 +39,12 @@ def tacho_motion(
     as smooth as their jitter asks for (`smooth_curve`). Within one knot distance of its ends the
     speed is less certain than inside. The pulses are taken to be equally spaced on the shaft: a
     pitch error of theirs shows as a fluctuation of the speed that repeats every revolution, from
-    which nothing in the pulses can tell it; a large one is noted.
+    which nothing in the pulses shows; a large one is noted.
 
     Parameters
     ----------
     pulse_times_s : shape (pulses,), rising
-    pulses_per_revolution : of the tacho
+    pulses_per_revolution : pulses per revolution of the tacho
     index_times_s : shape (index pulses,), of a second channel with one pulse a revolution. Angle
         zero is its first pulse within the motion; without it, it is the tacho's first pulse.
 

@@ -24,7 +24,7 @@ class TachoStates:
 
     Parameters
     ----------
-    samples : of all blocks
+    samples : number of samples of all blocks
     """
 
     def __init__(self, samples: int) -> None:
@@ -37,12 +37,12 @@ class TachoStates:
 
     @property
     def lowest(self) -> float:
-        """Of all samples."""
+        """Lowest sample."""
         return float(self._bottom.min())
 
     @property
     def highest(self) -> float:
-        """Of all samples."""
+        """Highest sample."""
         return float(self._top.max())
 
     def add(self, block: Array) -> None:
@@ -100,6 +100,6 @@ class TachoStates:
         top = float(np.sort(self._top)[-nth])
         return (bottom, top) if top > bottom else (self.lowest, self.highest)
 
-    def rest(self) -> float:
+    def idle(self) -> float:
         """Median of the samples, about which the height of pulses changes."""
         return float(np.median(np.concatenate(self._some)))

@@ -13,8 +13,8 @@ from ..base.errors import ParameterError
 from ..study.order_analysis import DEFAULT_COMB
 from .crank_motion import CrankMotion, from_curve
 from .mains import without_mains
-from .speed_check import SpeedCheck, checked_course
-from .speed_courses import Search, best_courses
+from .speed_check import SpeedCheck, checked_profile
+from .speed_profiles import Search, best_profiles
 
 _OVERSAMPLING: Final = 4
 """Samples per period of the highest order: the frames are straightened by linear interpolation."""
@@ -29,11 +29,11 @@ class TacholessResult:
     time_s: Array
     """Centres of the frames."""
     confidence: Array
-    """Of each frame, 0 to 1: likelihood of its speed over the sum of it and of that of the best
-    speed more than 5 % away. Above 0.5 the speed explains the frame better than every other one
-    within the limits; in noise its mean is 0.3 to 0.5."""
+    """Confidence of each frame, 0 to 1: likelihood of its speed over the sum of it and that of the
+    best speed more than 5 % away. Above 0.5 the speed explains the frame better than every other
+    one within the limits; in noise its mean is 0.3 to 0.5."""
     check: SpeedCheck
-    """Of all frames together, in the order spectrum that the speed makes."""
+    """Check of all frames together, in the order spectrum that the speed makes."""
 
 
 def tacholess_motion(
@@ -47,9 +47,9 @@ def tacholess_motion(
 ) -> TacholessResult:
     """Crank motion of a shaft from the orders in a signal, without a tacho.
 
-    Courses of speed that explain short spectra (`best_courses`), and an even speed, are compared in
+    Speed profiles that explain short spectra (`best_profiles`), and an even speed, are compared in
     the order spectra that they make: where the clear lines of a long spectrum lie at the teeth of
-    the comb, and what else explains them (`checked_course`). A sum of the levels at the orders in
+    the comb, and what else explains them (`checked_profile`). A sum of the levels at the orders in
     short spectra alone (Leclere, Andre and Antoni, Mechanical Systems and Signal Processing 81,
     2016) follows strong lines beside the orders: hum, or a gear mesh. The motion reaches from the
     centre of the first frame to that of the last.
@@ -58,11 +58,11 @@ def tacholess_motion(
     ----------
     signal : shape (time,), of one channel, any unit
     sample_rate_hz : samples per second
-    minimum_frequency_hz, maximum_frequency_hz : of the shaft; frames are as long as eight
-        revolutions at the lowest
+    minimum_frequency_hz, maximum_frequency_hz : lowest and highest frequency of the shaft; frames
+        are as long as eight revolutions at the lowest
     orders : rising, of the comb; the better they are those of the machine, the surer is the speed
     maximum_change_per_s : largest relative change of the speed, 1/s
-    mains_hz : nominal frequency of the mains, whose multiples are left out; None where there are
+    mains_hz : nominal frequency of the mains, whose multiples are removed; None where there are
         none
 
     Raises
@@ -84,9 +84,9 @@ def tacholess_motion(
     search = Search(
         samples, rate, order, minimum_frequency_hz, maximum_frequency_hz, maximum_change_per_s
     )
-    course, check = checked_course(search, best_courses(search))
-    angle = PPoly(2.0 * np.pi * course.curve.c, course.curve.x).antiderivative()
-    return TacholessResult(from_curve(angle), course.time_s, course.confidence, check)
+    profile, check = checked_profile(search, best_profiles(search))
+    angle = PPoly(2.0 * np.pi * profile.curve.c, profile.curve.x).antiderivative()
+    return TacholessResult(from_curve(angle), profile.time_s, profile.confidence, check)
 
 
 def _check(signal: Array, rate: float, minimum: float, maximum: float, orders: Array) -> None:

@@ -24,14 +24,14 @@ def tracked_orders(
     Parameters
     ----------
     signal : (channel, time)
-    sample_rate_hz : of the signal
-    motion : of the shaft
-    orders, bandwidth_hz, poles : of `vold_kalman`
+    sample_rate_hz : sample rate of the signal
+    motion : motion of the shaft
+    orders, bandwidth_hz, poles : see `vold_kalman`
 
     Raises
     ------
     ParameterError, SolverError
-        As `vold_kalman`; or an order is named twice or is not above 0.
+        See `vold_kalman`; or an order is named twice or is not above 0.
     """
     numbers = [float(order) for order in orders]
     if not numbers or min(numbers) <= 0.0 or len(set(numbers)) < len(numbers):

@@ -1,4 +1,4 @@
-"""A signal over the angle of a course of speed: its lines, frames, and what is left without it."""
+"""A signal over the angle of a speed profile: its lines, frames, and what is left without it."""
 
 from dataclasses import replace
 from functools import cached_property
@@ -13,12 +13,12 @@ from ..base.arrays import Array
 from .comb_evidence import Lines, are_in_place, clear_lines
 from .smoothing import smooth_curve
 from .speed_comb import comb_scores, frame_levels, refine
-from .speed_courses import MOST_LEVEL, Course, Search
+from .speed_profiles import MOST_LEVEL, Search, SpeedProfile
 
 _BLOCKS: Final = 4.0
 """Lengths of a block in the recording; fewer average nothing, more resolve less."""
 _MOST_REVOLUTIONS: Final = 128
-"""Of a block, at the middle of the limits."""
+"""Revolutions of a block, midway between the limits."""
 _LEAST_REVOLUTIONS: Final = 8
 _FLOOR_ORDERS: Final = 4.0
 """Width of the running median under the lines of an order spectrum."""
@@ -27,32 +27,33 @@ _SKIRT: Final = 0.006
 _SKIRT_LINES: Final = 3.0
 _FRAME_REVOLUTIONS: Final = 24
 _SPAN: Final = 0.006
-"""Relative distance over which a course is refined."""
+"""Relative distance over which a speed profile is refined."""
 _TRIALS: Final = 25
 _LOW_ORDERS: Final = 3
 _BEST_ORDERS: Final = 2
 _CLEAR_LEVEL: Final = 1.9
-"""Of a line in a frame, ln of power over floor less its mean in noise: 10 dB over the floor."""
+"""Level of a line in a frame, ln of power over floor less its mean in noise: 10 dB over the
+floor."""
 _STANDS_OUT: Final = 0.5
 """Share of their usual score, in ln of power over floor, that orders have when followed."""
 
 
 class Unrolled:
-    """The signal over the angle of a course, evenly sampled in revolutions.
+    """The signal over the angle of a speed profile, evenly sampled in revolutions.
 
     Parameters
     ----------
     search : with the signal
-    course : whose speed is above zero
+    profile : whose speed is above zero
     """
 
-    def __init__(self, search: Search, course: Course) -> None:
-        self.search, self.course = search, course
+    def __init__(self, search: Search, profile: SpeedProfile) -> None:
+        self.search, self.profile = search, profile
         rate = search.rate_hz
-        first = int(np.ceil(course.time_s[0] * rate))
-        self._at = slice(first, int(course.time_s[-1] * rate))
+        first = int(np.ceil(profile.time_s[0] * rate))
+        self._at = slice(first, int(profile.time_s[-1] * rate))
         self._time_s = np.arange(self._at.start, self._at.stop) / rate
-        turned = course.curve.antiderivative()(self._time_s)
+        turned = profile.curve.antiderivative()(self._time_s)
         self._turned = np.asarray(turned - turned[0])
         self._per_revolution = max(int(self._turned.size / max(self._turned[-1], 1e-9)), 2)
 
@@ -69,10 +70,10 @@ class Unrolled:
 
     @cached_property
     def lines(self) -> Lines:
-        """Clear lines of its spectrum, over the orders of the course."""
+        """Clear lines of its spectrum, over the orders of the speed profile."""
         search = self.search
         middle_hz = float(np.sqrt(search.minimum_hz * search.maximum_hz))
-        # As long for all courses: only then can their lines be held against each other.
+        # Equal for all time histories: only then can their lines be compared with each other.
         most = min(self._signal.size / _BLOCKS, _MOST_REVOLUTIONS * search.rate_hz / middle_hz)
         orders = middle_hz * (self._time_s[-1] - self._time_s[0]) / self._turned[-1]
         floor = _FLOOR_ORDERS * orders
@@ -98,7 +99,7 @@ class Unrolled:
 
         Parameters
         ----------
-        scale : of the speed, over that of the course
+        scale : scale of the speed, relative to that of the time history
         """
         levels, _, bins = self._frames
         score = comb_scores(
@@ -109,45 +110,47 @@ class Unrolled:
     def low_lines(self, scale: float = 1.0) -> NDArray[np.bool_]:
         """Whether the lowest orders that have a clear line stand out, shape (order, frame).
 
-        Of the three lowest the two that stand out most often: a weak one may be lost in noise.
+        Two of the three lowest that stand out most often: a weak one may be lost in noise.
 
         Parameters
         ----------
-        scale : of the speed, over that of the course
+        scale : scale of the speed, relative to that of the time history
         """
         levels, _, bins = self._frames
         order = scale * self.search.orders
-        at = np.rint(bins * order[are_in_place(self.lines, order)][:_LOW_ORDERS]).astype(int)
-        at = at[at < levels.shape[1] - 1]
-        level = np.maximum.reduce([levels[:, at + step] for step in (-1, 0, 1)])
+        bins_of_orders = np.rint(
+            bins * order[are_in_place(self.lines, order)][:_LOW_ORDERS]
+        ).astype(int)
+        bins_of_orders = bins_of_orders[bins_of_orders < levels.shape[1] - 1]
+        level = np.maximum.reduce([levels[:, bins_of_orders + step] for step in (-1, 0, 1)])
         stands_out = np.asarray(level.T > _CLEAR_LEVEL)
         return stands_out[np.argsort(-stands_out.mean(axis=1))[:_BEST_ORDERS]]
 
-    def polished(self, revolutions: int = _FRAME_REVOLUTIONS) -> Course:
-        """The course after refining it in frames.
+    def polished(self, revolutions: int = _FRAME_REVOLUTIONS) -> SpeedProfile:
+        """The speed profile after refining it in frames.
 
         Parameters
         ----------
-        revolutions : of a frame
+        revolutions : revolutions of a frame
         """
         levels, when, bins = self._frames_of(revolutions)
         trials = bins * np.exp(_SPAN * np.linspace(-1.0, 1.0, _TRIALS))
         middle = np.full(when.size, _TRIALS // 2)
         ratio = refine(levels, self.search.orders, trials, middle) / bins
-        knots = self.course.time_s
+        knots = self.profile.time_s
         factor = smooth_curve(when, ratio).curve(np.clip(knots, when[0], when[-1]))
-        spline = CubicSpline(knots, self.course.curve(knots) * factor)
-        return replace(self.course, curve=PPoly(spline.c, spline.x))
+        spline = CubicSpline(knots, self.profile.curve(knots) * factor)
+        return replace(self.profile, curve=PPoly(spline.c, spline.x))
 
     def without_orders(self) -> Search:
-        """The search in what is left of the signal without the orders of the course."""
+        """The search in what is left of the signal without the orders of the speed profile."""
         spectrum = fft.rfft(self._signal)
         order = np.arange(spectrum.size) * (self._per_revolution / self._signal.size)
         for number in self.search.orders[self.search.orders < self.lines.highest]:
             reach = _SKIRT * number + _SKIRT_LINES * self.lines.resolution
             spectrum[np.abs(order - number) <= reach] = 0.0
-        left = fft.irfft(spectrum, self._signal.size)
-        grid = np.arange(left.size) / self._per_revolution
+        without_orders = fft.irfft(spectrum, self._signal.size)
+        grid = np.arange(without_orders.size) / self._per_revolution
         samples = self.search.samples.copy()
-        samples[self._at] = np.interp(self._turned, grid, left)
+        samples[self._at] = np.interp(self._turned, grid, without_orders)
         return replace(self.search, samples=samples)

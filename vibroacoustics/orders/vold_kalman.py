@@ -41,7 +41,8 @@ LEAST_SAMPLES_PER_KNOT: Final = 4
 LARGEST_NOISE_GAIN: Final = 100.0
 """Noise within the bandwidth 40 dB below the orders would come out as large as they are."""
 _PROP: Final = 1e-8
-"""Of an eigenvalue that is 1 for an order on its own: above rounding, below what is accepted."""
+"""Threshold of an eigenvalue that is 1 for an order on its own: above rounding, below what is
+accepted."""
 
 
 @dataclass(frozen=True)
@@ -53,9 +54,9 @@ class TrackedOrders:
     time_s : shape (time,), from the start of the recording
     envelope : shape (..., track, time), complex peak in the signal's unit; the phase is the one
         against the crank angle of the track's shaft
-    sample_rate_hz : of the envelopes
+    sample_rate_hz : sample rate of the envelopes
     noise_gain : largest factor by which noise within the bandwidth grows because orders are too
-        close to be told apart; about 1 or 2 where they are apart
+        close to be separated; about 1 or 2 where they are apart
     """
 
     time_s: Array
@@ -73,15 +74,15 @@ def vold_kalman(
 ) -> TrackedOrders:
     """Track orders in a signal, all of them together.
 
-    Orders that cross are told apart if they stay within the bandwidth of each other for a short
+    Orders that cross are separated if they stay within the bandwidth of each other for a short
     time only: at a crossing with s Hz/s, a bandwidth up to √s. Orders that stay side by side need
     a bandwidth below their distance.
 
     Parameters
     ----------
     signal : shape (..., time); sample k at time k / sample_rate_hz, as the motions count it
-    sample_rate_hz : of the signal
-    tracks : what to track; the result spans the time that all motions know
+    sample_rate_hz : sample rate of the signal
+    tracks : orders that are tracked; the result spans the time that all motions cover
     bandwidth_hz : full width at -3 dB of what passes around each order
     poles : 1, 2 or 3; each steepens the filter by 40 dB a decade
 
@@ -149,7 +150,7 @@ def _too_close(
         for number in numbers
     ]
     return SolverError(
-        f"{' and '.join(names)} around {when:.3g} s: too close for too long to be told apart with "
+        f"{' and '.join(names)} around {when:.3g} s: too close for too long to be separated with "
         f"a bandwidth of {bandwidth_hz:g} Hz"
     )
 
@@ -179,7 +180,7 @@ def _common_span(
     """First sample and number of samples at which all motions are known."""
     start = max(track.motion.start_s for track in tracks) * sample_rate_hz
     end = min(track.motion.end_s for track in tracks) * sample_rate_hz
-    # A motion's end is a time of its own; an ulp must not take a sample off.
+    # A motion's end is a time of its own; an ulp must not drop a sample.
     first = max(0, int(np.ceil(start - 1e-6)))
     count = max(0, min(samples, int(np.floor(end + 1e-6)) + 1) - first)
     duration = count / sample_rate_hz

@@ -58,7 +58,7 @@ def data_pieces(
 ) -> Iterator[tuple[int, Array, Array]]:
     """First knot, design matrices (knot, spline and unknown, sample) and samples, piece by piece.
 
-    Of one unknown pair, Re{X exp(jΘ)} = Re X cos Θ - Im X sin Θ.
+    For one unknown pair, Re{X exp(jΘ)} = Re X cos Θ - Im X sin Θ.
     """
     shape = _cubic_splines(step)
     count = channels.shape[-1]

@@ -41,7 +41,7 @@ class Window:
 
         Parameters
         ----------
-        distance_lines : of the lines from the tone, any shape, lines
+        distance_lines : distance of the lines from the tone, any shape, lines
         """
         parts = (
             size * (np.sinc(distance_lines - number) + np.sinc(distance_lines + number)) / 2.0
@@ -61,7 +61,7 @@ WINDOWS: Final = {
     "hann": Window((1.0, 1.0)),
     "flat_top": Window((1.0, 1.933, 1.286, 0.388, 0.0322)),
 }
-"""By the name that a user gives; the flat top is that of ISO 18431-2:2004."""
+"""Windows by the name that a user gives; the flat top is that of ISO 18431-2:2004."""
 
 
 def name_of_window(window: Window) -> str:

@@ -4,7 +4,7 @@ import xarray as xr
 
 from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
-from ..sound.room_ways import labelled_responses
+from ..sound.room_paths import labelled_responses
 from ..stages import room
 from ..study.study import Study
 

@@ -1,4 +1,4 @@
-"""From the shell's velocity to the pressure at the microphones."""
+"""Radiation: from the shell's velocity to the pressure at the microphones."""
 
 from .patterns import SurfaceMotion
 from .sound_field import SoundField

@@ -1,4 +1,4 @@
-"""Where sound power, map and directivity are measured: points about the machine.
+"""Points about the machine for sound power, map and directivity.
 
 ISO 3744:2010, Annex B (hemisphere) and Annex C (parallelepiped), as understood from secondary
 sources; the standard itself was not at hand. Table B.1 is as in the MIT-licensed phonometry: every
@@ -47,9 +47,9 @@ class ReferenceBox(NamedTuple):
     origin_m: Array
     """Middle of its footprint, on the floor, (3,)."""
     length_m: float
-    """Along x."""
+    """Length along x."""
     width_m: float
-    """Along y."""
+    """Width along y."""
     height_m: float
 
     @property

@@ -19,16 +19,16 @@ Vectors = dict[str, Array | ComplexArray]
 
 
 def solver(task: Task) -> str:
-    """What computes, in words."""
+    """Name the solver in words."""
     room = f"k-wave-python {kwave_version()}" if task.kwave else closed_form(task.settings)
     return f"{machine_side(task.settings)}, {room}"
 
 
 def closed_greens(box: Box, task: Task) -> Iterator[BoxField]:
     """Green's functions in closed form to the microphones that k-Wave computes."""
-    asked = task.kwave_microphones
-    for point in asked.points:
-        yield box_green(box, point, task.frequency_hz[asked.frequencies], task.scene.walls)
+    microphones = task.kwave_microphones
+    for point in microphones.points:
+        yield box_green(box, point, task.frequency_hz[microphones.frequencies], task.scene.walls)
 
 
 def with_kwave(
@@ -43,8 +43,8 @@ def with_kwave(
     ----------
     task : says at which microphones and frequencies
     closed : `transfer_vector` and its error by name, (receiver, pattern, frequency)
-    kwave : the same, of k-Wave's microphones and frequencies alone
-    difference_db : of the Green's functions, (microphone of k-Wave, frequency)
+    kwave : Green's functions of k-Wave's microphones and frequencies alone
+    difference_db : difference of the Green's functions, (microphone of k-Wave, frequency)
     """
     rows, table = task.kwave_rows, task.kwave_table
     joined = {name: values.copy() for name, values in closed.items()}
@@ -62,5 +62,6 @@ def with_kwave(
 
 
 def differences_db(greens: Sequence[BoxField], expected: Iterator[BoxField]) -> Array:
-    """Of k-Wave's Green's functions from the closed form, where it is largest on the box."""
+    """Difference of k-Wave's Green's functions from the closed form, where it is largest on the
+    box."""
     return np.array(list(map(green_difference_db, greens, expected)))

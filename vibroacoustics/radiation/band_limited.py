@@ -50,7 +50,8 @@ def interpolation_matrix(first: float, spacing: float, count: int, points: Array
 
 
 class Interpolator:
-    """From the nodes of a block to points (point, 3), for many fields on the same block.
+    """Interpolator from the nodes of a block to points (point, 3), for many fields on the same
+    block.
 
     A field is evaluated on the tensor grid of all coordinates that occur, so the points should
     come from a few coordinates an axis, like those of a box. `first` is the block's first node,

@@ -14,7 +14,7 @@ from .arrays import Array, IndexArray
 _SECTIONS: Final = 128
 """Facets around an axis: the surface lies within 3e-4 of a radius of the true one."""
 _SUBDIVISIONS: Final = 5
-"""Of an icosahedron: 20480 facets."""
+"""Subdivisions of an icosahedron: 20480 facets."""
 LARGEST_FILE_BYTES: Final = 200 * 2**20
 
 

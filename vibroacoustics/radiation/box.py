@@ -13,7 +13,7 @@ from .arrays import Array, ComplexArray
 class Box:
     """Pairs of points, half a cell inside and half a cell outside each cell face of a box.
 
-    Values on both layers stand for value and normal gradient. A side on a hard wall is left out:
+    Values on both layers stand for value and normal gradient. A side on a hard wall is omitted:
     pressure and Green's function both have zero normal derivative there, so that it would
     contribute nothing. Where only the pressure has, as over ground on the way to the microphones,
     the side on the floor is there; its outer points lie below it, where the pressure is mirrored.
@@ -61,7 +61,7 @@ def closed_box(
 
     Parameters
     ----------
-    edges : of the grid
+    edges : edges of the grid
     start, stop : cells
     on_walls : sides that lie on walls
     with_floor : whether that on the floor is there nevertheless

@@ -100,7 +100,7 @@ class ByCutCells:
         return vectors, [radiated.pressure for radiated in others]
 
     def attributes(self) -> dict[str, Any]:
-        """What the result says about its solution."""
+        """Return attributes of the result on its solution."""
         grid = self.near[0].grid
         return {
             "solver": solver(self._task),
@@ -146,7 +146,7 @@ def _check_receivers(task: Task, near: list[NearField]) -> None:
 
 
 def check_grids_agree(radiated: Radiated, spacing_m: float) -> None:
-    """Refuse the strong motions of which the finer and the coarser grid tell different things.
+    """Refuse the strong motions for which the finer and the coarser grid differ.
 
     A motion counts at the frequencies at which it is loud at the microphones: by symmetry, one
     along y is silent at microphones in the plane y = 0.

@@ -69,7 +69,8 @@ _SIDES: Final[dict[PanelSide, tuple[int, bool]]] = {
 def _around_opening(
     lower: Array, upper: Array, axis: int, opening: Opening, floor_z_m: float
 ) -> Iterator[Body]:
-    """What a rectangular hole leaves of a panel: four blocks, fewer if it reaches an edge."""
+    """Yield the rest of a panel around a rectangular hole: four blocks, fewer if it reaches an
+    edge."""
     along, up = [other for other in range(3) if other != axis]
     middle_up = opening.up_m + (floor_z_m if up == 2 else 0.0)
     hole_lower, hole_upper = lower.copy(), upper.copy()

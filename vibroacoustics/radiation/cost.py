@@ -1,4 +1,4 @@
-"""What a computation of the radiation will take: memory counted, time measured in small parts."""
+"""Cost of a computation of the radiation: memory counted, time measured in small parts."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -25,19 +25,19 @@ LOW: Final = 0.7
 HIGH: Final = 1.5
 """Spread of times that are measured once."""
 _STEPS: Final = 4
-"""That are timed, after a first one."""
+"""Steps that are timed, after a first one."""
 _MORE_FREQUENCIES: Final = (2, 6)
 """Times as many as at first are solved: 2.0 to 6.2 in the package's studies."""
 _PASSAGES: Final = (10, 60)
-"""Of sound through the box, in which runs die down; between walls they take longer."""
+"""Passages of sound through the box, in which runs die down; between walls they take longer."""
 
 
 class Cost(NamedTuple):
-    """What work will take.
+    """Cost of work.
 
     Attributes
     ----------
-    name : of the work
+    name : name of the work
     low_s, high_s : processor time, s, at least and at most
     how : how that is known
     memory_bytes : at its peak, beside what is loaded before

@@ -18,7 +18,7 @@ def array_namespace() -> Any:
 
 
 def engine_name() -> str:
-    """What advances k-Wave's equations, in words."""
+    """Name the engine that advances k-Wave's equations, in words."""
     cupy = array_namespace()
     if cupy is np:
         return _PROCESSOR
@@ -35,7 +35,7 @@ def available_bytes() -> float:
 
 
 def device_trouble() -> str:
-    """Why CuPy, though installed, does not serve, on one line; empty where it serves or is not."""
+    """Say on one line why an installed CuPy does not work; empty where it works or is absent."""
     return _namespace()[1]
 
 

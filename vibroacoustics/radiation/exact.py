@@ -66,7 +66,8 @@ def green(
 def green_rows(
     points: Array, sources: Array, frequency_hz: Array, mirrors: Sequence[Mirror] = ()
 ) -> Iterator[ComplexArray]:
-    """The same of several sources (source, 3): (source, point), one frequency after the other.
+    """Green's functions of several sources (source, 3): (source, point), one frequency after the
+    other.
 
     Equal steps of frequency turn each image's phase by equal angles: a product takes the place of
     an exponential.

@@ -16,7 +16,8 @@ from .receiver_methods import GIVEN, ReceiverMethod, with_methods
 from .transfer_vectors import frequencies_hz
 
 Radiation = Callable[[Study, Progress, Sequence[SurfaceMotion]], tuple[xr.Dataset, bool]]
-"""From a study and the shell's modes to transfer vectors, and whether they were known already."""
+"""Function of a study and the shell's modes to transfer vectors, and whether they were known
+already."""
 
 
 def given_radiation(
@@ -94,7 +95,7 @@ def radiated_by(
     study : with its microphones
     progress : called with the advance
     motions : modes of the shell
-    method : of microphones for which the transfer vectors name none
+    method : method of microphones for which the transfer vectors name none
     """
     radiated, was_known = radiation(study, progress, motions)
     if "radiation_method" not in radiated.coords:

@@ -17,12 +17,13 @@ _KEPT: Final = 16
 
 
 class Interpolant:
-    """Of frequencies in Hz, (m,), to Pa per unit velocity, (..., m); what `interpolant` makes.
+    """Function of frequencies in Hz, (m,), to Pa per unit velocity, (..., m); what `interpolant`
+    makes.
 
     Parameters
     ----------
     breaks : between the pieces, rising, shape (break,)
-    coefficients : of the powers from the third down, shape (4, piece, ...)
+    coefficients : coefficients of the powers from the third down, shape (4, piece, ...)
     distance_m : broadcasts against (...): motions of a receiver share its distance and trend
     """
 
@@ -73,7 +74,7 @@ def interpolant(tabulated_hz: Array, transfer: ComplexArray, distance_m: Array) 
 def _values(
     breaks: Array, coefficients: ComplexArray, distance_m: Array, frequency: bytes
 ) -> ComplexArray:
-    """Of frequencies as bytes, shape (..., m)."""
+    """Values at frequencies as bytes, shape (..., m)."""
     frequency_hz = np.frombuffer(frequency)
     _check_range(frequency_hz, float(breaks[-1]))
     columns = coefficients.reshape(*coefficients.shape[:2], -1)
@@ -87,21 +88,22 @@ def _values(
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _evaluate(
-    breaks: Array, coefficients: ComplexArray, at: Array, result: ComplexArray
+    breaks: Array, coefficients: ComplexArray, points: Array, result: ComplexArray
 ) -> None:  # pragma: no cover
     """Values of many splines with the same pieces, (place, spline), into the result.
 
-    As scipy does, but without the interpreter's lock and all splines of a place in a row.
+    Works like scipy, but without the interpreter's lock and with all splines of a position in a
+    row.
 
     Parameters
     ----------
     breaks : between the pieces, rising, shape (break,)
-    coefficients : of the powers from the third down, shape (4, piece, spline)
-    at : places, shape (place,)
+    coefficients : coefficients of the powers from the third down, shape (4, piece, spline)
+    points : places, shape (place,)
     """
-    for row in range(at.size):
-        piece = min(max(np.searchsorted(breaks, at[row], side="right") - 1, 0), breaks.size - 2)
-        along, parts = at[row] - breaks[piece], coefficients[:, piece]
+    for row in range(points.size):
+        piece = min(max(np.searchsorted(breaks, points[row], side="right") - 1, 0), breaks.size - 2)
+        along, parts = points[row] - breaks[piece], coefficients[:, piece]
         for n in range(result.shape[1]):
             value = (parts[0, n] * along + parts[1, n]) * along + parts[2, n]
             result[row, n] = value * along + parts[3, n]

@@ -85,7 +85,7 @@ def kwave_version() -> str:
 
 
 class Engine(Protocol):
-    """What runs k-Wave's time steps."""
+    """Engine of k-Wave's time steps."""
 
     def step(self) -> None:
         """Advance by one time step."""

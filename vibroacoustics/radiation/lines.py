@@ -1,4 +1,4 @@
-"""Where straight lines through a body run inside it: the basis of the cut cells."""
+"""Parts of straight lines within a body: the basis of the cut cells."""
 
 from typing import Any, Final
 
@@ -106,7 +106,7 @@ def _edge(ay: float, az: float, by: float, bz: float, y: float, z: float) -> flo
 def _fill(
     solid: Any, starts: Any, position: Any, sense: Any, columns: int, lines_per_cell: Any
 ) -> bool:  # pragma: no cover
-    """Add the solid share of each cell along each line; tell whether a line ends inside.
+    """Add the solid share of each cell along each line; return whether a line ends inside.
 
     Positions are in cells.
     """

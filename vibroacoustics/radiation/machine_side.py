@@ -89,23 +89,24 @@ class MachineSide:
         self._scene, self._near, self._names = scene, near, [pattern.name for pattern in patterns]
         self._frequency_hz, self._microphones = frequency_hz, microphones
         self._progress, self._room = progress, room
-        self._points = np.concatenate([asked.points for asked in microphones])
+        self._points = np.concatenate([group.points for group in microphones])
         moving = [scene.moving(pattern) for pattern in patterns]
         self._fluxes = in_threads([partial(grid.wall_fluxes, moving) for grid in near])
         finer, coarser = (list(map(self._nothing, microphones)) for _ in near)
-        self.closed = [Radiated(*both) for both in zip(finer, coarser, strict=True)]
-        """What each of the microphones gets with Green's functions in closed form."""
+        self.closed = [Radiated(*pair) for pair in zip(finer, coarser, strict=True)]
+        """Pressure at each of the microphones with Green's functions in closed form."""
         self.in_room = self._nothing(room.microphones) if room else None
-        """What the microphones of the room get on the finer grid, (point, pattern, frequency)."""
+        """Pressure at the microphones of the room on the finer grid, (point, pattern,
+        frequency)."""
         for batch in self._batches():
             self._radiate(batch)
 
-    def _nothing(self, asked: Microphones) -> ComplexArray:
+    def _nothing(self, microphones: Microphones) -> ComplexArray:
         names, frequencies = (
-            self._names[: asked.patterns],
-            self._frequency_hz[asked.frequencies],
+            self._names[: microphones.patterns],
+            self._frequency_hz[microphones.frequencies],
         )
-        shape = (asked.points.shape[0], len(names), frequencies.size)
+        shape = (microphones.points.shape[0], len(names), frequencies.size)
         return np.zeros(shape, dtype=complex)
 
     def _batches(self) -> Iterator[list[tuple[int, int]]]:
@@ -144,13 +145,13 @@ class MachineSide:
                 for (other, number), parts in zip(batch, fields, strict=True)
                 if other == grid
             }
-            for asked, result in zip(self._microphones, self.closed, strict=True):
+            for microphones, result in zip(self._microphones, self.closed, strict=True):
                 values = (result.finer, result.coarser)[grid]
                 chosen = [number for number in members if number < values.shape[1]]
                 parts = [members[number] for number in chosen]
                 tasks += [
-                    partial(self._join_closed, grid, parts, asked, points, values, chosen)
-                    for points in _in_tasks(asked.points.shape[0])
+                    partial(self._join_closed, grid, parts, microphones, points, values, chosen)
+                    for points in _in_tasks(microphones.points.shape[0])
                 ]
             if grid == 0 and self._room is not None:
                 tasks.append(partial(self._join_room, members))
@@ -169,14 +170,14 @@ class MachineSide:
         """Those of the room."""
         return self._room.greens() if self._room else []
 
-    def _indices(self, asked: Microphones) -> range:
-        return range(*asked.frequencies.indices(self._frequency_hz.size))
+    def _indices(self, microphones: Microphones) -> range:
+        return range(*microphones.frequencies.indices(self._frequency_hz.size))
 
     def _join_closed(
         self,
         grid: int,
         fields: Sequence[Sequence[PartField]],
-        asked: Microphones,
+        microphones: Microphones,
         points: slice,
         values: ComplexArray,
         chosen: Sequence[int],
@@ -184,9 +185,9 @@ class MachineSide:
         """Fill in the values of some points and patterns."""
         near = self._near[grid]
         layers = np.concatenate([near.box.inner, near.box.outer])
-        frequency_hz = self._frequency_hz[asked.frequencies]
-        greens = self._scene.green_rows(layers, asked.points[points], frequency_hz)
-        values[points, chosen] = join(near.recording, fields, self._indices(asked), greens)
+        frequency_hz = self._frequency_hz[microphones.frequencies]
+        greens = self._scene.green_rows(layers, microphones.points[points], frequency_hz)
+        values[points, chosen] = join(near.recording, fields, self._indices(microphones), greens)
 
 
 def _in_tasks(points: int) -> list[slice]:
@@ -212,7 +213,7 @@ def near_fields(scene: Scene, spacing_m: float, maximum_frequency_hz: float) -> 
 def outside(near: Sequence[NearField], walls: Sequence[Mirror], points: Array) -> NDArray[np.bool_]:
     """Whether points (point, 3) lie outside the boxes of all grids and in front of every wall."""
     in_box = []
-    for box in (one.box for one in near):
+    for box in (step.box for step in near):
         # A point on a wall beside a box lies in it.
         low = np.minimum(box.lower, box.outer.min(axis=0)) - 1e-6
         high = np.maximum(box.upper, box.outer.max(axis=0)) + 1e-6
@@ -266,5 +267,5 @@ def rows_of(greens: Sequence[BoxField]) -> Iterable[ComplexArray]:
     """Green's functions (point, 2 pairs) at one frequency after the other."""
     for frequency in range(greens[0].inner.shape[0]):
         yield np.stack(
-            [np.concatenate([one.inner[frequency], one.outer[frequency]]) for one in greens]
+            [np.concatenate([table.inner[frequency], table.outer[frequency]]) for table in greens]
         )

@@ -75,7 +75,7 @@ class NearField:
 
     @cached_property
     def recording(self) -> Recording:
-        """What the upper half of the mirrored axes records of the box."""
+        """Recording of the box in the upper half of the mirrored axes."""
         return recording(self.grid, self.box)
 
     def field_bytes(self, frequencies: int, parts: int) -> float:
@@ -97,7 +97,7 @@ class NearField:
         return cut_cells(self._body, self.grid)
 
     def wall_fluxes(self, patterns: Sequence[Pattern]) -> Array:
-        """What each pattern pushes into the wall cells, (pattern, wall); see `wall_flux.py`.
+        """Return the flux of each pattern into the wall cells, (pattern, wall); see `wall_flux.py`.
 
         The surface's points that stand on a wall of the room move nothing.
         """
@@ -143,10 +143,10 @@ class NearField:
 
         Parameters
         ----------
-        flux : what the pattern pushes into the wall cells, (wall,), m³/s
+        flux : volume velocity of the pattern into the wall cells, (wall,), m³/s
         frequency_hz : (frequency,)
         microphones : points outside the box, (point, 3); a run ends when it is over for them
-        name : of the pattern, for progress and errors
+        name : name of the pattern, for progress and errors
         progress : told of the steps
 
         Raises
@@ -177,7 +177,8 @@ class NearField:
         return fields
 
     def _to_points(self, parity: Parity, points: Array, frequency_hz: Array) -> ComplexArray:
-        """From a part in the recorded cells to pressures at points, (frequency, cell, point)."""
+        """Green's functions from a part in the recorded cells to points, (frequency, cell,
+        point)."""
         layers = np.concatenate([self.box.inner, self.box.outer])
         matrix = self.recording.join_matrix(parity)
         greens = green_rows(layers, points, frequency_hz, self._walls)

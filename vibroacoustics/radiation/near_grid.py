@@ -17,7 +17,8 @@ from .exact import Mirror
 from .symmetry import symmetric_axes
 
 COURANT_NUMBER: Final = 0.3
-"""Of a cell that no plane shapes, unless planes squeeze cells to less than 0.38 of that."""
+"""Courant number of a cell that no plane shapes, unless planes squeeze cells to below 0.38 of
+it."""
 MOST_OPEN: Final = 18.0
 """Largest stiffness of a cell's open faces over its volume (see `NearGrid.stiffness`).
 
@@ -25,7 +26,8 @@ No discrete mode's squared frequency times the squared time step is above twice 
 squared Courant number (Gershgorin): 3.24 at 0.3. The scheme is stable below 4.
 """
 PML_CELLS: Final = 16
-"""With fewer, what the layers throw back at low frequencies rings on several times as long."""
+"""Cells of the absorbing layers: with fewer, their echo at low frequencies lasts several times as
+long."""
 PML_ALPHA: Final = 2.0
 _PML_POWER: Final = 3
 BOX_MARGIN_M: Final = 0.04
@@ -49,7 +51,7 @@ class NearGrid:
     """
 
     spacing_m: float
-    """Of cells that no plane shapes."""
+    """Spacing of cells that no plane shapes."""
     edges: tuple[Array, Array, Array]
     """Coordinates of the planes of faces across each axis, m."""
     box_start: tuple[int, int, int]
@@ -64,7 +66,7 @@ class NearGrid:
 
     @cached_property
     def upper_half(self) -> "NearGrid":
-        """What lies above the middle planes of the mirrored axes; these count as walls."""
+        """Grid above the middle planes of the mirrored axes; these count as walls."""
         edges, start, stop = list(self.edges), list(self.box_start), list(self.box_stop)
         for axis in self.mirrored:
             middle = self.shape[axis] // 2
@@ -113,7 +115,8 @@ class NearGrid:
 
     @cached_property
     def courant_number(self) -> float:
-        """Of a cell that no plane shapes; `COURANT_NUMBER` where no cell is too narrow for it."""
+        """Courant number of a cell that no plane shapes; `COURANT_NUMBER` where no cell is too
+        narrow."""
         stiffest = 2.0 * sum(float(self.stiffness(axis).max()) for axis in range(3))
         return COURANT_NUMBER * min(1.0, float(np.sqrt(MOST_OPEN / stiffest)))
 

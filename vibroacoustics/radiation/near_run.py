@@ -22,7 +22,8 @@ _PROGRESS_STEPS: Final = 50
 _MOST_PASSAGES: Final = 250
 """Longest recording after the pulse, in passages of sound through the box's diagonal."""
 _FORECAST_PASSAGES: Final = 60
-"""From then on, a run is refused that by its decay would not die down in the longest recording."""
+"""Passages after which a run is refused that by its decay would not die down in the longest
+recording."""
 _QUIET: Final = 3e-8
 """A run ends at the latest when the pressure on the box has fallen to this share of its largest:
 the weakest patterns are then settled as far as the grid keeps them apart from stronger ones."""
@@ -36,12 +37,12 @@ _ENVELOPE_DECAY_PER_CELL: Final = 0.933
 
 @dataclass(frozen=True)
 class Watch:
-    """The pressures that tell when a run has settled."""
+    """Pressures that show when a run has settled."""
 
     frequency: IndexArray
     """Indices of the frequencies that are watched, (watched,)."""
     green: ComplexArray
-    """From the recorded cells to the points, (watched, cell, point)."""
+    """Green's functions from the recorded cells to the points, (watched, cell, point)."""
 
     def pressure(self, spectrum: ComplexArray) -> ComplexArray:
         """Pressure (watched, point) of a spectrum (watched, cell)."""
@@ -50,12 +51,12 @@ class Watch:
 
 @dataclass(frozen=True)
 class Run:
-    """What a run takes besides the grid's geometry."""
+    """Inputs of a run besides the grid's geometry."""
 
     name: str
-    """Of the pattern, for progress and errors."""
+    """Name of the pattern, for progress and errors."""
     flux: Array
-    """Into the wall cells of the upper half of the grid, (cell,), m³/s."""
+    """Flux into the wall cells of the upper half of the grid, (cell,), m³/s."""
     odd: Sequence[int]
     """Axes along which it is odd."""
     frequency_hz: Array
@@ -142,7 +143,7 @@ class _Peaks:
         self._envelope = float(np.maximum(peak, self._decay * self._envelope))
 
     def share(self) -> float:
-        """Of the latest time in the largest; not a number if a pressure is none."""
+        """Share of the latest time in the largest; not a number if a pressure is none."""
         return self._envelope / self._largest if self._largest else 0.0
 
     def reason(self) -> str:

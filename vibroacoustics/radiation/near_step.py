@@ -65,11 +65,11 @@ class Fields:
     def flat_indices(self, cells: IndexArray) -> IndexArray:
         """Flat indices, among cells and dead ones, of cells given by flat index."""
         index = np.unravel_index(cells, tuple(count - 1 for count in self._shape))
-        return np.ravel_multi_index(tuple(one + 1 for one in index), self._shape)
+        return np.ravel_multi_index(tuple(number + 1 for number in index), self._shape)
 
     def advance(self) -> None:
         """One step of fluxes and pressure."""
-        step: Any = _advance  # numba's types do not tell its arguments
+        step: Any = _advance  # numba's types do not show its arguments
         step(self._pressure, self._flux, self._split, *self._coefficients)
 
     def pressure(self, indices: IndexArray) -> Array:

@@ -1,6 +1,6 @@
 """Size of the echo that walls beyond the machine side's grid send back to the body.
 
-The machine side scatters the echo of near walls exactly and leaves out what the body scatters of
+The machine side scatters the echo of near walls exactly and neglects what the body scatters of
 the others' echo. Monopoles inside the body estimate it: they are fitted to the surface's velocity
 with the near walls' images, then to the velocity that the images in the other walls bring there.
 """
@@ -38,7 +38,7 @@ def neglected_echo(
 ) -> Array:
     """Estimate the neglected echo at points, over the largest pressure at any of them.
 
-    Of a cabinet it is that of a block of its size, the largest of the three translations.
+    For a cabinet it is that of a block of its size, the largest of the three translations.
 
     Parameters
     ----------
@@ -113,7 +113,9 @@ def _patches(scene: Scene, body: Body, patterns: Sequence[Pattern], spacing_m: f
     for points in surface_in_parts(body, (planes[0], planes[1], planes[2])):
         off_walls = [wall.depth_m(points.position) > _ON_WALL_M for wall in scene.walls]
         part = points.where([points.area > 0.0, *off_walls])
-        velocity = [np.einsum("pi,pi->p", one.velocity(part), part.normal) for one in patterns]
+        velocity = [
+            np.einsum("pi,pi->p", pattern.velocity(part), part.normal) for pattern in patterns
+        ]
         cube = np.floor((part.position - lower) / spacing_m)
         keys.append(np.hstack([cube, np.rint(part.normal)]).astype(np.intp))
         values = np.column_stack([np.ones_like(part.area), part.position, part.normal, *velocity])
@@ -133,8 +135,8 @@ class _Slopes:
         self, surface: _Patches, monopoles: Array, walls: Sequence[Mirror], near: int
     ) -> None:
         """Walls begin with the `near` ones, and so do the images."""
-        placed = [images(one, walls) for one in monopoles]
-        position = np.stack([one[0] for one in placed], axis=1)
+        placed = [images(monopole, walls) for monopole in monopoles]
+        position = np.stack([image[0] for image in placed], axis=1)
         self._strength = placed[0][1][:, None, None]
         offset = surface.position[:, None] - position[:, None]
         self._distance = np.linalg.norm(offset, axis=-1)

@@ -1,4 +1,4 @@
-"""What the transfer vectors of a study follow from."""
+"""Inputs of the transfer vectors of a study."""
 
 from collections.abc import Mapping, Sequence
 

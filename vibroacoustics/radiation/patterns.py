@@ -60,7 +60,9 @@ def rigid_body(dof: str) -> Pattern:
 
 def surface_motion(motion: SurfaceMotion) -> Pattern:
     """Pattern of a motion that comes from elsewhere."""
-    return Pattern(motion.name, lambda at: motion.velocity(np.asarray(at.position, dtype=float)))
+    return Pattern(
+        motion.name, lambda points: motion.velocity(np.asarray(points.position, dtype=float))
+    )
 
 
 def sampled(name: str, body: Body, values: Array) -> Pattern:
@@ -87,11 +89,11 @@ def sampled(name: str, body: Body, values: Array) -> Pattern:
         raise ParameterError(f"pattern {name}: holds values that are not finite")
     by_face = values.shape[0] == body.faces.shape[0]
 
-    def velocity(at: SurfacePoints) -> Array:
+    def velocity(points: SurfacePoints) -> Array:
         if by_face:
-            local = values[at.face]
+            local = values[points.face]
         else:
-            local = np.einsum("pk,pk...->p...", at.weights, values[body.faces[at.face]])
-        return local if vectors else local[:, None] * at.normal
+            local = np.einsum("pk,pk...->p...", points.weights, values[body.faces[points.face]])
+        return local if vectors else local[:, None] * points.normal
 
     return Pattern(name, velocity)

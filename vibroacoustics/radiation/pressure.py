@@ -21,7 +21,7 @@ def pressure_on_surface(velocity: xr.DataArray, results: xr.Dataset) -> xr.DataA
 
     Parameters
     ----------
-    velocity : of the housing at the orders, with the dimension dof
+    velocity : velocity of the housing at the orders, with the dimension dof
     results : with `surface_transfer_vector` and `order_frequency`
     """
     vectors = results["surface_transfer_vector"]
@@ -34,7 +34,7 @@ def pressure_on_map(velocity: xr.DataArray, results: xr.Dataset) -> xr.DataArray
 
     Parameters
     ----------
-    velocity : of the housing at the orders, with the dimension dof
+    velocity : velocity of the housing at the orders, with the dimension dof
     results : with `map_transfer_vector`, whose frequencies are those of the first order
     """
     first = velocity.sel(order=1, drop=True)

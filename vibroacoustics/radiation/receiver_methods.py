@@ -13,7 +13,7 @@ _HIGH: Final = "above, the grid of k-Wave would be too large"
 
 
 class ReceiverMethod(NamedTuple):
-    """What computes the sound pressure at a microphone.
+    """Method of the sound pressure at a microphone.
 
     Attributes
     ----------
@@ -45,8 +45,8 @@ def with_methods(vectors: xr.Dataset, methods: Mapping[str, ReceiverMethod]) -> 
     """Transfer vectors with method and reason of each microphone as coordinates."""
     of_receivers = [methods[str(name)] for name in vectors["receiver"].values]
     return vectors.assign_coords(
-        radiation_method=("receiver", [one.method for one in of_receivers]),
-        radiation_method_reason=("receiver", [one.reason for one in of_receivers]),
+        radiation_method=("receiver", [choice.method for choice in of_receivers]),
+        radiation_method_reason=("receiver", [choice.reason for choice in of_receivers]),
     )
 
 

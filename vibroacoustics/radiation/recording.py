@@ -1,4 +1,4 @@
-"""What the upper half of a grid records of the box, and how that is joined with Green's functions.
+"""Recording of the box in the upper half of a grid, and its join with Green's functions.
 
 Fields that are even or odd about the grid's middle planes stay in the recorded cells of the upper
 half until they are joined: they take a half, a quarter or an eighth of the memory of the box.
@@ -36,11 +36,11 @@ class Recording:
     cells: IndexArray
     """Flat indices in the upper half of the grid, (cell,)."""
     columns: IndexArray
-    """Which recorded cell is the image of each of the inner and outer layer's, (2, pair)."""
+    """Recorded cell that is the image of each of the inner and outer layer's, (2, pair)."""
     across: NDArray[np.bool_]
     """Whether those lie across the middle of each mirrored axis, (axis, 2, pair)."""
     weights: Array
-    """Of the box, (pair,)."""
+    """Weights of the box, (pair,)."""
 
     def join_matrix(self, parity: Parity) -> Any:
         """Sparse matrix (cell, 2 pairs): from a Green's function to what joins a part with it.

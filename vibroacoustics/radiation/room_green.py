@@ -39,7 +39,7 @@ CLEAR_NODES: Final = STENCIL_NODES // 2
 _LARGEST_DIFFERENCE_DB: Final = 6.0
 _DEEPEST_NULL: Final = amplitude_of_level(-30.0)
 _LARGEST_ALIAS: Final = 1e-8
-"""Of the pulse's spectrum at any frequency, what decimation may fold onto it."""
+"""Largest share of the pulse's spectrum at any frequency that decimation may fold onto it."""
 _COPIES_OF_SPECTRA: Final = 4
 """Spectra that exist at once: sums and their update, result and its parts."""
 _BUFFERED_SAMPLES: Final = 64
@@ -107,7 +107,7 @@ def kwave_green(
 def green_difference_db(field: BoxField, expected: BoxField) -> Array:
     """Largest level difference over the box, signed, dB, (frequency,).
 
-    Points are left out where images cancel to less than -30 dB of the largest expected value:
+    Points are omitted where images cancel to less than -30 dB of the largest expected value:
     an error of a thousandth of that is no error of the level there.
     """
     simulated = np.abs(np.concatenate([field.inner, field.outer], axis=1))

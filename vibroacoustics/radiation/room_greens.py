@@ -13,7 +13,7 @@ from .task import Task
 
 _SHARE_OF_MEMORY: Final = 0.7
 _SMALLEST_SPACING_M: Final = 0.005
-"""Of an automatic grid, as of one that a study may give."""
+"""Smallest spacing of an automatic grid, and of one that a study may give."""
 
 
 def room_greens(box: Box, task: Task, progress: Progress) -> list[BoxField]:
@@ -48,7 +48,7 @@ def room_spacing_m(box: Box, task: Task) -> float:
     resolving_m = task.resolving_spacing_m
     if task.settings.room_spacing_m is not None:
         return resolving_m
-    clear_m = min(float(clearance_m(box, at).max()) for at in _positions(task).values())
+    clear_m = min(float(clearance_m(box, position).max()) for position in _positions(task).values())
     return min(resolving_m, max(clear_m / (CLEAR_NODES + 1), _SMALLEST_SPACING_M))
 
 
@@ -70,7 +70,7 @@ def _positions(task: Task) -> dict[str, Array]:
 
 
 def _workers(box: Box, task: Task) -> int:
-    """How many k-Wave runs the processors and the memory of what they run on carry at a time."""
+    """Number of k-Wave runs that processors and memory allow at a time."""
     spacing_m, walls = room_spacing_m(box, task), task.scene.walls
     largest = max(
         memory_bytes(

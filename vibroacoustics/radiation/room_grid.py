@@ -18,7 +18,8 @@ COURANT_NUMBER: Final = 0.6
 Measured: 0.3, 0.5 and 0.7 give the same Green's function within 3e-4 of its largest value.
 """
 PML_NODES: Final = 26
-"""With 20, what the layers throw back at 25 Hz moves a rocking body's level by 0.1 dB."""
+"""Nodes of the absorbing layers: with 20, their echo at 25 Hz changes a rocking body's level by 0.1
+dB."""
 PML_ALPHA: Final = 2.0
 _SOURCE_MARGIN_NODES: Final = 3
 """Nodes between a source and the absorbing layer; the box has half an interpolation stencil."""
@@ -97,11 +98,11 @@ def next_fast_length(length: int) -> int:
     """Smallest 2^a 3^b 5^c that is not below a length."""
     candidate = length
     while True:
-        rest = candidate
+        quotient = candidate
         for prime in (2, 3, 5):
-            while rest % prime == 0:
-                rest //= prime
-        if rest == 1:
+            while quotient % prime == 0:
+                quotient //= prime
+        if quotient == 1:
             return candidate
         candidate += 1
 

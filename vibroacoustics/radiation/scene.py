@@ -1,4 +1,4 @@
-"""From parameters to geometry: the radiating body, what stands around it, and the walls."""
+"""Scene of the radiation: the radiating body, what is around it, and the walls."""
 
 import warnings
 from collections.abc import Iterator
@@ -37,7 +37,7 @@ _LARGEST_PATTERN_FILE_BYTES: Final = 100 * 2**20
 
 @dataclass(frozen=True)
 class Scene:
-    """What radiates and scatters on the machine side, about the machine's centre of mass."""
+    """Radiating and scattering bodies on the machine side, about the machine's centre of mass."""
 
     machine: Body
     """The moving surface."""
@@ -45,7 +45,7 @@ class Scene:
     """Those of a cabinet, which stand still."""
     walls: tuple[Mirror, ...]
     outdoors: Outdoors | None = None
-    """What takes the place of the hard floor on the way to the microphones."""
+    """Surroundings in place of the hard floor on the path to the microphones."""
 
     @property
     def upright_walls(self) -> tuple[Mirror, ...]:
@@ -88,10 +88,10 @@ class Scene:
     def moving(self, pattern: Pattern) -> Pattern:
         """The pattern on the machine's faces, and rest on the others."""
 
-        def velocity(at: SurfacePoints) -> Array:
-            on_machine = at.face < self.machine.faces.shape[0]
-            result = np.zeros(at.position.shape)
-            result[on_machine] = pattern.velocity(at.where([on_machine]))
+        def velocity(points: SurfacePoints) -> Array:
+            on_machine = points.face < self.machine.faces.shape[0]
+            result = np.zeros(points.position.shape)
+            result[on_machine] = pattern.velocity(points.where([on_machine]))
             return result
 
         return Pattern(pattern.name, velocity)

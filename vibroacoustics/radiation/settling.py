@@ -1,4 +1,4 @@
-"""When a run may end: by what it still changes at the microphones."""
+"""End of a run by the changes that it still makes at the microphones."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -21,7 +21,7 @@ MOST_WATCHED: Final = _POINTS * (_LOWEST_FREQUENCIES + _OTHER_FREQUENCIES)
 
 
 class Settling:
-    """How much of the pressure at some points is still to come, by frequency.
+    """Part of the pressure at some points that is still to come, by frequency.
 
     What a block of time adds to a pressure falls by about the same factor r from block to block,
     fast while sound leaves the grid, slowly where a mode rings on: r/(1 - r) times the last

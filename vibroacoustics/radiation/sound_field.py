@@ -31,7 +31,7 @@ Clear = Callable[[Array], NDArray[np.bool_]]
 
 @dataclass(frozen=True)
 class SoundField:
-    """Where the sound field is asked for besides the microphones; nothing by default."""
+    """Points of the sound field besides the microphones; nothing by default."""
 
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
@@ -41,9 +41,9 @@ class SoundField:
 
     @classmethod
     def of_study(cls, study: Study) -> "SoundField":
-        """What a study asks for; map and directivity at the first order of its speeds."""
-        drawn = study.map is not None or study.directivity is not None
-        lines = tuple(map(shaft_frequency_hz, study.operation.speed_rpm)) if drawn else ()
+        """Return the points of a study; map and directivity at the first order of its speeds."""
+        has_map = study.map is not None or study.directivity is not None
+        lines = tuple(map(shaft_frequency_hz, study.operation.speed_rpm)) if has_map else ()
         return cls(study.sound_power, study.map, study.directivity, lines)
 
     def key_material(self) -> dict[str, Any]:
@@ -71,14 +71,14 @@ class FieldPart:
     """(..., 3), m."""
     coordinates: dict[str, Any]
     dimension: str
-    """Of the frequencies."""
+    """Dimension of the frequencies."""
     frequencies: slice
     clear: IndexArray
     """Those of the points, in one row, at which there are pressures."""
 
     @property
     def microphones(self) -> Microphones:
-        """What is asked of the method of radiation."""
+        """Points that the method of radiation computes."""
         return Microphones(
             self.points.reshape(-1, 3)[self.clear], self.frequencies, len(RIGID_BODY_DOFS)
         )
@@ -89,7 +89,7 @@ class FieldPart:
         Parameters
         ----------
         pressure : (clear point, dof, frequency), Pa
-        frequency_hz : those of the table and, after them, those of the lines
+        frequency_hz : frequencies of the table, then those of the lines, shape (frequency,)
         """
         shape = (self.points.size // 3, *pressure.shape[1:])
         values = np.full(shape, np.nan, dtype=complex)
@@ -120,7 +120,7 @@ def field_parts(
         A position of the measurement surface lies in the machine, too close to it or behind a wall.
     """
     floor = _floor_m(surroundings)
-    asked: list[tuple[str, Array, dict[str, Any], str]] = []
+    fields: list[tuple[str, Array, dict[str, Any], str]] = []
     if sound_field.sound_power is not None:
         points = sound_power_points(sound_field.sound_power, surroundings.machine, floor)
         _check_surface(points, surroundings, clear)
@@ -128,15 +128,15 @@ def field_parts(
             "position": np.arange(1, points.shape[0] + 1),
             "position_distance": ("position", np.linalg.norm(points, axis=1)),
         }
-        asked.append(("surface_transfer_vector", points, coordinates, "frequency"))
+        fields.append(("surface_transfer_vector", points, coordinates, "frequency"))
     if sound_field.map is not None:
         points = map_points(sound_field.map, floor_level_m)
-        asked.append(("map_transfer_vector", points, _map_places(points), "line_frequency"))
+        fields.append(("map_transfer_vector", points, _map_positions(points), "line_frequency"))
     if sound_field.directivity is not None:
         points = directivity_points(sound_field.directivity, floor)
         angles = directivity_angles(sound_field.directivity, floor is not None)
         directions = dict(zip(("polar_angle", "azimuth"), angles, strict=True))
-        asked.append(("directivity_transfer_vector", points, directions, "line_frequency"))
+        fields.append(("directivity_transfer_vector", points, directions, "line_frequency"))
     chosen = {"frequency": slice(0, tabulated), "line_frequency": slice(tabulated, None)}
     return [
         FieldPart(
@@ -147,7 +147,7 @@ def field_parts(
             chosen[dimension],
             np.flatnonzero(clear(points.reshape(-1, 3))),
         )
-        for name, points, coordinates, dimension in asked
+        for name, points, coordinates, dimension in fields
     ]
 
 
@@ -178,7 +178,7 @@ def _floor_m(surroundings: Scene) -> float | None:
     return next((wall.position_m for wall in surroundings.walls if wall.axis == 2), None)
 
 
-def _map_places(points: Array) -> dict[str, Any]:
+def _map_positions(points: Array) -> dict[str, Any]:
     shape = ("map_row", "map_column")
     indices = {name: np.arange(size) for name, size in zip(shape, points.shape[:2], strict=True)}
     return {**indices, **{f"map_{axis}": (shape, points[..., i]) for i, axis in enumerate("xyz")}}

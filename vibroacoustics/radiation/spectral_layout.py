@@ -1,4 +1,4 @@
-"""How the spectral step keeps its fields, and the compiled loops over their lines.
+"""Layout of the fields of the spectral step, and the compiled loops over their lines.
 
 Real fields need half of their spectrum. The last axis is the one cut in half, except for fields
 of the last axis itself, which are cut in half along the second.
@@ -45,7 +45,7 @@ class ScipySlab:
 
 
 class FftwSlab:
-    """The same on FFTW, two to three times as fast.
+    """Slab on FFTW, two to three times as fast.
 
     Plans are estimated, never measured: measuring would choose another algorithm from run to run
     and change the last bits. The transforms release Python's lock.

@@ -14,7 +14,7 @@ stays a spectrum. That is 12 passes of one-dimensional transforms a step instead
 three-dimensional ones, each line's work stays in the cache, and pressures in space cost a
 transform only when they are read. In exact arithmetic the result is k-Wave's.
 
-The layouts of the spectra are told in `spectral_layout`.
+The layouts of the spectra are described in `spectral_layout`.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -64,7 +64,7 @@ class AxisOperators:
     damping: Array
     """Absorbing layer's factor at the pressures."""
     damping_staggered: Array
-    """The same at the velocities."""
+    """Damping at the velocities."""
 
 
 @dataclass(frozen=True)

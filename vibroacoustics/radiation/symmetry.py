@@ -38,7 +38,7 @@ def symmetric_axes(body: Body, axes: Sequence[int] = (0, 1, 2)) -> tuple[int, ..
 def both_halves(upper: Array, axes: Sequence[int], faces: int | None = None) -> Array:
     """Values even along some axes, of which the upper half is given.
 
-    Of cells, or of the faces across the axis `faces`, whose first ones lie in the middle plane.
+    Takes cells, or faces across the axis `faces`, whose first ones are in the middle plane.
     """
     for axis in axes:
         lower = np.flip(upper, axis)

@@ -1,4 +1,4 @@
-"""What a method of radiation is given, and what it is asked for."""
+"""Task of a method of radiation: its inputs and its microphones."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,9 +13,10 @@ from .patterns import Pattern
 from .scene import Scene
 
 _NODES_PER_WAVE: Final = 4.0
-"""Of an automatic k-Wave grid at its highest frequency; a study may take 3.5."""
+"""Nodes per wave of an automatic k-Wave grid at its highest frequency; a study may take 3.5."""
 _LARGEST_SPACING_M: Final = 0.06
-"""Of an automatic grid: a coarser one saves little, as most of its nodes are absorbing layers."""
+"""Spacing of an automatic grid: a coarser one saves little, as most of its nodes are absorbing
+layers."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Microphones:
     """(point, 3), m."""
     frequencies: slice = field(default_factory=lambda: slice(None))
     patterns: int | None = None
-    """How many of them, from the first on; None: all."""
+    """Number of them, from the first on; None: all."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Task:
     scene: Scene
     patterns: Sequence[Pattern]
     positions: Mapping[str, Array]
-    """Of the microphones by name, (3,), m."""
+    """Positions of the microphones by name, (3,), m."""
     settings: RadiationSettings
     frequency_hz: Array
     """Those of the table and, after them, those of the lines."""
@@ -52,7 +53,7 @@ class Task:
 
     @property
     def table(self) -> slice:
-        """Where the frequencies of the table are."""
+        """Frequencies of the table among all."""
         return slice(0, self.tabulated)
 
     @property
@@ -62,7 +63,7 @@ class Task:
 
     @property
     def kwave_rows(self) -> list[int]:
-        """Which of the microphones k-Wave computes."""
+        """Microphones that k-Wave computes."""
         return [row for row, name in enumerate(self.positions) if name in self.kwave]
 
     @property

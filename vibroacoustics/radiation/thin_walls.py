@@ -18,8 +18,8 @@ _PARTS: Final = 6
 _COARSE_PARTS: Final = 4
 """A cell is looked at in this many parts along each axis, coarsely where there are many cells."""
 _MANY_CELLS: Final = 60_000
-_SHORT_WAY: Final = 3
-"""Both sides of an edge or a fin are joined within so many cells: nothing leaks there."""
+_SHORT_PATH: Final = 3
+"""Cells within which both sides of an edge or a fin are joined: nothing leaks there."""
 _MOST_LOOKED_AT: Final = 400
 _SMALLEST_LEAK: Final = 0.002
 """Share of the cells with wall that may leak: holes of less than that are below a grid's errors."""
@@ -55,7 +55,7 @@ def check_walls(body: Body, grid: NearGrid, spacing_m: float) -> None:
 
 
 def solid_parts(body: Body, grid: NearGrid) -> tuple[Solid, IndexArray, int]:
-    """Which parts of the cells around a body hold some of it.
+    """Return the parts of the cells around a body that hold some of it.
 
     With the first of these cells and the number of parts along each axis of a cell.
 
@@ -64,8 +64,8 @@ def solid_parts(body: Body, grid: NearGrid) -> tuple[Solid, IndexArray, int]:
     """
     start, stop = [], []
     for edges, low, high in zip(grid.edges, *body.bounds(), strict=True):
-        start.append(max(0, int(np.searchsorted(edges, low)) - 1 - _SHORT_WAY))
-        stop.append(min(edges.size - 1, int(np.searchsorted(edges, high)) + _SHORT_WAY))
+        start.append(max(0, int(np.searchsorted(edges, low)) - 1 - _SHORT_PATH))
+        stop.append(min(edges.size - 1, int(np.searchsorted(edges, high)) + _SHORT_PATH))
     cells = np.subtract(stop, start)
     parts = _COARSE_PARTS if np.prod(cells) > _MANY_CELLS else _PARTS
     lines = [
@@ -84,7 +84,7 @@ def solid_parts(body: Body, grid: NearGrid) -> tuple[Solid, IndexArray, int]:
 def leaking_cells(solid: Solid, parts: int) -> tuple[IndexArray, int]:
     """Cells (leak, 3) that hold air of two sides that do not meet near by; number with wall.
 
-    Of more than a few hundred such cells every so many is looked at.
+    With more than a few hundred such cells, only some of them are tested, evenly chosen.
     """
     divided, walls = _divided_cells(solid, parts)
     step = -(-divided.shape[0] // _MOST_LOOKED_AT) if divided.size else 1
@@ -117,8 +117,8 @@ def _sides_meet(solid: Solid, parts: int, cell: IndexArray) -> bool:
     """Whether all air of a cell is one piece within a few cells around it."""
     around, inner = [], []
     for index, count in zip(cell, solid.shape, strict=True):
-        low = max(0, (int(index) - _SHORT_WAY) * parts)
-        around.append(slice(low, min(count, (int(index) + 1 + _SHORT_WAY) * parts)))
+        low = max(0, (int(index) - _SHORT_PATH) * parts)
+        around.append(slice(low, min(count, (int(index) + 1 + _SHORT_PATH) * parts)))
         inner.append(slice(int(index) * parts - low, (int(index) + 1) * parts - low))
     labels, _ = ndimage.label(~solid[tuple(around)])
     pieces: Array = np.unique(labels[tuple(inner)])

@@ -46,10 +46,10 @@ def transfer_vectors(
 
     Parameters
     ----------
-    shell : of the machine
+    shell : shell of the machine
     receivers : the microphones, by name
-    settings : of the radiation
-    sound_field : what is asked for besides the microphones
+    settings : settings of the radiation
+    sound_field : points that are requested besides the microphones
     motions : surface velocities besides the rigid motions
     kwave_receivers : microphones at which k-Wave computes the room where the settings name it as
         the solver; none for all of them
@@ -101,7 +101,7 @@ def task_of(
     motions: Sequence[SurfaceMotion] = (),
     kwave_receivers: Collection[str] | None = None,
 ) -> Task:
-    """What a method of radiation is given; see `transfer_vectors`."""
+    """Return the task of a method of radiation; see `transfer_vectors`."""
     surroundings = scene(shell, settings)
     extra = [
         *file_patterns(settings.body, surroundings.machine),
@@ -175,12 +175,12 @@ def cache_key_material(
 
 
 def kwave_names(
-    receivers: Collection[str], settings: RadiationSettings, asked: Collection[str] | None
+    receivers: Collection[str], settings: RadiationSettings, chosen: Collection[str] | None
 ) -> tuple[str, ...]:
     """Microphones at which k-Wave computes the room."""
     if settings.room_solver == "closed-form":
         return ()
-    return tuple(name for name in receivers if asked is None or name in asked)
+    return tuple(name for name in receivers if chosen is None or name in chosen)
 
 
 def _hashes_of_files(settings: RadiationSettings) -> dict[str, str]:
@@ -230,7 +230,7 @@ def labelled(
     ----------
     vectors : by name of the rigid motions' variable, shape (receiver, pattern, frequency), rigid
         motions first; `green_difference` without patterns
-    positions : of the receivers by name, shape (3,), m
+    positions : positions of the receivers by name, shape (3,), m
     frequency : shape (frequency,), Hz
     patterns : names of those besides the rigid motions
     """

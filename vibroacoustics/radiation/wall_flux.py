@@ -1,4 +1,4 @@
-"""What the moving surface pushes into each wall cell of the machine side's grid."""
+"""Flux of the moving surface into each wall cell of the machine side's grid."""
 
 from collections.abc import Iterable, Sequence
 from typing import Final
@@ -58,7 +58,7 @@ class _Wall:
         self._volumes = np.zeros(3)
 
     def add(self, points: SurfacePoints, piece: IndexArray, moving: Array) -> None:
-        """Add points (point,) with their wall pieces; `moving` tells which of them ever move."""
+        """Add points (point,) with their wall pieces; `moving` says which of them ever move."""
         number = self.area.size
         self.area += np.bincount(piece, points.area, number)
         self.area_vectors += _by_piece(piece, points.area[:, None] * points.normal, number)
@@ -71,7 +71,7 @@ class _Wall:
         return np.asarray(share[:, None] * self.areas)
 
     def volume(self) -> float:
-        """Of what moves: three ways to it by the divergence theorem.
+        """Volume of what moves: three ways to it by the divergence theorem.
 
         A face on a wall of the room is missing in one of them, which is smaller by that.
         """

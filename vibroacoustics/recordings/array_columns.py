@@ -26,7 +26,7 @@ class Column:
 
     @property
     def samples(self) -> int:
-        """Of the whole recording."""
+        """Samples of the whole recording."""
         return self.array.shape[self.time_axis]
 
 
@@ -103,9 +103,9 @@ def column_of(table: NamedArray, number: int) -> NamedArray:
     axis = table.time_axis
 
     def load(part: Part) -> Any:
-        both = [part[0]]
-        both.insert(1 - axis, slice(number, number + 1))
-        return np.asarray(table.load(tuple(both))).ravel()
+        indices = [part[0]]
+        indices.insert(1 - axis, slice(number, number + 1))
+        return np.asarray(table.load(tuple(indices))).ravel()
 
     shape = (table.shape[axis],)
     packing = {name: table.attributes[name] for name in PACKING_NAMES if name in table.attributes}
@@ -115,28 +115,31 @@ def column_of(table: NamedArray, number: int) -> NamedArray:
 def stored_samples(columns: Sequence[Column], first: int, last: int) -> list[Samples]:
     """Stored samples of each column; of a table those columns alone that are wanted, at once."""
     tables: dict[str, tuple[int, Samples]] = {}
-    for one in {column.array.name: column for column in columns}.values():
-        wanted = [column.index for column in columns if column.array is one.array]
-        tables[one.array.name] = min(wanted), _rows(one, min(wanted), max(wanted) + 1, first, last)
+    for column_of_array in {column.array.name: column for column in columns}.values():
+        wanted = [column.index for column in columns if column.array is column_of_array.array]
+        tables[column_of_array.array.name] = (
+            min(wanted),
+            _rows(column_of_array, min(wanted), max(wanted) + 1, first, last),
+        )
     return [
         tables[column.array.name][1][column.index - tables[column.array.name][0]]
         for column in columns
     ]
 
 
-def _rows(one: Column, low: int, high: int, first: int, last: int) -> Samples:
+def _rows(column: Column, low: int, high: int, first: int, last: int) -> Samples:
     """Stored values of the columns from `low` up to `high` of a table, shape (channel, time)."""
 
     def load(start: int, end: int) -> Samples:
         part = [slice(start, end)]
-        if len(one.array.shape) == 2:
-            part.insert(1 - one.time_axis, slice(low, high))
-        values = np.asarray(one.array.load(tuple(part)))
+        if len(column.array.shape) == 2:
+            part.insert(1 - column.time_axis, slice(low, high))
+        values = np.asarray(column.array.load(tuple(part)))
         return values.reshape([side.stop - side.start for side in part])
 
-    if len(one.array.shape) == 2 and one.time_axis == 0:
-        return unsigned(by_channel(load, first, last, high - low), one.array.attributes)
-    return unsigned(np.atleast_2d(load(first, last)), one.array.attributes)
+    if len(column.array.shape) == 2 and column.time_axis == 0:
+        return unsigned(by_channel(load, first, last, high - low), column.array.attributes)
+    return unsigned(np.atleast_2d(load(first, last)), column.array.attributes)
 
 
 def check_present(column: Column, stored: Samples, first: int, rate_hz: float) -> None:

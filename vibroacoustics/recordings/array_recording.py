@@ -68,7 +68,7 @@ def recorded(
 def _with_time(
     arrays: Sequence[NamedArray], columns: Sequence[Column], attributes: Mapping[str, Any]
 ) -> tuple[list[Column], NamedArray | None, list[str]]:
-    """Channels, their time where it is the first column of the only table, and what to tell."""
+    """Channels, their time where it is the first column of the only table, and remarks."""
     is_named = any(is_time(array.name) for array in arrays)
     time = None if is_named or not columns else leading_time(columns)
     if time is None:

@@ -28,7 +28,7 @@ def time_of(arrays: Sequence[NamedArray], columns: Sequence[Column]) -> NamedArr
     times = [array for array in arrays if is_time(array.name)]
     axes = {nearest(times, column.array.name) for column in columns}
     if len(axes) > 1:
-        names = sorted("none" if one is None else one.name for one in axes)
+        names = sorted("none" if axis is None else axis.name for axis in axes)
         raise ParameterError(f"channels have several time axes ({listed(names)}): choose channels")
     return axes.pop()
 
@@ -43,15 +43,15 @@ def leading_time(columns: Sequence[Column]) -> NamedArray | None:
         return None
     first = column_of(table, 0)
     last = table.shape[table.time_axis] - 1
-    at = sorted({0, 1, min(2, last), *np.linspace(0, last, _PROBES).astype(int).tolist()})
+    probes = sorted({0, 1, min(2, last), *np.linspace(0, last, _PROBES).astype(int).tolist()})
     try:
-        times = np.array([float(first.values((slice(one, one + 1),))[0]) for one in at])
+        times = np.array([float(first.values((slice(probe, probe + 1),))[0]) for probe in probes])
     except StorageError:  # not all of it is stored
         return None
     step = (times[-1] - times[0]) / last
     if not step > 0.0 or not np.isfinite(step) or float(step).is_integer():
         return None
-    off = np.abs(times - times[0] - step * np.array(at))
+    off = np.abs(times - times[0] - step * np.array(probes))
     return first if float(np.max(off)) <= 0.5 * step else None
 
 

@@ -1,4 +1,4 @@
-"""What is asked of a recording's file, and whether the file can be read at all."""
+"""Request for a recording's file, and whether the file can be read at all."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -15,17 +15,17 @@ from .recorded import MAXIMUM_READING_BYTES, MissingError, TooLargeError, check_
 
 Given = TypeVar("Given", str, float)
 ALL_CHANNELS: Final = "*"
-"""In place of a channel's name; a channel that is named goes before it."""
+"""Key in place of a channel's name; a channel that is named goes before it."""
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What is asked of a file: how its channels are to be read, in the user's words.
+    """Request for a file: how its channels are to be read, in the user's words.
 
     Attributes
     ----------
-    path : of the file
-    units, calibration, channels, sample_rate_hz, names : as in `read_recording`
+    path : path of the file
+    units, calibration, channels, sample_rate_hz, names : see `read_recording`
     """
 
     path: Path
@@ -66,7 +66,7 @@ class Asked:
             raise MissingError("; ".join([str(error), *self._further_missing()])) from None
 
     def _further_missing(self) -> list[str]:
-        """What a file without a sample rate lacks beside it: units and calibration."""
+        """Data that a file without a sample rate lacks beside it: units and calibration."""
         provisional = {"sample_rate_hz": 1.0, "samples": [0, 2], "hashed": False}
         try:
             self.chosen_units(read_in_child(self.request() | provisional)[0])
@@ -105,14 +105,14 @@ class Asked:
     def chosen_calibration(self, header: Mapping[str, Any]) -> dict[str, float]:
         """Factor by channel, from the user or else from the file, in the file's unit."""
         units = _of_channels("units", self.units, header["names"])
-        given = _of_channels("calibration", self.calibration, header["names"])
+        calibration = _of_channels("calibration", self.calibration, header["names"])
         stated = zip(header["names"], header["units"], header["calibration"], strict=True)
         of_file = {
             name: factor
             for name, unit, factor in stated
             if factor is not None and units.get(name, unit) == unit
         }
-        return of_file | given
+        return of_file | calibration
 
 
 @contextmanager
@@ -146,7 +146,7 @@ def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) 
     except (OSError, ValueError) as error:  # ValueError: a name with a null byte
         raise StorageError(f"cannot be read: {error}") from None
     if not path.is_file():
-        raise StorageError("is no file")
+        raise StorageError("is not a file")
     if size == 0:
         raise StorageError("is empty")
     if size > MAXIMUM_READING_BYTES and not may_be_large:
@@ -156,19 +156,21 @@ def check_file(path: Path, suffixes: Sequence[str], may_be_large: bool = False) 
         )
 
 
-def _of_channels(option: str, given: Mapping[str, Given], names: Sequence[str]) -> dict[str, Given]:
-    """What is given by channel, that for all of them spread out.
+def _of_channels(
+    option: str, stated: Mapping[str, Given], names: Sequence[str]
+) -> dict[str, Given]:
+    """Values by channel, that for all of them spread out.
 
     Raises
     ------
     ParameterError
         A channel is not among the names.
     """
-    named = {name: value for name, value in given.items() if name != ALL_CHANNELS}
+    named = {name: value for name, value in stated.items() if name != ALL_CHANNELS}
     for name in named:
         if name not in names:
             raise ParameterError(f"{option}: no channel {name!r} among {listed(names)}")
-    of_all = dict.fromkeys(names, given[ALL_CHANNELS]) if ALL_CHANNELS in given else {}
+    of_all = dict.fromkeys(names, stated[ALL_CHANNELS]) if ALL_CHANNELS in stated else {}
     return of_all | named
 
 

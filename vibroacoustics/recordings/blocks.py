@@ -34,14 +34,14 @@ class FileBlocks:
     Samples that `hold_recording` has read already are converted from memory.
     """
 
-    asked: Asked
+    file_request: Asked
     header: Mapping[str, Any]
     first_sample: int
     samples: int
     channel_units: Sequence[str]
     calibration_factors: Sequence[float]
     remarks: dict[str, str] = field(default_factory=dict)
-    """What the user must know: of the file, and of overloads the first of each channel."""
+    """Remarks for the user: of the file, and of overloads the first of each channel."""
     stored: Samples | None = None
     """Samples of the file, not in SI units, shape (channel, time); None where not yet read."""
     further: Mapping[str, Any] = field(default_factory=dict)
@@ -55,7 +55,7 @@ class FileBlocks:
     @property
     def channels(self) -> Sequence[str]:
         """Names, each once."""
-        return tuple(self.asked.new_names(self.header))
+        return tuple(self.file_request.new_names(self.header))
 
     @property
     def read_bytes(self) -> int:
@@ -67,7 +67,7 @@ class FileBlocks:
         """Attributes as `read_recording` gives them; a hash of what was read all at once."""
         attributes: dict[str, Any] = {
             "sample_rate_hz": self.sample_rate_hz,
-            "source_file": self.asked.path.name,
+            "source_file": self.file_request.path.name,
             **self.further,
         }
         if self.header["start_time"]:
@@ -89,14 +89,14 @@ class FileBlocks:
             The file is damaged, or the block larger than the cap.
         """
         _check_block(self, channels, first, last)
-        at = self.first_sample
+        start = self.first_sample
         rows = [self.channels.index(name) for name in channels]
         if self.stored is not None:
             return _in_si(self.stored[:, first:last], rows, self.calibration_factors)
         stored = [self.header["names"][row] for row in rows]
-        part = {"samples": [at + first, at + last], "channels": stored, "hashed": False}
-        with naming_file(self.asked.path):
-            header, samples = read_in_child(self.asked.request() | part)
+        part = {"samples": [start + first, start + last], "channels": stored, "hashed": False}
+        with naming_file(self.file_request.path):
+            header, samples = read_in_child(self.file_request.request() | part)
             units = [self.channel_units[row] for row in rows]
             scale_in_place(samples, channels, [self.calibration_factors[row] for row in rows])
         self._remark(overload_lines(header, units))
@@ -106,7 +106,7 @@ class FileBlocks:
         """Warn of a channel's overload once, not in every block."""
         new = {line.partition(": ")[0]: line for line in lines}
         new = {about: line for about, line in new.items() if about not in self.remarks}
-        remark(self.asked.path, new.values())
+        remark(self.file_request.path, new.values())
         self.remarks.update(new)
 
 
@@ -123,7 +123,7 @@ class LabelledBlocks:
 
     @property
     def samples(self) -> int:
-        """Of a channel."""
+        """Samples of a channel."""
         return int(self.recording.sizes["time"])
 
     @property
@@ -178,18 +178,18 @@ def open_recording(
 
     Parameters
     ----------
-    path, units, calibration, channels, sample_rate_hz, from_s, to_s, names : as in
+    path, units, calibration, channels, sample_rate_hz, from_s, to_s, names : see
         `read_recording`
 
     Raises
     ------
     ParameterError, StorageError
-        As `read_recording`; samples are checked when they are read.
+        See `read_recording`; samples are checked when they are read.
 
     Warns
     -----
     RecordingWarning
-        As `read_recording`; of overloads when they are read, once a channel.
+        See `read_recording`; overloads are reported when they are read, once a channel.
 
     Examples
     --------
@@ -199,20 +199,22 @@ def open_recording(
     >>> blocks.samples, blocks.read(["front"], 2, 4)
     (8, array([[2., 3.]]))
     """
-    asked = Asked(Path(path), units or {}, calibration or {}, channels, sample_rate_hz, names or {})
-    with naming_file(asked.path):
+    file_request = Asked(
+        Path(path), units or {}, calibration or {}, channels, sample_rate_hz, names or {}
+    )
+    with naming_file(file_request.path):
         check_part(from_s, to_s)
-        asked.check(may_be_large=True)
-        header, _ = asked.read({"samples": [0, 0], "hashed": False})
-        new_names, rate_hz = asked.new_names(header), float(header["sample_rate_hz"])
+        file_request.check(may_be_large=True)
+        header, _ = file_request.read({"samples": [0, 0], "hashed": False})
+        new_names, rate_hz = file_request.new_names(header), float(header["sample_rate_hz"])
         si_units, factors = si_scale(
-            new_names, asked.chosen_units(header), asked.new_calibration(header)
+            new_names, file_request.chosen_units(header), file_request.new_calibration(header)
         )
-        request = Request(asked.path, from_s=from_s, to_s=to_s)
+        request = Request(file_request.path, from_s=from_s, to_s=to_s)
         first, last = request.part(header["total_samples"], rate_hz)
-    remark(asked.path, header["remarks"])
+    remark(file_request.path, header["remarks"])
     remarks = {line: line for line in header["remarks"]}
-    return FileBlocks(asked, header, first, last - first, si_units, factors, remarks)
+    return FileBlocks(file_request, header, first, last - first, si_units, factors, remarks)
 
 
 def recording_blocks(path: str | Path, **reading: Any) -> FileBlocks:
@@ -220,7 +222,7 @@ def recording_blocks(path: str | Path, **reading: Any) -> FileBlocks:
 
     Parameters
     ----------
-    path, reading : as in `read_recording`
+    path, reading : see `read_recording`
 
     Raises
     ------
@@ -243,7 +245,7 @@ def hold_recording(
 
     Parameters
     ----------
-    path, from_s, to_s, reading : as in `read_recording`
+    path, from_s, to_s, reading : see `read_recording`
 
     Raises
     ------

@@ -28,13 +28,13 @@ LEVELS_DB: Final = (60.0, 140.0)
 
 @dataclass(frozen=True)
 class CalibratorReading:
-    """What the recording of a calibrator gives.
+    """Reading of the recording of a calibrator.
 
     Attributes
     ----------
-    channel : of the file
+    channel : channel of the file
     pascal_per_unit : calibration factor, Pa per unit stored in the file
-    frequency_hz : of the tone
+    frequency_hz : frequency of the tone
     steady_s : length of the part that was used
 
     Examples
@@ -65,9 +65,9 @@ def read_calibrator(
     Parameters
     ----------
     path : file of any format that `read_recording` reads
-    channel : of the file; a file with one channel needs none
-    level_db : of the calibrator, dB re 20 µPa
-    frequency_hz : of the calibrator
+    channel : channel of the file; a file with one channel needs none
+    level_db : level of the calibrator, dB re 20 µPa
+    frequency_hz : frequency of the calibrator
     sample_rate_hz : actual sample rate, where the file states none
 
     Raises
@@ -125,7 +125,7 @@ def tone_amplitude(
     Parameters
     ----------
     signal : shape (time,), any unit
-    sample_rate_hz : of the signal
+    sample_rate_hz : sample rate of the signal
     frequency_hz : nominal frequency
 
     Raises

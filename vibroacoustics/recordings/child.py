@@ -41,7 +41,7 @@ def answer(
 
     Parameters
     ----------
-    request : what to read
+    request : part of the file to read
     plugin : file of the user that brings the reader
     hashed : whether the file's hash is wanted
     """
@@ -119,7 +119,7 @@ def cut(recording: Recorded, request: Request) -> Recorded:
 
 
 def _error_header(request: Request, error: VibroacousticsError) -> dict[str, Any]:
-    """What the user shall see of an error; of a plug-in that misses a module, what to install."""
+    """Words on an error for the user; of a plug-in that misses a module, what to install."""
     missing = error.__cause__
     if isinstance(error, FaultError) and isinstance(missing, ModuleNotFoundError):
         return _refusal(needed(_reader(request), str(missing.name)))
@@ -159,11 +159,11 @@ def main() -> None:
     _write(output, *_typed_answer(json.loads(sys.argv[1])))
 
 
-def _typed_answer(asked: Mapping[str, Any]) -> tuple[dict[str, Any], list[Any]]:
+def _typed_answer(fields: Mapping[str, Any]) -> tuple[dict[str, Any], list[Any]]:
     """Header, with the type in which samples are handed over, and channels."""
-    header, rows = answer(_request(asked), asked.get("plugin"), asked.get("hashed", True))
+    header, rows = answer(_request(fields), fields.get("plugin"), fields.get("hashed", True))
     channels = list(rows)
-    kind = _common_type(channels) if asked.get("as_stored") else "<f8"
+    kind = _common_type(channels) if fields.get("as_stored") else "<f8"
     return {**header, "type": kind}, channels
 
 
@@ -173,15 +173,15 @@ def _common_type(channels: Sequence[Any]) -> str:
     return kinds.pop() if len(kinds) == 1 and kinds <= set(_SMALL_TYPES) else "<f8"
 
 
-def _request(asked: Mapping[str, Any]) -> Request:
-    channels, samples = asked["channels"], asked.get("samples")
+def _request(fields: Mapping[str, Any]) -> Request:
+    channels, samples = fields["channels"], fields.get("samples")
     return Request(
-        Path(asked["path"]),
+        Path(fields["path"]),
         None if channels is None else tuple(channels),
-        asked["sample_rate_hz"],
-        asked.get("modes", False),
-        asked.get("from_s"),
-        asked.get("to_s"),
+        fields["sample_rate_hz"],
+        fields.get("modes", False),
+        fields.get("from_s"),
+        fields.get("to_s"),
         None if samples is None else (samples[0], samples[1]),
     )
 

@@ -61,7 +61,7 @@ def read_in_child(request: Mapping[str, Any]) -> tuple[dict[str, Any], Array]:
 
 
 def _receive(stream: io.BufferedReader) -> tuple[dict[str, Any], Array] | None:
-    """What the child writes; None where it ended before all was written."""
+    """Read what the child writes; None where it ended before all was written."""
     line = stream.readline()
     if not line.endswith(b"\n"):
         return None
@@ -74,7 +74,7 @@ def _receive(stream: io.BufferedReader) -> tuple[dict[str, Any], Array] | None:
 
 
 def _end_of(code: int, messages: bytes) -> str:
-    """What to tell of a child that ended early."""
+    """Message about a child that ended early."""
     if code == -signal.SIGXCPU:
         return f"was not read after {MAXIMUM_CPU_S} s: the file is damaged or too large"
     if code < 0:

@@ -113,13 +113,13 @@ def _unit_and_kind(columns: Columns, reference: Node | None) -> tuple[Units, str
         return square, "auto spectrum" if reference is None else "cross spectrum"
     if reference is None:
         return single(unit), "spectrum"
-    both = ratio(unit)
-    if both is None:
+    units = ratio(unit)
+    if units is None:
         raise ParameterError(
             f"unit {unit!r}: must be a response by a reference such as m/s²/N, m/N, Pa/N, or a "
             "product such as Pa*N of a cross spectrum"
         )
-    return both, "frequency response"
+    return units, "frequency response"
 
 
 def _values(columns: Columns) -> ComplexArray:

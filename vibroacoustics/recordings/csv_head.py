@@ -72,12 +72,12 @@ _TIME_NAMES: Final = {"time", "t"}
 
 @dataclass(frozen=True)
 class Head:
-    """What is above the numbers.
+    """Head above the numbers.
 
     Attributes
     ----------
-    names, units : of the columns
-    separator : of the columns
+    names, units : names and units of the columns
+    separator : separator of the columns
     lines : above the numbers
     stamps : column of time stamps; None without one
     sample : first rows of numbers

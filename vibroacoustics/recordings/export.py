@@ -19,7 +19,7 @@ def csv_bytes(recording: xr.Dataset) -> bytes:
 
     Parameters
     ----------
-    recording : as from `read_recording` or `label_recording`
+    recording : result of `read_recording` or `label_recording`
     """
     channels = recording["signal"]
     units = channels["channel_unit"].values
@@ -38,7 +38,7 @@ def wav_bytes(recording: xr.Dataset) -> bytes:
 
     Parameters
     ----------
-    recording : as from `read_recording` or `label_recording`
+    recording : result of `read_recording` or `label_recording`
 
     Raises
     ------

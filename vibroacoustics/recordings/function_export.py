@@ -68,7 +68,7 @@ def _as_text(frequency_hz: Array, parts: Array, even: bool, single: bool) -> byt
             for f, n in zip(("{:13.5e}", value, value), row, strict=True)
         ]
         per_line = 6 if single else 3
-    lines = ("".join(texts[at : at + per_line]) for at in range(0, len(texts), per_line))
+    lines = ("".join(texts[first : first + per_line]) for first in range(0, len(texts), per_line))
     return "".join(f"{line}\n" for line in lines).encode()
 
 

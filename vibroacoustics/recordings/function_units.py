@@ -38,8 +38,10 @@ def product(text: str) -> Units | None:
         if square is None or find_quantity(text) is not None:
             return None
         first = second = square["unit"]
-    one, other = _known(first), _known(second)
-    return one and other and Units(one.unit, other.unit, one.factor * other.factor)
+    numerator, other = _known(first), _known(second)
+    return (
+        numerator and other and Units(numerator.unit, other.unit, numerator.factor * other.factor)
+    )
 
 
 def single(text: str) -> Units:
@@ -50,11 +52,11 @@ def single(text: str) -> Units:
     ParameterError
         It is unknown, or that of no response.
     """
-    known = quantity(text)
-    return Units(checked(known, text).unit, "", known.factor)
+    measured = quantity(text)
+    return Units(checked(measured, text).unit, "", measured.factor)
 
 
-def checked(known: Quantity, text: str) -> Quantity:
+def checked(measured: Quantity, text: str) -> Quantity:
     """The quantity, if it is one that a function may have.
 
     Raises
@@ -62,14 +64,16 @@ def checked(known: Quantity, text: str) -> Quantity:
     ParameterError
         It is another.
     """
-    if known.kind not in ALLOWED:
-        raise ParameterError(f"unit {text!r} is of {known.kind}; allowed are {', '.join(ALLOWED)}")
-    return known
+    if measured.kind not in ALLOWED:
+        raise ParameterError(
+            f"unit {text!r} is of {measured.kind}; allowed are {', '.join(ALLOWED)}"
+        )
+    return measured
 
 
 def _known(text: str) -> Quantity | None:
     plain = text.strip()
     if plain.startswith("(") and plain.endswith(")"):
         plain = plain[1:-1]
-    known = find_quantity(plain)
-    return known if known is not None and known.kind in ALLOWED else None
+    measured = find_quantity(plain)
+    return measured if measured is not None and measured.kind in ALLOWED else None

@@ -12,7 +12,7 @@ from .quantities import QUANTITIES, quantity
 from .uff_functions import read_uff
 
 MAXIMUM_BYTES: Final = 2**28
-"""Of a file, which is read as a whole."""
+"""Size of a file, which is read as a whole."""
 
 
 def read_functions(
@@ -51,9 +51,9 @@ def read_functions(
         check_file(path, list(readers))
         if path.stat().st_size > MAXIMUM_BYTES:
             raise StorageError(f"has more than {MAXIMUM_BYTES / 2**20:g} MiB: take it apart")
-        given = dict(units or {})
-        kinds = {known.kind for known in QUANTITIES.values()}
-        for kind, unit in given.items():
+        unit_of_kind = dict(units or {})
+        kinds = {measured.kind for measured in QUANTITIES.values()}
+        for kind, unit in unit_of_kind.items():
             if kind not in kinds or quantity(unit).kind != kind:
                 raise ParameterError(f"units: {kind} = {unit!r}: is no quantity with its unit")
-        return readers[path.suffix.lower()](path, given)
+        return readers[path.suffix.lower()](path, unit_of_kind)

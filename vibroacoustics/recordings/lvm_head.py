@@ -25,15 +25,15 @@ class Segment:
 
     Attributes
     ----------
-    names, units : of the channels
-    columns : of the channels among the fields of a row
-    samples : of each channel, as the header claims
+    names, units : names and units of the channels
+    columns : columns of the channels among the fields of a row
+    samples : number of samples of each channel, as the header claims
     interval : between samples, as the header writes it
-    interval_s : the same as a number
+    interval_s : interval as a number
     start_s : time of the first sample, s since 1970 where the header states the date
     start_time : ISO 8601; empty where it is not stated
-    time_column : of the times; None without one
-    separator : of fields
+    time_column : column of the times; None without one
+    separator : separator of fields
     has_decimal_comma : whether numbers are written with one
     """
 
@@ -56,7 +56,7 @@ class Segment:
 
     @property
     def remarks(self) -> list[str]:
-        """What the user must know of the sampling interval."""
+        """Remarks for the user on the sampling interval."""
         digits = len(self.interval.lower().partition("e")[0].partition(".")[2])
         exponent = int(self.interval.lower().partition("e")[2] or 0)
         rounding = 0.5 * float(f"1e{exponent - digits}") / self.interval_s
@@ -89,7 +89,7 @@ def segment(lines: Iterator[bytes], above: dict[str, str]) -> Segment | None:
 
     Parameters
     ----------
-    lines : of the file, from behind the last row
+    lines : lines of the file, from behind the last row
     above : keys and values of the file's header
 
     Raises

@@ -24,16 +24,16 @@ DIRECTIONS: Final = {0: ""} | {
 }
 """Directions of dataset 58, record 6: none of a scalar, along `+x`, about `+rx`, and so on."""
 DERIVATIVES: Final = {"m": 0, "m/s": 1, "m/s²": 2}
-"""How often a displacement is derived by time, by its unit."""
+"""Number of derivatives of a displacement by time, by its unit."""
 
 
 @dataclass(frozen=True)
 class Node:
-    """Where and along what something acts or is measured.
+    """Position and direction at which something acts or is measured.
 
     Attributes
     ----------
-    number : of the node
+    number : number of the node
     direction : `+x` to `-z`, about an axis `+rx`; empty for a scalar, such as sound pressure
 
     Examples
@@ -59,7 +59,7 @@ class Node:
 
     @property
     def opposite(self) -> "Node":
-        """The same node along the opposite direction; a scalar is its own."""
+        """Node with the opposite direction; a scalar is its own."""
         signs = str.maketrans("+-", "-+")
         return Node(self.number, self.direction.translate(signs))
 

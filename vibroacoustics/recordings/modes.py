@@ -21,8 +21,8 @@ class MeasuredModes:
     Attributes
     ----------
     frequency_hz : natural frequencies, shape (mode,)
-    modal_mass_kg : of the shapes as they are scaled, shape (mode,)
-    viscous_damping_ratio : as the file states it, 0 where it states none, shape (mode,)
+    modal_mass_kg : modal mass of the shapes as they are scaled, shape (mode,)
+    viscous_damping_ratio : damping ratio in the file, 0 where it states none, shape (mode,)
     nodes_m : places in the file's coordinate system, shape (node, 3)
     shape : displacements, shape (mode, node, 3)
     source_sha256 : hash of the file
@@ -40,7 +40,7 @@ def read_modes(path: str | Path, *, file_unit_m: float | None = None) -> Measure
     """Read normal modes (dataset 55) and their nodes (15 or 2411) from a universal file.
 
     The file is read in a process of its own, of limited memory. Modal masses are taken in kg,
-    lengths in m, unless dataset 164 tells the file's units.
+    lengths in m, unless dataset 164 states the file's units.
 
     Parameters
     ----------

@@ -33,7 +33,7 @@ class NamedArray:
     Attributes
     ----------
     name : with the path to it
-    shape : as the header claims it
+    shape : shape that the header claims
     is_number : whether it holds numbers
     load : stored values of a part, one slice a dimension
     attributes : units, sample rate and how the values are packed

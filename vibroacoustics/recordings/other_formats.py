@@ -33,7 +33,7 @@ ADVICE: Final = {
     ".orsd": "Oros: export UFF, MAT or WAV",
     ".wfm": "oscilloscope: export CSV or MAT",
 }
-"""What to do with a file, by the suffix of its name."""
+"""Advice on a file, by the suffix of its name."""
 
 
 def advice(suffix: str) -> str:

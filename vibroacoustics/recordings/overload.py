@@ -32,7 +32,7 @@ _NEAR_VALUES: Final = 6
 _PARTS: Final = (1, 2, 3)
 """Steps that may make the smallest difference of these values."""
 _UNEVEN: Final = 0.05
-"""Of steps, share of the smallest."""
+"""Unevenness of steps, share of the smallest."""
 _MANY_VALUES: Final = 5
 """A channel of fewer, such as an idle one, is overloaded at both extremes or not at all."""
 
@@ -82,10 +82,10 @@ def overload(samples: Samples, limits: tuple[float, float] | None = None) -> Ove
         return None
     count, between, first = 0, 0, samples.size
     for start, piece in _pieces(samples):
-        at = np.flatnonzero(np.isin(piece, ends))
-        count += at.size
+        clipped = np.flatnonzero(np.isin(piece, ends))
+        count += clipped.size
         between += int(np.count_nonzero((piece > low) & (piece < high)))
-        first = min(first, start + int(at[0])) if at.size else first
+        first = min(first, start + int(clipped[0])) if clipped.size else first
     return Overload(count, first, between / samples.size)
 
 
@@ -163,8 +163,8 @@ def _step(away: Samples, alike: float) -> float:
     return 0.0
 
 
-def _longest_run(at: Samples) -> int:
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], at, [False]]).astype(np.int8)))
+def _longest_run(is_clipped: Samples) -> int:
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], is_clipped, [False]]).astype(np.int8)))
     return int(np.max(edges[1::2] - edges[::2], initial=0))
 
 

@@ -14,7 +14,7 @@ from .recorded import Samples
 PACKING_NAMES: Final = ("scale_factor", "add_offset", "_FillValue", "missing_value", "_Unsigned")
 """Attributes that say how values are stored."""
 _DEFAULT_FILL: Final = 9.969209968386869e36
-"""What the netCDF library writes for numbers that never were written, as float or double."""
+"""Values that the netCDF library writes for missing numbers, as float or double."""
 
 
 def unsigned(stored: Samples, attributes: Mapping[str, Any]) -> Samples:
@@ -41,7 +41,7 @@ def is_packed(attributes: Mapping[str, Any]) -> bool:
 
 
 def missing(stored: Samples, attributes: Mapping[str, Any]) -> tuple[Samples, float] | None:
-    """Which of the stored numbers stand for a missing value, and that number; None without any."""
+    """Return which of the stored numbers are missing, and that number; None without any."""
     fills = [
         float(fill)
         for name in ("_FillValue", "missing_value")

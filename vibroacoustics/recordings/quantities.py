@@ -10,7 +10,7 @@ from ..base.unit_spelling import plain_unit
 
 
 class Quantity(NamedTuple):
-    """What a channel measures: kind, SI unit of its samples in our form, factor to that unit."""
+    """Measured quantity: kind, SI unit of its samples in our form, factor to that unit."""
 
     kind: str
     unit: str
@@ -50,11 +50,11 @@ QUANTITIES: Final[dict[str, Quantity]] = {
 TIME_UNITS: Final = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "us": 1e-6}
 """Units of a time axis and their factors to s."""
 
-_BY_SPELLING: Final = {plain_unit(unit): known for unit, known in QUANTITIES.items()}
+_BY_SPELLING: Final = {plain_unit(unit): measured for unit, measured in QUANTITIES.items()}
 
 
 def quantity(unit: str) -> Quantity:
-    """What a unit in a file or from a user means.
+    """Return the quantity of a unit in a file or from a user.
 
     Parameters
     ----------
@@ -65,14 +65,14 @@ def quantity(unit: str) -> Quantity:
     ParameterError
         The unit is not in the list.
     """
-    known = find_quantity(unit)
-    if known is None:
+    measured = find_quantity(unit)
+    if measured is None:
         raise ParameterError(f"unit {unit!r} is unknown; known are {', '.join(QUANTITIES)}")
-    return known
+    return measured
 
 
 def find_quantity(unit: str) -> Quantity | None:
-    """What a unit means, or None where it is not in the list."""
+    """Return the quantity of a unit, or None where it is not in the list."""
     return _BY_SPELLING.get(plain_unit(unit))
 
 

@@ -17,9 +17,9 @@ class Reader:
 
     Attributes
     ----------
-    name : of the format, short
-    suffixes : of the files' names, small letters with the dot
-    words : what the format is called
+    name : name of the format, short
+    suffixes : suffixes of the files' names, small letters with the dot
+    words : name of the format in words
     read : channels of a file; runs in a process of its own, of limited memory and time
     package : further package that `read` imports, as pip calls it; empty where none
 
@@ -82,7 +82,7 @@ def readers_by_suffix() -> dict[str, Reader]:
 
 
 def needed(reader: Reader, module: str) -> str:
-    """What to install where a reader misses a module."""
+    """Say what to install where a reader misses a module."""
     if READERS.origin(reader.name) is None:
         extra = _EXTRAS.get(reader.package, "io")
         return f"needs {module}: pip install vibroacoustics[{extra}]"

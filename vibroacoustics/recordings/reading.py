@@ -23,7 +23,7 @@ def read_recording(
     to_s: float | None = None,
     names: Mapping[str, str] | None = None,
 ) -> xr.Dataset:
-    """Read a recording; what its file must hold is told in docs/recordings.md.
+    """Read a recording; docs/recordings.md says what its file must hold.
 
     The file is read in a process of its own, of limited memory.
 
@@ -67,28 +67,30 @@ def read_recording(
     >>> va.read_recording(file)["signal"].sel(channel="front").values
     array([0. , 0.5])
     """
-    asked = Asked(Path(path), units or {}, calibration or {}, channels, sample_rate_hz, names or {})
-    with naming_file(asked.path):
+    request = Asked(
+        Path(path), units or {}, calibration or {}, channels, sample_rate_hz, names or {}
+    )
+    with naming_file(request.path):
         check_part(from_s, to_s)
         is_part = from_s is not None or to_s is not None
-        is_large = asked.check(may_be_large=is_part or channels is not None)
+        is_large = request.check(may_be_large=is_part or channels is not None)
         part = {"from_s": from_s, "to_s": to_s, "hashed": not is_large}
-        header, stored = asked.read(part)
+        header, stored = request.read(part)
         digest = {"source_sha256": header["sha256"]}
         if is_large:
             digest = {"part_sha256": samples_digest(stored)}
         recording = label_in_place(
             stored,
             header["sample_rate_hz"],
-            asked.new_names(header),
-            asked.chosen_units(header),
-            asked.new_calibration(header),
+            request.new_names(header),
+            request.chosen_units(header),
+            request.new_calibration(header),
         )
     lines = [*header["remarks"], *overload_lines(header, recording["channel_unit"].values)]
-    remark(asked.path, lines)
+    remark(request.path, lines)
     if lines:
         recording.attrs["reading_remarks"] = "; ".join(lines)
-    recording.attrs |= {"source_file": asked.path.name, **digest}
+    recording.attrs |= {"source_file": request.path.name, **digest}
     if is_part:
         recording.attrs["part_start_s"] = header["first_sample"] / header["sample_rate_hz"]
     if header["start_time"]:

@@ -1,4 +1,4 @@
-"""What a reader of one format is asked for and what it hands back, with the checks they share."""
+"""Request to a reader of one format and its answer, with the checks they share."""
 
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -32,12 +32,12 @@ MINIMUM_SAMPLES: Final = 2
 
 @dataclass(frozen=True)
 class Request:
-    """What to read: the file, some of its channels, a sample rate that overrides the file's; or
+    """Request: the file, some of its channels, a sample rate that overrides the file's; or
     the modes of a structure.
 
     Attributes
     ----------
-    path : of the file
+    path : path of the file
     channels : wanted; None for all
     sample_rate_hz : that overrides the file's; None where the file's holds
     modes : whether modes are read, no recording
@@ -105,8 +105,8 @@ class Request:
             return list(range(len(names)))
         for name in self.channels:
             if names.count(name) != 1:
-                there = "not in the file" if name not in names else "more than once in the file"
-                raise ParameterError(f"channel {name!r}: {there}, which holds {listed(names)}")
+                how_often = "not in the file" if name not in names else "more than once in the file"
+                raise ParameterError(f"channel {name!r}: {how_often}, which holds {listed(names)}")
         return [names.index(name) for name in self.channels]
 
 
@@ -116,8 +116,8 @@ class Recorded:
 
     Attributes
     ----------
-    names : of the channels
-    units : as the file states them; empty where it states none
+    names : names of the channels
+    units : units in the file; empty where it states none
     samples : one array a channel, shape (time,)
     sample_rate_hz : actual sample rate
     start_time : ISO 8601; empty where it is unknown
@@ -129,7 +129,7 @@ class Recorded:
         a sample at a limit is an overload. Empty where the format has none
     calibration : factor that the file states of each channel, its unit per unit of the samples;
         one that the user gives counts instead. Empty or None where the file states none
-    remarks : what the user must know of the file, a line each
+    remarks : remarks on the file for the user, a line each
 
     Examples
     --------
@@ -139,7 +139,7 @@ class Recorded:
 
     names: Sequence[str]
     units: Sequence[str]
-    """As the file states them; empty where it states none."""
+    """Units in the file; empty where it states none."""
     samples: Sequence[Samples]
     """One array a channel."""
     sample_rate_hz: float

@@ -27,8 +27,8 @@ def label_recording(
     ----------
     signal : shape (channel, time), in the channels' units
     sample_rate_hz : actual sample rate
-    names : of the channels, each once
-    units : of the channels, from the list in quantities.py; the samples are taken to SI
+    names : names of the channels, each once
+    units : units of the channels, from the list in quantities.py; the samples are taken to SI
     calibration : factor by channel, the channel's unit per unit of its samples; default: 1
 
     Returns
@@ -65,7 +65,7 @@ def label_in_place(
     Parameters
     ----------
     signal : shape (channel, time); its values are taken to SI
-    sample_rate_hz, names, units, calibration : as in `label_recording`
+    sample_rate_hz, names, units, calibration : see `label_recording`
     """
     _check_form(signal, sample_rate_hz, names, units)
     si_units, factors = si_scale(names, units, calibration)

@@ -1,4 +1,4 @@
-"""What the user must know of a file that was read."""
+"""Remarks for the user on a file that was read."""
 
 import warnings
 from collections.abc import Iterable, Mapping

@@ -28,14 +28,14 @@ _OCEAN_SONICS: Final = re.compile(
 
 @dataclass(frozen=True)
 class Wave:
-    """What stands before and behind the samples of a WAV file.
+    """Chunks before and behind the samples of a WAV file.
 
     Attributes
     ----------
-    order : of bytes, `<` or `>`
-    kind : of the samples, PCM or FLOAT, or another number of the format
-    channels, sample_rate_hz : of the samples
-    sample_bytes : of one channel
+    order : order of bytes, `<` or `>`
+    kind : kind of the samples, PCM or FLOAT, or another number of the format
+    channels, sample_rate_hz : channels and sample rate of the samples
+    sample_bytes : bytes of one channel
     start : place of the first sample in the file
     frames : samples of a channel
     comment : text beside the samples; empty without one
@@ -106,7 +106,7 @@ def with_comment(wave: bytes, comment: str) -> bytes:
     Parameters
     ----------
     wave : the file, RIFF
-    comment : of letters of Latin-1
+    comment : comment in letters of Latin-1
     """
     if wave[:4] != b"RIFF":
         return wave
@@ -142,10 +142,10 @@ def _comment_behind(file: BinaryIO, order: str) -> str:
 
 def _comment(content: bytes, order: str) -> str:
     """Text of ICMT in a list of kind INFO."""
-    at = 4
-    while content[:4] == b"INFO" and at + 8 <= len(content):
-        name, size = struct.unpack(f"{order}4sI", content[at : at + 8])
+    position = 4
+    while content[:4] == b"INFO" and position + 8 <= len(content):
+        name, size = struct.unpack(f"{order}4sI", content[position : position + 8])
         if name == b"ICMT":
-            return content[at + 8 : at + 8 + size].rstrip(b"\0 ").decode("latin-1")
-        at += 8 + size + size % 2
+            return content[position + 8 : position + 8 + size].rstrip(b"\0 ").decode("latin-1")
+        position += 8 + size + size % 2
     return ""

@@ -1,4 +1,4 @@
-"""What this package writes into the comment of a sound file: the unit of its samples."""
+"""Unit of the samples, which this package writes into the comment of a sound file."""
 
 import math
 import re

@@ -34,9 +34,9 @@ class Struct:
 
     Attributes
     ----------
-    name : of the variable
+    name : name of the variable
     numbers : arrays of numbers by their path in the struct
-    texts : of one field: one text, or those of a cell
+    texts : texts of one field: one text, or those of a cell
     """
 
     name: str

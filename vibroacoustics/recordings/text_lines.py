@@ -63,10 +63,10 @@ def last_lines(file: BinaryIO, begin: int) -> tuple[list[tuple[int, bytes]], boo
     start = max(begin, size - 2 * MAXIMUM_LINE_BYTES)
     file.seek(start)
     content = file.read()
-    placed, at = [], start
+    placed, position = [], start
     for line in content.splitlines(keepends=True):
-        placed.append((at, line))
-        at += len(line)
+        placed.append((position, line))
+        position += len(line)
     return placed[-2:], content.endswith((b"\n", b"\r"))
 
 
@@ -79,7 +79,7 @@ def reached(
     ----------
     file : to look at, by halving
     begin, end : places of the first line, and behind the last
-    value : of a line
+    value : value of a line
     wanted : least value
     """
     low, high = begin, end
@@ -95,10 +95,10 @@ def reached(
     return low
 
 
-def _line_at(file: BinaryIO, at: int, begin: int) -> tuple[int, bytes]:
+def _line_at(file: BinaryIO, position: int, begin: int) -> tuple[int, bytes]:
     """The first line that begins at a place or behind it."""
-    if at > begin:
-        file.seek(at - 1)
+    if position > begin:
+        file.seek(position - 1)
         file.readline()
     else:
         file.seek(begin)

@@ -31,8 +31,8 @@ def even_part(
 
     Parameters
     ----------
-    times : of the axis; of a part only its times are asked for
-    samples : of the axis
+    times : times of the axis; of a part only its times are read
+    samples : number of samples of the axis
     request : part that is wanted
     origin_s : time of the recording's first sample, where that is not of the axis
 

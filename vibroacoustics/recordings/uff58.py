@@ -38,14 +38,14 @@ class Header:
     function_type : 1 for a time response
     name : id line 1, else response entity, else label of the ordinate; may be empty
     start_time : id line 3
-    unit : of the ordinate
+    unit : unit of the ordinate
     ordinate_type : 2 and 4 real, 5 and 6 complex, single and double precision
-    points : of the abscissa
+    points : number of points of the abscissa
     is_even : whether the abscissa has even spacing
-    increment : of the abscissa, where it has
+    increment : increment of the abscissa, where it has one
     byte_order : `<` or `>`; empty for text
     start : place of the first value in the file
-    abscissa_bytes : of each abscissa of binary values; 0 where there is none
+    abscissa_bytes : bytes of each abscissa of binary values; 0 where there is none
     records : the eleven lines as they are
     """
 
@@ -74,12 +74,12 @@ class Header:
 
     @property
     def ordinate_bytes(self) -> int:
-        """Of each number of a binary ordinate."""
+        """Bytes of each number of a binary ordinate."""
         return 4 if self.ordinate_type in (SINGLE, SINGLE_COMPLEX) else 8
 
     @property
     def binary_bytes(self) -> int:
-        """Of all binary values."""
+        """Bytes of all binary values."""
         return self.points * (self.abscissa_bytes + self.parts * self.ordinate_bytes)
 
     @property
@@ -192,7 +192,7 @@ def _header(file: BinaryIO, kind: bytes) -> Header:
 
 
 def _with_abscissas(file: BinaryIO, header: Header) -> Header:
-    """With abscissas of the precision that ends at the mark; programs differ in it."""
+    """Header with abscissas of the precision that ends at the mark; programs differ in it."""
     header = replace(header, abscissa_bytes=4)
     double = replace(header, abscissa_bytes=8)
     file.seek(header.start + double.binary_bytes)

@@ -34,17 +34,17 @@ def ordinates(file: BinaryIO, header: Header) -> tuple[Samples, Samples | None]:
     Raises
     ------
     StorageError
-        As `values`.
+        Return ordinates and abscissae; see `values`.
     """
     if header.byte_order:
-        given, abscissa = _binary(file, header, 0, header.points)
+        numbers_of_points, abscissa = _binary(file, header, 0, header.points)
     else:
         numbers = _text(file, header, 0, header.numbers).reshape(header.points, -1)
         abscissa = None if header.is_even else numbers[:, 0]
-        given = numbers[:, -header.parts :]
+        numbers_of_points = numbers[:, -header.parts :]
     if header.parts == 1:
-        return given.astype(float).reshape(-1), abscissa
-    pairs = given.astype(float)
+        return numbers_of_points.astype(float).reshape(-1), abscissa
+    pairs = numbers_of_points.astype(float)
     return pairs[:, 0] + 1j * pairs[:, 1], abscissa
 
 

@@ -101,10 +101,10 @@ def _units(header: Header, kind: str, units: Mapping[str, str]) -> Units:
         return Units("1", "", 1.0)
     numerator, denominator = header.records[8], header.records[9]
     text = numerator[_UNIT].strip()
-    both = ratio(text) if kind == "frequency response" else product(text)
-    if both is not None and kind != "spectrum":
-        _same_kind(_type_of(numerator, "ordinate"), both.response)
-        return both
+    both_units = ratio(text) if kind == "frequency response" else product(text)
+    if both_units is not None and kind != "spectrum":
+        _same_kind(_type_of(numerator, "ordinate"), both_units.response)
+        return both_units
     above, above_factor = _side(numerator, "ordinate", units)
     if kind == "spectrum":
         return Units(above, "", above_factor)
@@ -126,9 +126,9 @@ def _side(record: str, role: str, units: Mapping[str, str]) -> tuple[str, float]
             f"{role}: states {named} (type {kind}) and no unit: give it, as in "
             f"units: {named if kind in QUANTITY_TYPES else 'acceleration'} = 'm/s²'"
         )
-    known = checked(quantity(text), text)
-    _same_kind(kind, known.unit)
-    return known.unit, known.factor
+    measured = checked(quantity(text), text)
+    _same_kind(kind, measured.unit)
+    return measured.unit, measured.factor
 
 
 def _same_kind(kind: int, unit: str) -> None:

@@ -21,9 +21,9 @@ class Analysis:
 
     Attributes
     ----------
-    name : of its page, without ending
+    name : name of its page, without ending
     title : heading of the page
-    kind : what was analysed, a machine or a recording
+    kind : analysed thing, a machine or a recording
     created : time of the results, UTC; empty where it is not recorded
     about : sentence below the heading
     parts : sections of the page
@@ -72,26 +72,26 @@ class Analysis:
         blocks = [*self._blocks(), *self.shown]
         cells = (cell for table in tables(blocks) for row in table.rows for cell in row)
         numbers = chain(self.numbers, (cell for cell in cells if isinstance(cell, Number)))
-        known = {(each.variable, *each.selection.items()): each for each in numbers}
+        by_selection = {(each.variable, *each.selection.items()): each for each in numbers}
         return {
             "tables": {
                 name.removesuffix(".csv"): {head: list(map(_cell, values)) for head, values in
                                             table.items()}
                 for name, table in self.tables.items()
             },
-            "numbers": [each.data() for each in known.values()],
+            "numbers": [each.data() for each in by_selection.values()],
             "charts": [chart.data() for chart in charts(self._blocks())],
         }  # fmt: skip
 
     def files(self, results_sha256: str = "") -> dict[str, bytes]:
         """Return page, tables, pictures and further files by name."""
-        drawn = {picture_file(each): each.content for each in pictures(self._blocks())}
+        pictures_of_file = {picture_file(each): each.content for each in pictures(self._blocks())}
         return {
             self.page: self.html(results_sha256),
             **{name: to_csv(table) for name, table in self.tables.items()},
             **({self.in_markdown: self.markdown()} if self.in_markdown else {}),
             **self.further,
-            **{f"{self.figures}{name}": content for name, content in drawn.items()},
+            **{f"{self.figures}{name}": content for name, content in pictures_of_file.items()},
         }
 
     def _about(self) -> str:
@@ -107,10 +107,12 @@ class Analysis:
             return self.parts
         first, *others = self.summary
         head = (Text(first, "headline"), *map(Text, others))
-        at = next((at for at, part in enumerate(self.parts) if not part.folded), 0)
-        part = self.parts[at]
+        unfolded = next(
+            (unfolded for unfolded, part in enumerate(self.parts) if not part.folded), 0
+        )
+        part = self.parts[unfolded]
         headed = part._replace(blocks=(*head, *part.blocks))
-        return (*self.parts[:at], headed, *self.parts[at + 1 :])
+        return (*self.parts[:unfolded], headed, *self.parts[unfolded + 1 :])
 
 
 def origin(results: xr.Dataset, kind: str) -> dict[str, Any]:

@@ -39,37 +39,44 @@ def avoid_table(results: xr.Dataset, every: Sequence[Avoided]) -> Table | None:
     rows = tuple(_row(results, same) for same in _alike(results, every[:MOST_ROWS]))
     more = f"; {MOST_ROWS} of {len(every)}, all are in speeds.csv" if len(every) > MOST_ROWS else ""
     head = ("Option", "What stands out", "Avoid, rpm", "Largest at, rpm", "By, dB",
-            "Of the total there", "Strongest line", "Natural frequency")  # fmt: skip
-    at = catalogue_receiver(results)
-    return Table(f"Speeds to avoid, levels at {at}{more}", head, rows, frozenset({0, 1, 6, 7}))
+            "Share of the total there", "Strongest line", "Natural frequency")  # fmt: skip
+    receiver = catalogue_receiver(results)
+    return Table(
+        f"Speeds to avoid, levels at {receiver}{more}", head, rows, frozenset({0, 1, 6, 7})
+    )
 
 
 def _alike(results: xr.Dataset, every: Sequence[Avoided]) -> list[list[Avoided]]:
     """Those that read the same with several options, together; by speed, levels first."""
     names = options(results)
     ranked = sorted(
-        every, key=lambda one: (one.quantity != LEVEL, one.range.peak_rpm, names.index(one.option))
+        every,
+        key=lambda avoided: (
+            avoided.quantity != LEVEL,
+            avoided.range.peak_rpm,
+            names.index(avoided.option),
+        ),
     )
     groups: dict[tuple[object, ...], list[Avoided]] = {}
-    for one in ranked:
-        key = (one.quantity, *_words(one), rounding.fixed(one.range.above_db, 0))
-        groups.setdefault(key, []).append(one)
+    for avoided in ranked:
+        key = (avoided.quantity, *_words(avoided), rounding.fixed(avoided.range.above_db, 0))
+        groups.setdefault(key, []).append(avoided)
     return list(groups.values())
 
 
 def _row(results: xr.Dataset, same: Sequence[Avoided]) -> tuple[str, ...]:
-    one, count = same[0], len(options(results))
-    ends, peak, line, mode = _words(one)
+    first, count = same[0], len(options(results))
+    ends, peak, line, mode = _words(first)
     names = "all" if len(same) == count > 1 else ", ".join(other.option for other in same)
-    above = rounding.fixed(one.range.above_db, 0)
-    return names, one.quantity, ends, peak, above, _share(results, one), line, mode
+    above = rounding.fixed(first.range.above_db, 0)
+    return names, first.quantity, ends, peak, above, _share(results, first), line, mode
 
 
-def _words(one: Avoided) -> tuple[str, str, str, str]:
+def _words(avoided: Avoided) -> tuple[str, str, str, str]:
     """Range, maximum, line and mode."""
-    mode = rounding.NOTHING if one.mode is None else one.mode.words
-    line = f"{one.line}, {one.line_hz:.0f} Hz"
-    return _ends(one.range), f"{one.range.peak_rpm:.0f}", line, mode
+    mode = rounding.NOTHING if avoided.mode is None else avoided.mode.words
+    line = f"{avoided.line}, {avoided.line_hz:.0f} Hz"
+    return _ends(avoided.range), f"{avoided.range.peak_rpm:.0f}", line, mode
 
 
 def recorded_avoid_table(channel: str, ranges: Sequence[Range]) -> Table | None:
@@ -77,16 +84,16 @@ def recorded_avoid_table(channel: str, ranges: Sequence[Range]) -> Table | None:
     if not ranges:
         return None
     rows = tuple(
-        (_ends(one), f"{one.peak_rpm:.0f}", rounding.level(one.peak_db),
-         rounding.fixed(one.above_db, 0))
-        for one in ranges
+        (_ends(span), f"{span.peak_rpm:.0f}", rounding.level(span.peak_db),
+         rounding.fixed(span.above_db, 0))
+        for span in ranges
     )  # fmt: skip
     head = ("Avoid, rpm", "Largest at, rpm", "Level, dB(A)", "By, dB")
     return Table(f"Speeds to avoid: {channel}", head, rows)
 
 
 def rule_words(results: xr.Dataset) -> str:
-    """How speeds to avoid were chosen, and what the rule cannot see."""
+    """Say how speeds to avoid were chosen, and the limits of the rule."""
     speed = np.sort(results["speed"].values)
     step = float(np.diff(speed).max())
     return (
@@ -102,7 +109,7 @@ def rule_words(results: xr.Dataset) -> str:
 
 def reference_words(every: Sequence[Avoided]) -> str:
     """Ranges to avoid without a balancer."""
-    spans = [one.range for one in every if one.option == REFERENCE_OPTION]
+    spans = [avoided.range for avoided in every if avoided.option == REFERENCE_OPTION]
     if not spans:
         return "Without a balancer no speed is to be avoided by the rule below."
     named = [f"{_ends(span)} rpm" for span in sorted(spans[:MOST_NAMED])]
@@ -113,11 +120,14 @@ def reference_words(every: Sequence[Avoided]) -> str:
 def avoid_data(every: Sequence[Avoided]) -> DataTable:
     """All of them; mode and its frequency are empty where none is near."""
     rows: list[tuple[str | float, ...]] = []
-    for one in every:
-        ends, mode = (one.range.from_rpm, one.range.to_rpm, one.range.peak_rpm), one.mode
+    for avoided in every:
+        ends, mode = (
+            (avoided.range.from_rpm, avoided.range.to_rpm, avoided.range.peak_rpm),
+            avoided.mode,
+        )
         near = ("", "") if mode is None else (f"{mode.kind} {mode.name}", mode.frequency_hz)
-        what = (one.range.above_db, one.line, one.line_hz)
-        rows.append((one.option, one.quantity, *ends, *what, *near))
+        what = (avoided.range.above_db, avoided.line, avoided.line_hz)
+        rows.append((avoided.option, avoided.quantity, *ends, *what, *near))
     return columns_of(_HEAD, rows)
 
 
@@ -125,10 +135,12 @@ def _ends(span: Range) -> str:
     return f"{span.from_rpm:.0f} to {span.to_rpm:.0f}"
 
 
-def _share(results: xr.Dataset, one: Avoided) -> str:
+def _share(results: xr.Dataset, avoided: Avoided) -> str:
     """Return the share of the modelled energy in the total; a dash for a force."""
-    if one.quantity != LEVEL:
+    if avoided.quantity != LEVEL:
         return rounding.NOTHING
-    at = {"option": one.option, "receiver": catalogue_receiver(results),
-          "speed": one.range.peak_rpm}  # fmt: skip
-    return percent(energy_share(one.range.peak_db, float(results["level_total"].sel(at))))
+    coordinates = {"option": avoided.option, "receiver": catalogue_receiver(results),
+          "speed": avoided.range.peak_rpm}  # fmt: skip
+    return percent(
+        energy_share(avoided.range.peak_db, float(results["level_total"].sel(coordinates)))
+    )

@@ -1,4 +1,4 @@
-"""What a section of the report consists of: one list of blocks makes HTML, Markdown and JSON.
+"""Blocks of a section of the report: one list makes HTML, Markdown and JSON.
 
 All are frozen and hold finished text; `block` names the kind of block in templates and JSON.
 `Table` is a block too.
@@ -86,7 +86,7 @@ class Live:
     Attributes
     ----------
     data : JSON for the script
-    panel : what it consists of; a page has one
+    panel : content of the panel; a page has one
     block : kind of block
     """
 
@@ -97,12 +97,12 @@ class Live:
 
 @dataclass(frozen=True)
 class Light:
-    """What an option does to one quantity: a coloured sign, the change, its band.
+    """Effect of an option on one quantity: a coloured sign, the change, its band.
 
     Attributes
     ----------
-    word : of the sign
-    change : as text
+    word : word of the sign
+    change : change as text
     band : lowest and highest, of -1 to 1, the ends of the cell's scale
     zone : up to which a change could not be measured, of the same scale
     """
@@ -129,7 +129,7 @@ class Lights:
     Attributes
     ----------
     caption : above it
-    head : what the columns are, the options first
+    head : names of the columns, the options first
     rows : the options
     note : how to read it
     block : kind of block
@@ -153,10 +153,10 @@ class Interval:
 
     Attributes
     ----------
-    name : of what
+    name : name of the machine, option or source
     text : value and interval
     low, value, high : ends and value, in the unit of the chart
-    word : what it is; of changes what the option does
+    word : description; of changes what the option does
     """
 
     name: str
@@ -174,7 +174,7 @@ class Intervals:
     Attributes
     ----------
     caption : above it
-    head : what names and texts are
+    head : headings of names and texts
     rows : values
     scale : lowest and highest value of the axis
     zone : values that are no different from zero; none for all
@@ -197,7 +197,7 @@ class Sound:
 
     Attributes
     ----------
-    name : of what
+    name : name of the source
     file : beside the page
     """
 
@@ -273,7 +273,7 @@ def to_json(blocks: Sequence[Block]) -> str:
     ValueError
         One of them is no block, or holds a value of another type than its own.
     """
-    text = json.dumps(_adapter().dump_python(drawn(blocks), mode="json", warnings=False))
+    text = json.dumps(_adapter().dump_python(rendered(blocks), mode="json", warnings=False))
     from_json(text)
     return text
 
@@ -294,7 +294,7 @@ def from_json(text: str) -> tuple[Block, ...]:
 
 def pictures(blocks: Sequence[Block]) -> Iterator[Picture]:
     """All pictures of some blocks, folded ones too."""
-    for block in _flat(drawn(blocks)):
+    for block in _flat(rendered(blocks)):
         if isinstance(block, Pictures):
             yield from (each for each in block.pictures if isinstance(each, Picture))
 
@@ -311,19 +311,19 @@ def tables(blocks: Sequence[Block]) -> Iterator[Table]:
     return (block for block in _flat(blocks) if isinstance(block, Table))
 
 
-def drawn(blocks: Sequence[Block]) -> tuple[Block, ...]:
+def rendered(blocks: Sequence[Block]) -> tuple[Block, ...]:
     """Return blocks with pictures in place of charts."""
-    return tuple(map(_drawn, blocks))
+    return tuple(map(_rendered, blocks))
 
 
-def _drawn(block: Block) -> Block:
+def _rendered(block: Block) -> Block:
     if isinstance(block, Pictures):
         finished = (picture(each) if isinstance(each, Chart) else each for each in block.pictures)
         return Pictures(tuple(finished))
     if isinstance(block, Details):
-        return replace(block, blocks=drawn(block.blocks))
+        return replace(block, blocks=rendered(block.blocks))
     if isinstance(block, Beside):
-        return Beside(_drawn(block.narrow), _drawn(block.wide))
+        return Beside(_rendered(block.narrow), _rendered(block.wide))
     return block
 
 

@@ -22,8 +22,8 @@ from .tables import (
     DataTable,
     Table,
     amplitude,
+    cell,
     data_table,
-    known,
     phase_deg,
     records,
     table_of,
@@ -61,7 +61,7 @@ def analysis_of_campaign(mean: xr.Dataset) -> Analysis:
 
     Parameters
     ----------
-    mean : of `mean_of_runs`
+    mean : result of `mean_of_runs`
     """
     levels = [_levels_table(mean)] if "equivalent_level" in mean else []
     orders = _orders_table(mean)
@@ -241,7 +241,7 @@ def _levels(
 
     Parameters
     ----------
-    mean : of `mean_of_runs`
+    mean : result of `mean_of_runs`
     dim : machine or run; empty for the mean
     labels : further columns
     values : column by name of the variable, `{}` for the kind of level
@@ -265,4 +265,4 @@ def _levels(
 
 
 def _without_nan(table: DataTable) -> DataTable:
-    return {head: list(map(known, values)) for head, values in table.items()}
+    return {head: list(map(cell, values)) for head, values in table.items()}

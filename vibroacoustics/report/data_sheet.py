@@ -12,7 +12,7 @@ from .blocks import Bullets, Part, Pictures, Text
 from .figures.sources import sheet_chart
 from .file_names import file_name
 from .sections.tones import excess_words
-from .tables import Table, columns_of, known
+from .tables import Table, cell, columns_of
 
 Row = tuple[str, str, str, str | float, str]
 _HEAD: Final = ("part", "item", "quantity", "value", "unit")
@@ -232,17 +232,17 @@ def _rows(sheet: DataSheet) -> Iterator[Row]:
         for fact in facts:
             yield part, fact.name, "", fact.value, fact.unit
     for name in _OF_ALL:
-        yield "sound power", "A-weighted", name, known(getattr(power, name)), "dB"
+        yield "sound power", "A-weighted", name, cell(getattr(power, name)), "dB"
     yield "sound power", "prior of the unmodelled noise", "", power.prior, ""
     for band in power.bands:
         for name in _OF_BAND:
-            yield "sound power", f"{band.band_hz:g} Hz", name, known(getattr(band, name)), "dB"
+            yield "sound power", f"{band.band_hz:g} Hz", name, cell(getattr(band, name)), "dB"
     for tone in sheet.tones:
         for name, unit in _OF_TONE:
             item = f"{tone.name} at {tone.microphone}"
-            yield "prominent tone", item, name, known(getattr(tone, name)), unit
+            yield "prominent tone", item, name, cell(getattr(tone, name)), unit
     for name in ("audibility_db", "tonal_adjustment_db"):
-        yield "tones", "most audible", name, known(getattr(sheet, name)), "dB"
+        yield "tones", "most audible", name, cell(getattr(sheet, name)), "dB"
     for rated in sheet.windows:
         for name, unit in _OF_WINDOW:
             yield "rating", rated.window, name, getattr(rated, name), unit

@@ -11,7 +11,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from ..base.visible import visible
-from .blocks import Live, Part, Sounds, Text, drawn
+from .blocks import Live, Part, Sounds, Text, rendered
 from .charts.svg import Picture
 from .live.assets import blind_script, live_script, live_style, packed, unpacking_script
 
@@ -30,7 +30,7 @@ def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = ""
         "along": _along,
         "breakable": _breakable,
         "linked": _linked,
-        "drawn": drawn,
+        "rendered": rendered,
         "script_data": _script_data,
     }
     style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")
@@ -64,7 +64,7 @@ def _blind(parts: Sequence[Part]) -> list[bool]:
 
 
 def _policy(style: str, *scripts: str, plays: bool = False) -> str:
-    """What a browser may do with the page: show its style and figures, run its scripts alone.
+    """Policy of a page for browsers: show its style and figures, run its scripts alone.
 
     Sounds are played from the folder of the page.
     """
@@ -78,7 +78,7 @@ def _policy(style: str, *scripts: str, plays: bool = False) -> str:
 
 
 def content_hash(content: str) -> str:
-    """By which the policy of a page knows its style or a script."""
+    """Return the hash by which the policy of a page knows its style or a script."""
     return f"sha256-{base64.b64encode(hashlib.sha256(content.encode()).digest()).decode()}"
 
 

@@ -1,4 +1,4 @@
-"""Columns of strangers: checked, and kept in the results for a report without the plug-in."""
+"""Columns of third parties: checked, and kept in the results for a report without the plug-in."""
 
 import json
 from collections.abc import Mapping
@@ -23,20 +23,21 @@ _DIMENSIONS: Final = ("option", "speed", "receiver")
 
 
 class ColumnsOf(NamedTuple):
-    """Columns of some results, and a line on each that is left out."""
+    """Columns of some results, and a line on each that is omitted."""
 
     columns: tuple[Column, ...]
     left_out: tuple[str, ...]
 
 
 def columns_of(results: xr.Dataset) -> ColumnsOf:
-    """Built-in columns, those of strangers that are loaded, and kept ones of others, in order."""
-    strangers = COLUMNS.origins()
-    built_in = [column for column in COLUMNS.values() if column.name not in strangers]
+    """Built-in columns, those of third parties that are loaded, and kept ones of others, in
+    order."""
+    third_party = COLUMNS.origins()
+    built_in = [column for column in COLUMNS.values() if column.name not in third_party]
     columns = [column for column in built_in if column.applies(results)]
     names = frozenset(column.name for column in columns)
     with collected() as lines:
-        for name in strangers:
+        for name in third_party:
             with COLUMNS.spared(), COLUMNS.fenced(name):
                 columns += _checked(COLUMNS[name], results, names)
     columns += [column for column in kept(results) if column.name not in COLUMNS]
@@ -48,7 +49,9 @@ def columns_of(results: xr.Dataset) -> ColumnsOf:
 def keep_columns(results: xr.Dataset) -> xr.Dataset:
     """The results with head, values and texts of every column that is not built in."""
     every = columns_of(results).columns
-    others = [one for one in every if COLUMNS.origin(one.name) or one.name not in COLUMNS]
+    others = [
+        column for column in every if COLUMNS.origin(column.name) or column.name not in COLUMNS
+    ]
     held = results.drop_vars(["column_value", "column"], errors="ignore")
     if not others:
         return held.assign_attrs({ATTRIBUTE: "[]"}) if COLUMNS.origins() else held

@@ -1,4 +1,4 @@
-"""Sections of strangers: guarded, and kept in the results for a report without the plug-in."""
+"""Sections of third parties: guarded, and kept in the results for a report without the plug-in."""
 
 import json
 from typing import Any, Final
@@ -17,14 +17,15 @@ ATTRIBUTE: Final = "report_sections"
 
 
 def sections_of(results: xr.Dataset) -> list[Section]:
-    """Sections that apply: built-in ones, those of strangers that are loaded, kept ones of others.
+    """Sections that apply: built-in ones, those of third parties that are loaded, kept ones of
+    others.
 
     One that fails, or is missing, says so in one line.
     """
-    strangers = SECTIONS.origins()
-    built_in = [section for section in SECTIONS.values() if section.name not in strangers]
+    third_party = SECTIONS.origins()
+    built_in = [section for section in SECTIONS.values() if section.name not in third_party]
     sections = [section for section in built_in if section.applies(results)]
-    for name in strangers:
+    for name in third_party:
         sections += _guarded(SECTIONS[name], results)
     sections += [section for section in kept(results) if section.name not in SECTIONS]
     for name, line in left_out.missing(results, "section", ATTRIBUTE).items():
@@ -51,7 +52,7 @@ def keep_sections(results: xr.Dataset) -> xr.Dataset:
 
 
 def _guarded(section: Section, results: xr.Dataset) -> list[Section]:
-    """A stranger's section with its blocks, or with a line that says how it failed."""
+    """A third party's section with its blocks, or with a line that says how it failed."""
     blocks: tuple[Block, ...] = ()
     with collected() as lines, SECTIONS.spared(), SECTIONS.fenced(section.name):
         if not section.applies(results):

@@ -1,4 +1,4 @@
-"""What k-Wave computed, and how far the closed form of the image sources is from it, in words."""
+"""Sentences on k-Wave: the room it computed, and the difference from image sources."""
 
 from typing import Final
 
@@ -12,11 +12,11 @@ from ..base.decibel import level_of_amplitude
 _LOUD: Final = 0.1
 """Share of the loudest microphone's pressure above which a difference of levels counts."""
 _STRONG: Final = 1e-3
-"""Of the strongest translation or rotation."""
+"""Share of the strongest translation or rotation."""
 
 
 def kwave_sentence(results: xr.Dataset) -> str:
-    """Where k-Wave computed the room, and the difference of the two methods there."""
+    """Say where k-Wave computed the room, and how both methods differ there."""
     by_kwave = computed_by_kwave(results)
     if not by_kwave.size:
         reasons = sorted({reason for _, reason in receiver_methods(results).values()} - {""})
@@ -26,10 +26,9 @@ def kwave_sentence(results: xr.Dataset) -> str:
     frequency = by_kwave["frequency"].values
     words = (
         f"k-Wave computed the room at {', '.join(map(str, by_kwave['receiver'].values))} from "
-        f"{frequency[0]:g} to {frequency[-1]:g} Hz, the closed form of image sources the rest. "
-        f"k-Wave's Green's function differs from the closed form by at most "
-        f"{rounding.fixed(float(gap.max()), 2)} dB (at {worst['receiver'].item()}, "
-        f"{worst['frequency'].item():g} Hz)"
+        f"{frequency[0]:g} to {frequency[-1]:g} Hz; other Green's functions are closed form. "
+        f"Both differ by at most {rounding.fixed(float(gap.max()), 2)} dB (at "
+        f"{worst['receiver'].item()}, {worst['frequency'].item():g} Hz)"
     )
     differences = method_difference_db(results)
     if differences is None:
@@ -37,8 +36,8 @@ def kwave_sentence(results: xr.Dataset) -> str:
     largest = float(np.abs(differences).max())
     words += f", the pressure per velocity by at most {rounding.fixed(largest, 3)} dB"
     if frequency[-1] < results["frequency"].values[-1]:
-        seam = float(np.abs(differences[:, :, -1]).max())
-        words += f", {rounding.fixed(seam, 3)} dB at the seam of {frequency[-1]:g} Hz"
+        crossover_db = float(np.abs(differences[:, :, -1]).max())
+        words += f", {rounding.fixed(crossover_db, 3)} dB at the limit of {frequency[-1]:g} Hz"
     return f"{words}."
 
 

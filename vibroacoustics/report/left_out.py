@@ -1,4 +1,4 @@
-"""What a report says of the things of plug-ins that it cannot show."""
+"""Lines of a report on things of plug-ins that it cannot show."""
 
 import json
 from collections.abc import Sequence
@@ -28,7 +28,7 @@ def missing(results: xr.Dataset, noun: str, attribute: str) -> dict[str, str]:
         return {}
     plugins = json.loads(results.attrs.get("plugins") or "{}")
     return {
-        name: f"{noun} {name} is left out: {origin['file']} is not loaded, and the results do "
+        name: f"{noun} {name} is missing: {origin['file']} is not loaded, and the results do "
         "not hold it"
         for key, origin in plugins.items()
         if (name := key.removeprefix(f"{noun} ")) != key

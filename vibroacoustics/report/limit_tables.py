@@ -13,7 +13,7 @@ from ..results.bands import percent
 from ..results.figure_limits import CheckedFigure
 from ..results.order_limits import NOT_CHECKED
 from .blocks import Block, Bullets, Text
-from .tables import DataTable, Record, Table, amplitude, columns_of, data_table, known, records
+from .tables import DataTable, Record, Table, amplitude, cell, columns_of, data_table, records
 
 _OF_RESULT: Final = ("channel", "speed_rpm", "value", "margin_db")
 _OF_ONE: Final = {"": ("channel", "speed", "channel_order_rms", "limit_margin")}
@@ -21,7 +21,7 @@ _OF_TWO: Final = {
     "A": ("channel", "speed", "channel_order_rms", "limit_margin"),
     "B": ("compared_channel", "compared_speed", "compared_order_rms", "compared_limit_margin"),
 }
-"""By the result: names of its channel, speed, RMS and margin, the columns that it has alone."""
+"""Names of the channel, speed, RMS and margin by result, and the columns that it has alone."""
 _FIELDS: Final = (
     "result", "figure", "speed_rpm", "value", "limit", "unit", "side", "margin", "probability",
 )  # fmt: skip
@@ -42,7 +42,7 @@ class _Checked(NamedTuple):
 
     @property
     def subject(self) -> str:
-        """What it is, in a sentence."""
+        """Subject in a sentence."""
         of = f" in {self.result}" if self.result else ""
         return f"order {self.order:g} of {self.channel} at {self.speed_rpm:.0f} rpm{of}"
 
@@ -54,7 +54,7 @@ def limits_data(checked: xr.Dataset) -> DataTable:
 
 
 def limits_words(checked: xr.Dataset) -> list[str]:
-    """How many orders exceed their limit, and what was not checked."""
+    """Say how many orders exceed their limit, and what was not checked."""
     left_out = checked.attrs.get(NOT_CHECKED)
     not_checked = [f"not checked, no such order or speed: {left_out}"] if left_out else []
     return [_verdict(_worst(checked)), *not_checked]
@@ -91,7 +91,7 @@ def _cells(row: _Checked) -> tuple[str, ...]:
 
 
 def _verdict(worst: list[_Checked]) -> str:
-    """How many exceed, and which one most."""
+    """Say how many exceed, and which one most."""
     if not worst:
         return "No order with a limit is known."
     least = min(worst, key=lambda row: row.margin_db)
@@ -118,7 +118,7 @@ def _worst(checked: xr.Dataset) -> list[_Checked]:
 
 
 def _rows(checked: xr.Dataset) -> Iterator[_Checked]:
-    """Of each channel, speed and order with a limit, a row of each result that has a value."""
+    """Rows of each channel, speed and order with a limit, one for each result that has a value."""
     names = _OF_TWO if "compared_limit_margin" in checked else _OF_ONE
     shared = {"unit": "channel_unit", "order": "order", "limit": "order_limit"}
     tables = []
@@ -147,13 +147,13 @@ def _shown(value: float, unit: str) -> str:
 
 
 def broken_lines(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> list[str]:
-    """What is broken, a line each; none where all limits hold."""
+    """Name what is broken, a line each; none where all limits hold."""
     orders = broken_orders(checked) if "order_limit" in checked else []
     return [*orders, *(_broken(row) for row in figures if not row.is_within)]
 
 
 def limit_blocks(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> list[Block]:
-    """What is broken, and every limit with its margin; nothing without limits."""
+    """Return what is broken, and every limit with its margin; nothing without limits."""
     if not figures and "order_limit" not in checked:
         return []
     broken = broken_lines(checked, figures)
@@ -166,7 +166,7 @@ def limit_blocks(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> list[
 
 
 def limits_sentence(checked: xr.Dataset, figures: Sequence[CheckedFigure]) -> str:
-    """How many limits are broken."""
+    """Say how many limits are broken."""
     count = len(broken_lines(checked, figures))
     if not count:
         return "Every limit holds."
@@ -197,7 +197,7 @@ def figure_limits_table(figures: Sequence[CheckedFigure]) -> Table:
 def figure_limits_data(figures: Sequence[CheckedFigure]) -> DataTable:
     """Every figure that has a limit; the speed is empty where a figure is of all speeds."""
     rows = [
-        [*(known(getattr(row, name)) for name in _FIELDS), "yes" if row.is_within else "no"]
+        [*(cell(getattr(row, name)) for name in _FIELDS), "yes" if row.is_within else "no"]
         for row in figures
     ]
     return columns_of((*_FIELDS, "within"), rows)
@@ -208,18 +208,18 @@ def _speed(row: CheckedFigure) -> str:
 
 
 def _broken(row: CheckedFigure) -> str:
-    at = "" if np.isnan(row.speed_rpm) else f" at {row.speed_rpm:.0f} rpm"
+    at_speed = "" if np.isnan(row.speed_rpm) else f" at {row.speed_rpm:.0f} rpm"
     beyond = "above" if row.side == "highest" else "below"
     value, limit = _numbers(row)
     return (
-        f"{row.figure}{at} in {row.result}: {value} {row.unit} is {beyond} {limit} {row.unit} "
-        f"({row.origin})"
+        f"{row.figure}{at_speed} in {row.result}: {value} {row.unit} is {beyond} "
+        f"{limit} {row.unit} ({row.origin})"
     )
 
 
 def _numbers(row: CheckedFigure) -> tuple[str, str]:
     """Value and limit: levels to 0.1 dB, to more digits where they would read the same."""
-    level, limit = (rounding.fixed(one) for one in (row.value, row.limit))
+    level, limit = (rounding.fixed(figure) for figure in (row.value, row.limit))
     if _is_level(row) and level != limit:
         return level, limit
     return rounding.significant(row.value, 4), rounding.significant(row.limit, 4)

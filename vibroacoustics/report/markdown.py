@@ -17,8 +17,8 @@ from .blocks import (
     Pictures,
     Sounds,
     Text,
-    drawn,
     pictures,
+    rendered,
 )
 from .charts.svg import picture_file
 from .tables import Table, escape_markdown, to_markdown
@@ -29,7 +29,7 @@ def markdown(title: str, about: str, parts: Sequence[Part], folder: str = "") ->
     texts = [f"# {escape_markdown(title)}", escape_markdown(about)]
     for part in parts:
         texts.append(f"## {escape_markdown(part.title)}")
-        texts += [_block(block, folder) for block in drawn(part.blocks)]
+        texts += [_block(block, folder) for block in rendered(part.blocks)]
     return ("\n\n".join(filter(None, texts)) + "\n").encode()
 
 
@@ -64,7 +64,7 @@ def _block(block: Block, folder: str) -> str:
         case Beside():
             text = f"{_block(block.narrow, folder)}\n\n{_block(block.wide, folder)}"
         case Details():
-            blocks = (_block(one, folder) for one in block.blocks)
+            blocks = (_block(inner, folder) for inner in block.blocks)
             text = "\n\n".join([f"### {escape_markdown(block.summary)}", *blocks])
         case _:
             raise TypeError(f"{block!r}: is no block")

@@ -13,7 +13,7 @@ from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Pictures
 from .figures.sources import power_chart
-from .tables import Cell, DataTable, Table, known
+from .tables import Cell, DataTable, Table, cell
 
 GRADES: Final = {
     2: "grade 2 (ISO 3744, engineering)",
@@ -28,7 +28,7 @@ _COLUMNS: Final = {
     "measured_power_level": "sound_power_level_db",
 }
 _NONE: Final = np.array(np.nan)
-"""Of the mean level of the positions there is no A-weighted sum."""
+"""Sum of the mean level of the positions, which has no A-weighted one."""
 
 
 def analysis_of_sound_power(measured: xr.Dataset) -> Analysis:
@@ -56,7 +56,7 @@ def _bands(measured: xr.Dataset) -> DataTable:
                for name, head in _COLUMNS.items()}  # fmt: skip
     return {
         "band_hz": [*measured["band"].values.tolist(), "A"],
-        **{head: [*map(known, values)] for head, values in columns.items()},
+        **{head: [*map(cell, values)] for head, values in columns.items()},
         "is_upper_bound": [*map(_bound, margins)],
     }
 
@@ -94,11 +94,11 @@ def _table(measured: xr.Dataset) -> Table:
 def _remarks(measured: xr.Dataset) -> list[str]:
     attrs, count = measured.attrs, measured.sizes["channel"]
     wanted = [int(number) for number in np.atleast_1d(attrs["positions_of_the_standard"])]
-    asked = " or ".join(map(str, wanted))
+    required = " or ".join(map(str, wanted))
     spread = rounding.fixed(float(attrs["spread_dba"]))
     remarks = [
         f"{count} microphones on a {attrs['surface']}, {attrs['surface_m2']:.3g} m²"
-        + ("." if count in wanted else f"; ISO 3744 asks for {asked}."),
+        + ("." if count in wanted else f"; ISO 3744 asks for {required}."),
         f"A-weighted levels of the positions span {spread} dB"
         + (f", more than their number, {count}: use more." if attrs["spread_dba"] > count else "."),
         _background(measured),

@@ -24,18 +24,18 @@ def analysis_of_blocked_forces(
 
     Parameters
     ----------
-    blocked : of `blocked_forces`
+    blocked : result of `blocked_forces`
     further : content of further files by name
     """
     tables = (_validation(blocked), _bands(blocked), _truncation(blocked))
     notes = Bullets(tuple(_notes(blocked)))
-    drawn = Pictures(tuple(blocked_charts(blocked)))
+    charts = Pictures(tuple(blocked_charts(blocked)))
     return Analysis(
         "blocked_forces",
         **origin(blocked, "Measurement"),
         about="Blocked forces (ISO 20270).",
         parts=(
-            Part("validation", "On-board validation", (*tables[:2], drawn)),
+            Part("validation", "On-board validation", (*tables[:2], charts)),
             Part("method", "Truncation and precision", (tables[2], notes)),
         ),
         shown=(*tables, notes),
@@ -77,13 +77,16 @@ def _validation(blocked: xr.Dataset) -> Table:
     bands = blocked["validation_band_difference"]
     rows = []
     for name in map(str, blocked["validation_point"].values):
-        at, of_bands = blocked.sel(validation_point=name), bands.sel(validation_point=name)
-        lines, known = np.abs(at["validation_difference"].values), of_bands.dropna("band")
-        worst = known[int(np.argmax(np.abs(known.values)))]
-        sizes = (np.median(lines), np.quantile(lines, 0.9), np.abs(known).mean())
+        at_point, of_bands = blocked.sel(validation_point=name), bands.sel(validation_point=name)
+        lines, differences = (
+            np.abs(at_point["validation_difference"].values),
+            of_bands.dropna("band"),
+        )
+        worst = differences[int(np.argmax(np.abs(differences.values)))]
+        sizes = (np.median(lines), np.quantile(lines, 0.9), np.abs(differences).mean())
         cells = (rounding.fixed(float(size), 2) for size in sizes)
         largest = f"{rounding.signed(worst.item(), 2)} at {worst['band'].item():g} Hz"
-        rows.append((name, str(at["validation_quantity"].item()), *cells, largest))
+        rows.append((name, str(at_point["validation_quantity"].item()), *cells, largest))
     head = ("Validation", "", "lines: median", "90 % of lines", "third octaves: mean", "largest")
     caption = "Predicted against measured where no force is inverted from, dB"
     return Table(caption, head, tuple(rows), frozenset({0, 1}))
@@ -122,10 +125,12 @@ def _notes(blocked: xr.Dataset) -> list[str]:
         _counted(frequency),
         f"Condition number: median {np.median(condition):.3g}, largest {condition.max():.3g} at "
         f"{frequency[int(np.argmax(condition))]:g} Hz.",
-        f"Bands are of {blocked.attrs['draws']} draws of the random errors of the measurements.",
+        f"Bands are from {blocked.attrs['draws']} samples of the random measurement errors.",
     ]
     if np.all(np.isnan(blocked["left_out_error"].values)):
-        notes.append("As many responses as forces: no truncation could be chosen; measure more.")
+        notes.append(
+            "No truncation could be chosen: responses are as few as forces. Measure more responses."
+        )
     return notes
 
 
@@ -178,10 +183,12 @@ def _totals(predicted: xr.Dataset) -> Table:
     for option in _changes(predicted):
         for receiver in map(str, predicted["receiver"].values):
             for weighting, unit in (("Z", "dB"), ("A", "dB(A)")):
-                at = {"receiver": receiver, "weighting": weighting}
-                before, _ = cells("predicted_total_level", unit, option=REFERENCE_OPTION, **at)
-                after = cells("predicted_total_level", unit, option=option, **at)
-                change = cells("predicted_total_change", "dB", option=option, **at)
+                coordinates = {"receiver": receiver, "weighting": weighting}
+                before, _ = cells(
+                    "predicted_total_level", unit, option=REFERENCE_OPTION, **coordinates
+                )
+                after = cells("predicted_total_level", unit, option=option, **coordinates)
+                change = cells("predicted_total_change", "dB", option=option, **coordinates)
                 rows.append((option, receiver, unit, before, *after, *change))
     head = ("Change", "Microphone", "", "measured", "predicted", "90 % band", "change", "90 % band")
     caption = "All lines together: level as measured and as predicted"
@@ -200,7 +207,7 @@ def _number(
 
 
 def _truncations(predicted: xr.Dataset) -> Table:
-    """Which truncation was taken, beside the error that each one is expected to make."""
+    """Truncation that was used, beside the error that each one is expected to make."""
     taken, errors = predicted["truncation"], predicted["truncation_error"]
     rows = [
         (option, *_truncated(taken.sel(option=option), errors.sel(option=option)))
@@ -233,7 +240,7 @@ def _predicted_notes(predicted: xr.Dataset) -> list[str]:
     return [
         _counted(predicted["frequency"].values),
         f"Half the width of a line's 90 % band: median {half} dB.",
-        f"Bands are of {predicted.attrs['draws']} draws of the random errors of the measurements; "
+        f"Bands are from {predicted.attrs['draws']} samples of the random measurement errors; "
         "what is not linear, sources that react and errors that all measurements share are not in "
         "them.",
     ]

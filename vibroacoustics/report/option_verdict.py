@@ -1,4 +1,4 @@
-"""What each option does, in sentences that are made from its numbers."""
+"""Verdict on each option, in sentences that are made from its numbers."""
 
 from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
@@ -66,14 +66,18 @@ def judge(worse: bool, better: bool) -> str:
 
 
 def _reason(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift], judgement: str) -> str:
-    """What makes the option better or worse, with its size."""
+    """Reason for which the option is better or worse, with its size."""
     if judgement == NO_CHANGE:
         least = shifts[0].least
         return f"levels < {least.level_db:g} dB, forces < {100.0 * least.force_ratio:g} %"
     louder = {} if shifts[-1].worsens else elsewhere
-    worse = [one.short() for one in shifts if one.worsens]
-    worse += [f"{one.short()} at {at}" for at, one in louder.items() if one.worsens]
-    better = [one.short() for one in shifts if one.improves]
+    worse = [shift.short() for shift in shifts if shift.worsens]
+    worse += [
+        f"{shift.short()} at {speed_words}"
+        for speed_words, shift in louder.items()
+        if shift.worsens
+    ]
+    better = [shift.short() for shift in shifts if shift.improves]
     parts = {BETTER: better, WORSE: worse}
     if judgement != MIXED:
         return ", ".join(parts[judgement])
@@ -81,7 +85,8 @@ def _reason(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift], judgement: 
 
 
 def _worse_in(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift]) -> tuple[str, ...]:
-    """What the option makes worse; the line elsewhere if it is not worse here already."""
+    """Quantities that the option makes worse; the line elsewhere if it is not worse here
+    already."""
     worse = [quantity_shift.quantity.words for quantity_shift in shifts if quantity_shift.worsens]
     louder = [name for name, line_shift in elsewhere.items() if line_shift.worsens]
     if louder and LINE.words not in worse:

@@ -16,7 +16,7 @@ class Quantity:
 
     Attributes
     ----------
-    column : of the comparison
+    column : column of the comparison
     words : in a sentence
     unit : symbol
     judged : its name among the quantities by which options are judged

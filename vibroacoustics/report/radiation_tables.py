@@ -105,7 +105,7 @@ def analysis_of_impulse_responses(
 
     Parameters
     ----------
-    responses : of `impulse_responses`
+    responses : result of `impulse_responses`
     full_scale : value at full scale
     sounds : name of the file by microphone and motion
     """

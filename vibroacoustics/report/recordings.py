@@ -46,8 +46,8 @@ _MOST_SPEEDS: Final = 6
 _MOST_FAULTS: Final = 5
 """Faults of the tacho that are listed; all are counted."""
 _LEAST_COHERENCE: Final = 0.8
-"""Of an order whose phase is told; noise in five independent blocks reaches it once in 600 times,
-0.2^(5 - 1)."""
+"""Coherence of an order whose phase is shown; noise in five independent blocks reaches it once in
+600, 0.2^(5 - 1)."""
 _LEVELS: Final = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
 _DIMENSIONS: Final = ("channel", "speed", "order")
 _COLUMNS: Final[Columns] = (
@@ -70,9 +70,9 @@ def analysis_of_orders(
 
     Parameters
     ----------
-    results : of `analyse_orders`
+    results : result of `analyse_orders`
     listen : channel of the interactive map of a run-up; default: the first of sound pressure
-    sound : of that channel; None for none
+    sound : sound of that channel; None for none
 
     Raises
     ------
@@ -170,7 +170,7 @@ def _avoid(mapped: xr.Dataset) -> list[Block]:
     blocks: list[Block] = []
     is_pressure = mapped["channel_unit"].values == "Pa"
     for channel in map(str, mapped["channel"].values[is_pressure]):
-        weighted = {one.label: one for one in recorded_curves(mapped, channel)}["A-weighted"]
+        weighted = {curve.label: curve for curve in recorded_curves(mapped, channel)}["A-weighted"]
         if not np.all(np.isfinite(weighted.level_db)):
             continue
         ranges = recorded_speeds_to_avoid(weighted.speed_rpm, weighted.level_db)
@@ -180,7 +180,7 @@ def _avoid(mapped: xr.Dataset) -> list[Block]:
 
 
 def orders_facts(results: xr.Dataset) -> list[str]:
-    """Where the speed comes from, and how finely orders are resolved."""
+    """Say where the speed comes from, and how finely orders are resolved."""
     attrs = results.attrs
     facts = [
         f"speed: {attrs['speed_source']}",
@@ -206,7 +206,7 @@ def orders_tables(results: xr.Dataset) -> list[Table]:
 def levels_data(results: xr.Dataset) -> DataTable:
     """Leq, LFmax, LSmax and third-octave levels of every channel of sound pressure.
 
-    Column `left_out_s`: what is left out at either end of the recording; `bands`: "sums" of the
+    Column `left_out_s`: what is omitted at either end of the recording; `bands`: "sums" of the
     lines within a third octave, or "filters" of IEC 61260-1.
     """
     names = ("leq_db", "lfmax_db", "lsmax_db", "left_out_s", "bands")
@@ -224,7 +224,7 @@ def levels_data(results: xr.Dataset) -> DataTable:
 
 
 def _left_out_s(results: xr.Dataset, weighting: str) -> float:
-    """What a level leaves out at either end: the run-in of the weighting's filter."""
+    """Time that a level omits at either end: the run-in of the weighting's filter."""
     return 0.0 if weighting == "Z" else float(results.attrs.get("levels_left_out_s", 0.0))
 
 
@@ -256,8 +256,8 @@ def _orders(results: xr.Dataset) -> dict[str, xr.DataArray]:
 def _orders_table(results: xr.Dataset) -> Table:
     shown = shown_speeds(results)
     columns = _orders(results)
-    known = columns["phase_deg"].where(columns["coherence"] >= _LEAST_COHERENCE)
-    every = records(data_table(_DIMENSIONS, {**columns, "known_phase_deg": known}))
+    coherent_phase = columns["phase_deg"].where(columns["coherence"] >= _LEAST_COHERENCE)
+    every = records(data_table(_DIMENSIONS, {**columns, "known_phase_deg": coherent_phase}))
     caption = (
         "Orders: peak and phase of the coherent mean over the blocks at a speed; RMS in a band of "
         f"{results.attrs['band_order']:.3g} orders"
@@ -284,12 +284,14 @@ def _level_rows(results: xr.Dataset) -> Iterator[tuple[str, str]]:
 def _levels_table(results: xr.Dataset) -> Table:
     rows: list[tuple[Cell, ...]] = []
     for channel, weighting in _level_rows(results):
-        at = {"channel": channel, "weighting": weighting}
-        rows.append((channel, weighting, *(number(results, each, fixed, **at) for each in _LEVELS)))
+        coordinates = {"channel": channel, "weighting": weighting}
+        rows.append(
+            (channel, weighting, *(number(results, each, fixed, **coordinates) for each in _LEVELS))
+        )
     head = ("Channel", "weighting", "Leq, dB", "LFmax, dB", "LSmax, dB")
     method = "IEC 61260-1 filters" if results.attrs.get("band_method") == "filters" else "band sums"
     caption = (
-        "Sound pressure levels, dB re 20 µPa; A and C leave out the first and last "
+        "Sound pressure levels, dB re 20 µPa; A and C omit the first and last "
         f"{_left_out_s(results, 'A'):.3g} s, the filters' run-in; third octaves in levels.csv by "
         f"{method}"
     )
@@ -307,10 +309,10 @@ _TRACKED_COLUMNS: Final[Columns] = (
 
 
 def tracked_table(tracked: xr.Dataset) -> Table:
-    """Where each order of a channel is largest."""
+    """Return where each order of a channel is largest."""
     size = abs(tracked["tracked_order"])
-    at = size.isel(track_time=size.argmax("track_time"))
-    rows = records(data_table(("channel", "order"), _tracked(tracked, at)))
+    loudest = size.isel(track_time=size.argmax("track_time"))
+    rows = records(data_table(("channel", "order"), _tracked(tracked, loudest)))
     caption = "Tracked orders: where each is largest"
     return table_of(caption, rows, _TRACKED_COLUMNS, frozenset({0, 1}))
 
@@ -334,7 +336,7 @@ def _tracked(tracked: xr.Dataset, size: xr.DataArray) -> dict[str, xr.DataArray]
 
 
 def tracked_facts(tracked: xr.Dataset) -> list[str]:
-    """Where the speed comes from, and what passes around each order."""
+    """Say where the speed comes from, and what passes around each order."""
     attrs = tracked.attrs
     return [
         f"speed: {attrs['speed_source']}",

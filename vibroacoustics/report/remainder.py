@@ -1,4 +1,4 @@
-"""What the report says of the remainder: how it goes with speed."""
+"""Sentences of the report on unmodelled noise: its growth with speed."""
 
 from collections.abc import Callable
 from typing import Final
@@ -13,38 +13,37 @@ from ..results.stored_study import at_catalogue, overall_noise, parameters, quot
 
 _GROWTH = "remainder.speed_growth_db"
 NO_LEVEL: Final = (
-    "The machine's file gives no published level: there is no remainder, and levels and their "
-    "changes are those of what the model holds. The machine itself is louder, and less of it "
-    "changes."
+    "The machine's file gives no published level: there is no unmodelled noise. Levels and their "
+    "changes are those of the modelled sources. The machine itself is louder and changes less."
 )
 
 
-def remainder_band(results: xr.Dataset, speed: float) -> Band:
+def unmodelled_level(results: xr.Dataset, speed: float) -> Band:
     """Level of unmodelled noise at a speed without an option, with its interval."""
     return band(results, "residual_level", **at_catalogue(results, speed=speed))
 
 
 def measured_rpm(results: xr.Dataset) -> float | None:
-    """The first speed at which a baseline stands for the remainder at the catalogue's microphone.
+    """First speed at which a baseline replaces unmodelled noise at the published microphone.
 
     None where there is none.
     """
     if "baseline_band_level" not in results:
         return None
-    there = results["baseline_band_level"].sel(at_catalogue(results))
-    measured = results["speed"].values[there.notnull().any("baseline_band").values]
+    measured_level = results["baseline_band_level"].sel(at_catalogue(results))
+    measured = results["speed"].values[measured_level.notnull().any("baseline_band").values]
     return float(measured[0]) if measured.size else None
 
 
 def total_sentence(results: xr.Dataset) -> str:
-    """What the total holds beside what is modelled."""
+    """Say what the total holds beside the modelled sources."""
     if overall_noise(results) is None:
         return "No level of the machine is published: the total is that of what is modelled."
     return "The total holds the part that is not modelled (see assumptions)."
 
 
 def growth_sentence(results: xr.Dataset) -> str:
-    """How the remainder is assumed to go with speed, or that there is none.
+    """Say how unmodelled noise is assumed to grow with speed, or that there is none.
 
     Also where a baseline stands for it.
     """
@@ -62,16 +61,16 @@ def _growth_sentence(results: xr.Dataset) -> str:
         return NO_LEVEL
     growth = parameters(results)["machine"].get("remainder", {}).get("speed_growth_db")
     if growth is None:  # files of older versions
-        return "That it stays constant over speed is an assumption, not a result."
+        return "It is assumed to be constant over speed."
     ends = _range(results) or (growth, growth)
     return (
-        f"That it grows by {_span(growth, ends, rounding.fixed)} dB for ten times the "
-        f"speed{_at_speeds(results, growth, ends)} is an assumption, not a result."
+        f"Assumed growth: {_span(growth, ends, rounding.fixed)} dB for ten times the "
+        f"speed{_at_speeds(results, growth, ends)}."
     )
 
 
 def _at_speeds(results: xr.Dataset, growth: float, ends: tuple[float, float]) -> str:
-    """`, which is +2.4 dB (2.0 to 2.8) at 3500 rpm`, of the speed that is furthest off."""
+    """Words such as `, +2.4 dB (2.0 to 2.8) at 3500 rpm`, for the speed that is furthest off."""
     published = quoted_speed(results)
     turning = [speed for speed in speeds(results) if speed > 0.0]
     furthest = max(turning, key=lambda s: abs(level_of_power(s / published)), default=published)
@@ -80,11 +79,11 @@ def _at_speeds(results: xr.Dataset, growth: float, ends: tuple[float, float]) ->
         return ""
     at_ends = sorted(end * decades for end in ends)
     change = _span(growth * decades, (at_ends[0], at_ends[1]), rounding.signed)
-    return f", which is {change} dB at {furthest:g} rpm,"
+    return f", {change} dB at {furthest:g} rpm"
 
 
 def _range(results: xr.Dataset) -> tuple[float, float] | None:
-    """Of the growth, as the machine's file gives it."""
+    """Range of the growth in the machine's file."""
     for record in parameters(results)["records"]:
         if record["field"].endswith(_GROWTH) and record["lowest"] is not None:
             return record["lowest"], record["highest"]

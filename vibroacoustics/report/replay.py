@@ -11,7 +11,7 @@ from ..base import rounding
 from ..results.number import Number
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Sound, Sounds, Text
-from .tables import DataTable, Table, columns_of, data_table, known
+from .tables import DataTable, Table, cell, columns_of, data_table
 
 _SUMMARY_WEIGHTING: Final = "A"
 _UNWEIGHTED: Final = "Z"
@@ -40,7 +40,7 @@ def analysis_of_replay(summary: xr.Dataset, sounds: Mapping[str, Mapping[str, st
 
     Parameters
     ----------
-    summary : of `replay`
+    summary : result of `replay`
     sounds : files beside the page, by channel and by `before` and `after`
     """
     totals, lines = _totals(summary), _lines(summary)
@@ -234,4 +234,4 @@ def _unchanged_data(summary: xr.Dataset) -> DataTable:
 
 def _without_gaps(table: DataTable) -> DataTable:
     """Empty cells where there is no value."""
-    return {name: [known(value) for value in values] for name, values in table.items()}
+    return {name: [cell(value) for value in values] for name, values in table.items()}

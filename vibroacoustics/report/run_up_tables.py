@@ -12,7 +12,7 @@ from ..results.over_speed.loudest_orders import LoudestOrders, a_weighted_power,
 from .tables import Cell, Table
 
 _MOST_ROWS: Final = 60
-"""With many channels each shows fewer orders."""
+"""Most rows of all channels: with many, each shows fewer orders."""
 
 
 def every_loudest(results: xr.Dataset) -> list[LoudestOrders]:
@@ -20,7 +20,7 @@ def every_loudest(results: xr.Dataset) -> list[LoudestOrders]:
 
     Parameters
     ----------
-    results : of `analyse_orders`
+    results : result of `analyse_orders`
     """
     if "order_map" not in results or results.sizes["speed"] < 2:
         return []

@@ -35,7 +35,7 @@ def analysis_of_machines(results: xr.Dataset, sounds: Mapping[str, str]) -> Anal
 
     Parameters
     ----------
-    results : of all machines together, the root of the tree of `run_machines`
+    results : results of all machines together, the root of the tree of `run_machines`
     sounds : files beside the page by common receiver
     """
     levels = _levels(results)

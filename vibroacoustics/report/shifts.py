@@ -1,4 +1,4 @@
-"""How an option shifts one quantity against the reference, as numbers and in words."""
+"""Shifts of one quantity by an option against the reference, as numbers and in words."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ class Shift:
     quantity : which
     before, after : values, shape (speed,)
     gain_db : change at every speed, shape (speed,), dB
-    bands : of the change at every speed: dB of levels, % of forces
+    bands : intervals of the change at every speed: dB of levels, % of forces
     grown, fallen : probability of a change by what could be measured, at the speed where it is
         largest
     least : smallest changes that could be measured
@@ -86,12 +86,12 @@ def shift(
     results: xr.Dataset, quantity: Quantity, option: str, receiver: str | None = None
 ) -> Shift:
     """Return the shift of a quantity by an option, at the published microphone if none is named."""
-    at = receiver or catalogue_receiver(results)
-    values = at_receiver(column(results, quantity.column), at)
-    bands, gain_db = _changes(results, quantity, option, at)
+    receiver_name = receiver or catalogue_receiver(results)
+    values = at_receiver(column(results, quantity.column), receiver_name)
+    bands, gain_db = _changes(results, quantity, option, receiver_name)
     chance = {
         name: results[f"{name}_probability"]
-        .sel(judged_quantity=quantity.judged, option=option, receiver=at)
+        .sel(judged_quantity=quantity.judged, option=option, receiver=receiver_name)
         .max()
         .item()
         for name in ("increase", "decrease")
@@ -112,19 +112,23 @@ def _changes(
     results: xr.Dataset, quantity: Quantity, option: str, receiver: str
 ) -> tuple[tuple[Band, ...], Array]:
     """Bands of the change at every speed, and the change in dB."""
-    at = {"option": option, "receiver": receiver}
-    changes = [estimate(results, quantity.change, speed=one, **at) for one in speeds(results)]
+    coordinates = {"option": option, "receiver": receiver}
+    changes = [
+        estimate(results, quantity.change, speed=speed, **coordinates) for speed in speeds(results)
+    ]
     gain_db = np.array([change.value for change in changes])
     if quantity.is_level:
-        each = (band(results, quantity.change, speed=one, **at) for one in speeds(results))
+        each = (
+            band(results, quantity.change, speed=speed, **coordinates) for speed in speeds(results)
+        )
         return tuple(each), gain_db
     ratios = [
-        Estimate(*(100.0 * (amplitude_of_level(end) - 1.0) for end in one)) for one in changes
+        Estimate(*(100.0 * (amplitude_of_level(end) - 1.0) for end in change)) for change in changes
     ]
     if not is_sampled(results, quantity.change):
-        return tuple(Band(*one) for one in ratios), gain_db
+        return tuple(Band(*ratio) for ratio in ratios), gain_db
     effective = effective_samples(results)
-    return tuple(written(one, effective, 100.0 * FINEST_RATIO) for one in ratios), gain_db
+    return tuple(written(ratio, effective, 100.0 * FINEST_RATIO) for ratio in ratios), gain_db
 
 
 def extent(shifts: Sequence[Shift]) -> Band:

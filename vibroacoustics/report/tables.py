@@ -43,7 +43,7 @@ def to_csv(table: DataTable) -> bytes:
     return csv_bytes(list(table), rows, lambda number: f"{number:.9g}")
 
 
-def known(value: str | float | None) -> str | float:
+def cell(value: str | float | None) -> str | float:
     """Return a cell of a CSV: empty where there is no value, or where it is not a number."""
     return "" if value is None or (isinstance(value, float) and np.isnan(value)) else value
 
@@ -92,8 +92,8 @@ def long_table(results: xr.Dataset, names: Iterable[str], **labels: Any) -> Data
     rows: list[list[str | float]] = []
     for array in arrays:
         unit = str(array.attrs.get("units", ""))
-        for at in np.argwhere(np.isfinite(array.values)):
-            point = array[tuple(at)]
+        for index in np.argwhere(np.isfinite(array.values)):
+            point = array[tuple(index)]
             cells = [point[dim].item() if dim in array.dims else "" for dim in dims]
             rows.append([str(array.name), unit, *cells, point.item()])
     return columns_of(("quantity", "unit", *dims, "value"), rows)

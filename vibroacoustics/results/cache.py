@@ -53,24 +53,26 @@ def opened() -> Iterator[Folder]:
     with ExitStack() as stack:
         with naming(path):
             make_folder(path, 0o700)
-            at = stack.enter_context(opened_folder(path))
-            _make_private(at)
-        yield at
+            cache_folder = stack.enter_context(opened_folder(path))
+            _make_private(cache_folder)
+        yield cache_folder
 
 
-def _make_private(at: Folder) -> None:
+def _make_private(cache_folder: Folder) -> None:
     """Refuse a folder that others may have written to; take the rights of its group away."""
-    status = os.fstat(at.descriptor)
+    status = os.fstat(cache_folder.descriptor)
     if status.st_uid != os.geteuid():
-        raise StorageError(f"{at.path}: belongs to another user: set XDG_CACHE_HOME, or remove it")
+        raise StorageError(
+            f"{cache_folder.path}: belongs to another user: set XDG_CACHE_HOME, or remove it"
+        )
     if status.st_mode & stat.S_IWOTH:
-        raise StorageError(f"{at.path}: is writable by all users: remove it")
+        raise StorageError(f"{cache_folder.path}: is writable by all users: remove it")
     if status.st_mode & stat.S_IWGRP:
-        os.fchmod(at.descriptor, 0o700)
+        os.fchmod(cache_folder.descriptor, 0o700)
 
 
 def contents() -> tuple[list[Entry], int]:
-    """What is cached, and how large the cache may get, bytes; the folder is not made.
+    """Return the entries of the cache, and its size limit, bytes; the folder is not made.
 
     Raises
     ------
@@ -79,8 +81,8 @@ def contents() -> tuple[list[Entry], int]:
     """
     if not os.path.exists(folder()):
         return [], DEFAULT_LIMIT_BYTES
-    with opened() as at:
-        return entries(at), limit_bytes(at)
+    with opened() as cache_folder:
+        return entries(cache_folder), limit_bytes(cache_folder)
 
 
 def lock_of(name: str) -> str:
@@ -93,21 +95,21 @@ def staging_of(name: str) -> str:
     return f".{name}.writing"
 
 
-def mark_used(at: Folder, name: str) -> None:
+def mark_used(cache_folder: Folder, name: str) -> None:
     """Note that an entry is used now, where that can be noted and changes no other file."""
-    status = at.status(name)
+    status = cache_folder.status(name)
     if status is not None and status.st_nlink == 1:
         with suppress(OSError):
-            os.utime(name, dir_fd=at.descriptor, follow_symlinks=False)
+            os.utime(name, dir_fd=cache_folder.descriptor, follow_symlinks=False)
 
 
-def entries(at: Folder) -> list[Entry]:
-    """What is cached, the least recently used first."""
+def entries(cache_folder: Folder) -> list[Entry]:
+    """Return the entries of the cache, the least recently used first."""
     listed = []
-    for name in os.listdir(at.descriptor):
-        status = at.status(name)  # none where another process takes it away
+    for name in os.listdir(cache_folder.descriptor):
+        status = cache_folder.status(name)  # none where another process takes it away
         if name.endswith(".nc") and status is not None and stat.S_ISREG(status.st_mode):
-            listed.append(Entry(name, status.st_size, status.st_mtime, _study(at, name)))
+            listed.append(Entry(name, status.st_size, status.st_mtime, _study(cache_folder, name)))
     return sorted(listed, key=lambda entry: entry.used_s)
 
 
@@ -123,76 +125,76 @@ def _study(cached: Folder, name: str) -> str:
     return ""
 
 
-def limit_bytes(at: Folder) -> int:
-    """How large the cache may get: as set, else 2 GB."""
+def limit_bytes(cache_folder: Folder) -> int:
+    """Return the size limit of the cache: as set, else 2 GB."""
     try:
-        return max(int(at.read_bytes(LIMIT_NAME, _MAXIMUM_LIMIT_BYTES)), 0)
+        return max(int(cache_folder.read_bytes(LIMIT_NAME, _MAXIMUM_LIMIT_BYTES)), 0)
     except (OSError, StorageError, ValueError):
         return DEFAULT_LIMIT_BYTES
 
 
-def set_limit(at: Folder, limit: int) -> None:
+def set_limit(cache_folder: Folder, limit: int) -> None:
     """Set how large the cache may get, bytes, from now on."""
     with (
-        locked(at, lock_of(LIMIT_NAME), f"cache {LIMIT_NAME}"),
-        staging(at, staging_of(LIMIT_NAME)) as staged,
+        locked(cache_folder, lock_of(LIMIT_NAME), f"cache {LIMIT_NAME}"),
+        staging(cache_folder, staging_of(LIMIT_NAME)) as staged,
     ):
         write(staged, LIMIT_NAME, f"{limit}\n".encode())
         replace_all(staged)
 
 
-def tidy(at: Folder) -> list[Entry]:
+def tidy(cache_folder: Folder) -> list[Entry]:
     """Remove what the dead left, and the least recently used entries above the limit.
 
     Returns
     -------
     entries that were removed
     """
-    _remove_leftovers(at)
-    return _shrink(at, limit_bytes(at))
+    _remove_leftovers(cache_folder)
+    return _shrink(cache_folder, limit_bytes(cache_folder))
 
 
-def clear(at: Folder) -> list[Entry]:
+def clear(cache_folder: Folder) -> list[Entry]:
     """Remove every entry and what the dead left; returns the entries."""
-    _remove_leftovers(at)
-    return _shrink(at, 0)
+    _remove_leftovers(cache_folder)
+    return _shrink(cache_folder, 0)
 
 
-def _shrink(at: Folder, limit: int) -> list[Entry]:
-    present = entries(at)
+def _shrink(cache_folder: Folder, limit: int) -> list[Entry]:
+    present = entries(cache_folder)
     size = sum(entry.size_bytes for entry in present)
     removed = []
     for entry in present:
         if size <= limit:
             break
-        at.remove(entry.name)
-        at.remove(_hash_of(entry.name))
-        at.remove(study_of(entry.name))
+        cache_folder.remove(entry.name)
+        cache_folder.remove(_hash_of(entry.name))
+        cache_folder.remove(study_of(entry.name))
         size -= entry.size_bytes
         removed.append(entry)
     return removed
 
 
-def _remove_leftovers(at: Folder) -> None:
+def _remove_leftovers(cache_folder: Folder) -> None:
     """Locks, hidden files and hashes without an entry, of processes that are gone."""
-    for name in os.listdir(at.descriptor):
+    for name in os.listdir(cache_folder.descriptor):
         if not any(fnmatch(name, pattern) for pattern in _LEFTOVERS):
             continue
         entry = name.removeprefix(".").partition(".nc")[0] + ".nc"
         lock = lock_of(entry)
-        if name == lock and is_held(at, lock):
+        if name == lock and is_held(cache_folder, lock):
             continue
-        if name in (_hash_of(entry), study_of(entry)) and at.holds_file(entry):
+        if name in (_hash_of(entry), study_of(entry)) and cache_folder.holds_file(entry):
             continue
-        with taken(at, lock) as held:
+        with taken(cache_folder, lock) as held:
             if held and name != lock:
-                _remove_any(at, name)
+                _remove_any(cache_folder, name)
 
 
-def _remove_any(at: Folder, name: str) -> None:
-    at.remove_tree(name)
+def _remove_any(cache_folder: Folder, name: str) -> None:
+    cache_folder.remove_tree(name)
     with suppress(IsADirectoryError):  # not all in it could be removed
-        at.remove(name)
+        cache_folder.remove(name)
 
 
 def _hash_of(name: str) -> str:

@@ -25,8 +25,8 @@ class Claim:
     document : short name of the document that the reference is from
     passage : equation, table, page or section of the document
     reference, computed : numbers in `unit`
-    unit : of the numbers
-    tolerance : of the distance between both, in `unit`
+    unit : unit of the numbers
+    tolerance : tolerance of the distance between both, in `unit`
     share : distance of computed and reference in tolerances, to one digit
     verdict : `MET` or `MISSED`
     reason : why it is missed; empty where it is met
@@ -56,8 +56,8 @@ class Document:
     Attributes
     ----------
     name : short name
-    author, title : as printed
-    year : of publication
+    author, title : author and title as printed
+    year : year of publication
     """
 
     name: str

@@ -67,11 +67,11 @@ def _check_hash(results: xr.Dataset) -> None:
 def _check_names(results: xr.Dataset, parameters: Parameters, words: Words) -> None:
     """Options and receivers of the variables are those of parameters and words."""
     options, receivers = (set(results[dim].values.tolist()) for dim in ("option", "receiver"))
-    for names, known, where in (
+    for names, present, where in (
         (receivers, parameters.receivers, "parameters: receivers"),
         (options, words.sentences, "words: sentences"),
     ):
-        if not names <= known.keys():
+        if not names <= present.keys():
             raise SchemaError(f"attribute {where}: not those of the variables")
     if parameters.catalogue_receiver not in receivers:
         raise SchemaError("attribute parameters: catalogue_receiver is no receiver")
@@ -81,13 +81,14 @@ def _check_parts(results: xr.Dataset, parameters: Parameters) -> None:
     """Tables of the parameters that certain results come from."""
     machine = parameters.machine
     redesigned = (option.machine for option in parameters.options.values())
-    suspended = all(one.suspension for one in (machine, *filter(None, redesigned)))
-    hangs = "block_velocity_order" in results or "block" in results["body"].values
+    suspended = all(case.suspension for case in (machine, *filter(None, redesigned)))
+    has_block = "block_velocity_order" in results or "block" in results["body"].values
     alone = results.sizes["sound_source"] == 1
     needed = {
         "ranges": parameters.ranges is not None or not has_samples(results),
-        "options": not hangs or set(results["option"].values.tolist()) <= parameters.options.keys(),
-        "machine.suspension": not hangs or suspended,
+        "options": not has_block
+        or set(results["option"].values.tolist()) <= parameters.options.keys(),
+        "machine.suspension": not has_block or suspended,
         "machine.stopping": machine.stopping or "stopping_force" not in results,
         "scoring.published": parameters.scoring.published or "published_score" not in results,
         "machine.overall_noise.speed_rpm": alone

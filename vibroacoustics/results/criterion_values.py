@@ -30,8 +30,8 @@ def criterion_values(results: xr.Dataset, name: str) -> CriterionValues:
 
     Parameters
     ----------
-    results : of a run
-    name : of the criterion
+    results : results of a run
+    name : name of the criterion
 
     Raises
     ------

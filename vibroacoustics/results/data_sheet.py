@@ -1,4 +1,4 @@
-"""What a data sheet holds, and the JSON schema of its file. Lengths and levels in SI and dB."""
+"""Content of a data sheet, and the JSON schema of its file. Lengths and levels in SI and dB."""
 
 from typing import Annotated, Any, Final, Literal
 
@@ -41,7 +41,7 @@ class SoundPower(_Part):
     surface_m2: float
     """Mean over the microphones of the hemisphere or sphere through each."""
     determined: str
-    """How, in words."""
+    """Method in words."""
     level_dba: Level
     """L_WA of the machine: median of the weighted samples; nominal without samples."""
     modelled_dba: Level
@@ -57,14 +57,14 @@ class SoundPower(_Part):
     batch_deviation_db: float | None
     """Assumed standard deviation of the machines of a batch; null for a single machine."""
     uncertainty_words: str
-    """What K_WA holds."""
+    """Parts of K_WA."""
     prior: str
     """Prior of the unmodelled noise."""
     model_range_hz: tuple[float, float]
     """Lowest and highest frequency of the model; it covers the last band in part."""
     unmodelled_kind: Literal["baseline", "unmodelled noise", "none"]
     unmodelled_words: str
-    """What the machine's level holds besides the model."""
+    """Part of the machine's level besides the model."""
     bands: tuple[BandPower, ...]
 
     @property
@@ -89,7 +89,8 @@ class Tone(_Part):
     level_db: float
     """Sound pressure level there, re 20 µPa."""
     excess_db: float
-    """Over the criterion of tone-to-noise or prominence ratio; median of the weighted samples."""
+    """Excess over the criterion of tone-to-noise or prominence ratio; median of the weighted
+    samples."""
     excess_low_db: Level
     """Lower end of its 80 % interval; null where the tone is not audible there."""
     excess_high_db: float
@@ -108,7 +109,7 @@ class RatedWindow(_Part):
     rating_level_high_dba: float
     """Upper end of the 80 % interval."""
     adjustment_db: float
-    """For tones, median."""
+    """Adjustment for tones, median."""
     limit_dba: float
     limit_probability: float
     """Share of the weighted samples that meet the limit."""
@@ -160,13 +161,13 @@ class DataSheet(_Part):
     """Rating levels at the windows of the study."""
     vibration: tuple[Vibration, ...]
     vibration_words: str
-    """What the motion holds."""
+    """Content of the motion."""
     leaves_out: tuple[str, ...]
     """Effects that the model neglects."""
     not_available: tuple[str, ...]
-    """What a declaration by ISO 4871 states and a prediction does not have."""
+    """Values that a declaration by ISO 4871 states and a prediction does not have."""
     created_utc: str
-    """When the results were made."""
+    """Time at which the results were made."""
     software_version: str
     parameters_sha256: str
     """Hash of all values of the study."""

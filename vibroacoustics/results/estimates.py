@@ -45,7 +45,7 @@ def estimate(results: xr.Dataset, variable: str, **selection: Any) -> Estimate:
 
     Parameters
     ----------
-    results : of a run
+    results : results of a run
     variable : name in the vocabulary
     selection : a label of each of its dimensions; those of others are not used
 
@@ -107,7 +107,7 @@ class InSamples(NamedTuple):
     Attributes
     ----------
     values : labelled, with the dimension `sample`
-    weight : of sum one, shape (sample,)
+    weight : weights of sum one, shape (sample,)
     """
 
     values: xr.DataArray
@@ -139,7 +139,7 @@ class Ensemble(NamedTuple):
     level_dba : modelled levels where one is published, not a number without a solution, (sample,)
     weight : by prior of the unmodelled noise, shape (prior, sample)
     before : weight before the published data, shape (sample,)
-    value : of the uncertain parameters, (sample, parameter)
+    value : values of the uncertain parameters, (sample, parameter)
     """
 
     level_dba: Array
@@ -170,12 +170,12 @@ def effective_samples(results: xr.Dataset) -> float:
 
 
 class SampleNumbers(NamedTuple):
-    """How many samples there are.
+    """Numbers of samples.
 
     Attributes
     ----------
     tried : at the point of the published level
-    effective : of them, by how well they agree with it
+    effective : effective number of samples, weighted by the likelihood
     computed : in all cases
     """
 

@@ -20,10 +20,10 @@ class FigureLimit(Refusing):
     Attributes
     ----------
     limit : in `unit`
-    unit : of a total `dB`, `dB(A)` or `dB(C)`, of a band `dB`, of an order `dB` or one of the
+    unit : unit of a total `dB`, `dB(A)` or `dB(C)`, of a band `dB`, of an order `dB` or one of the
         channel's quantity, of a criterion its own
     channel : its name, or `*`; empty for a criterion
-    order : of the shaft; none for other figures
+    order : order of the shaft; none for other figures
     band_hz : nominal midband frequency of a third of an octave; none for other figures
     criterion : name of a criterion of a study; empty for other figures
     side : `highest` or `lowest` value that is allowed
@@ -84,7 +84,7 @@ class FigureLimit(Refusing):
 
     @property
     def subject(self) -> str:
-        """What it limits, as `band 500 Hz of front`."""
+        """Subject of the limit, such as `band 500 Hz of front`."""
         if self.criterion:
             return f"criterion {self.criterion}"
         if self.order is not None:
@@ -94,7 +94,7 @@ class FigureLimit(Refusing):
         return f"total of {self.channel}"
 
     def margin(self, value: float) -> float:
-        """What is left to the limit, in its unit; below zero where it is broken."""
+        """Margin to the limit, in its unit; below zero where it is broken."""
         return self.limit - value if self.side == HIGHEST else value - self.limit
 
     def in_unit(self, rms: float, level_db: float) -> float:

@@ -20,7 +20,7 @@ from .limit import EVERY_CHANNEL, PRESSURE_UNIT
 from .order_comparison import ORDER_TOLERANCE, channel_units, listed
 
 PRESSURE: Final = "pressure "
-"""With what channels of a study begin that are microphones."""
+"""Prefix of the channels of a study that are microphones."""
 
 
 class CheckedFigure(NamedTuple):
@@ -57,8 +57,8 @@ class Compared(NamedTuple):
 
     Attributes
     ----------
-    orders : of `compare`
-    first, second : of `run`, `analyse_orders` or `mean_of_runs`
+    orders : result of `compare`
+    first, second : results of `run`, `analyse_orders` or `mean_of_runs`
     """
 
     orders: xr.Dataset
@@ -119,7 +119,7 @@ def _channels(orders: xr.Dataset, limit: FigureLimit) -> list[int]:
     rows = [
         row
         for row, unit in enumerate(units.values())
-        if limit.channel in (EVERY_CHANNEL, *(str(one[row]) for one in names))
+        if limit.channel in (EVERY_CHANNEL, *(str(column[row]) for column in names))
         and unit == unit_of_all
     ]
     if not rows:
@@ -156,10 +156,12 @@ def _values(
             yield from _of_recording(result, channel, limit)
 
 
-def _orders(there: xr.Dataset, names: str, channel: str, limit: FigureLimit) -> Values:
+def _orders(figures: xr.Dataset, names: str, channel: str, limit: FigureLimit) -> Values:
     name = "channel_order_rms" if names == "channel" else "compared_order_rms"
-    at = np.flatnonzero(np.abs(there["order"].values - (limit.order or 0.0)) < ORDER_TOLERANCE)
-    for speed, rms in zip(there["speed"].values, there[name].values[:, at], strict=True):
+    columns = np.flatnonzero(
+        np.abs(figures["order"].values - (limit.order or 0.0)) < ORDER_TOLERANCE
+    )
+    for speed, rms in zip(figures["speed"].values, figures[name].values[:, columns], strict=True):
         for value in rms:
             level = float(level_of_amplitude(value / REFERENCE_PRESSURE_PA))
             value_in_unit = limit.in_unit(value, level)
@@ -192,11 +194,11 @@ def _of_study(result: xr.Dataset, option: str, channel: str, limit: FigureLimit)
 
 def _of_recording(result: xr.Dataset, channel: str, limit: FigureLimit) -> Values:
     """Equivalent levels over all of the recording."""
-    at = {"channel": channel, "weighting": WEIGHTED[limit.unit]}
+    coordinates = {"channel": channel, "weighting": WEIGHTED[limit.unit]}
     name = "band_level" if limit.figure == "band" else "equivalent_level"
     if name not in result:
         return
-    level = result[name].sel(at)
+    level = result[name].sel(coordinates)
     if limit.figure == "band":
         level = level.isel(band=np.flatnonzero(level["band"].values == limit.band_hz))
     for value in np.atleast_1d(level.values):
@@ -204,8 +206,8 @@ def _of_recording(result: xr.Dataset, channel: str, limit: FigureLimit) -> Value
 
 
 def _by_speed(subject: str, speeds: Array, values: Array, chances: Array | None = None) -> Values:
-    known = np.full(len(speeds), _UNKNOWN) if chances is None else chances
-    for speed, value, chance in zip(speeds, values, known, strict=True):
+    chance_of_speed = np.full(len(speeds), _UNKNOWN) if chances is None else chances
+    for speed, value, chance in zip(speeds, values, chance_of_speed, strict=True):
         yield subject, float(speed), float(value), float(chance)
 
 

@@ -145,7 +145,7 @@ def replace_all(staged: Staging, first: str = "") -> None:
 
 @contextmanager
 def naming(path: Path) -> Iterator[None]:
-    """What the system refuses as one line that names the file."""
+    """Report what the system refuses as one line that names the file."""
     try:
         yield
     except OSError as error:

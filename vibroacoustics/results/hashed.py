@@ -19,7 +19,7 @@ from ..base.regular_file import opened
 _LINE: Final = re.compile(rb"\nvibroacoustics sha256 ([0-9a-f]{64})\n")
 _MAXIMUM_HASH_BYTES: Final = 4096
 MAXIMUM_RESULTS_BYTES: Final = 2 * 2**30
-"""Of a results file, and of what it holds once it is read."""
+"""Largest size of a results file, and of what it holds once it is read."""
 _LENGTH: Final = len(b"\nvibroacoustics sha256 \n") + 64
 
 

@@ -15,7 +15,7 @@ PRESSURE_UNIT: Final = "Pa"
 
 
 class Refusing:
-    """What limits have in common: where each comes from, and refusals that say so."""
+    """Base of limits: where each comes from, and refusals that say so."""
 
     origin: str
 
@@ -32,7 +32,7 @@ class Limit(Refusing):
     Attributes
     ----------
     channel : its name, or `*` for every channel with such a unit
-    order : of the shaft, above 0
+    order : order of the shaft, above 0
     limit : RMS in `unit`, above 0; in dB any number
     unit : `dB` (re 20 µPa, of sound pressure), or one of the channel's quantity: `mm/s` for m/s
     speed_from_rpm, speed_to_rpm : the limit holds from the one to the other, both included;

@@ -26,7 +26,7 @@ PATIENCE_S: Final = 0.3
 _PAUSE_S: Final = 0.02
 _MAXIMUM_BYTES: Final = 4096
 _NO_LOCKS: Final = (errno.ENOLCK, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOSYS)
-"""Of file systems without locks. There, each file still appears whole or not at all."""
+"""Errors of file systems without locks. There, each file still appears whole or not at all."""
 
 
 @contextmanager
@@ -99,7 +99,7 @@ def is_held(folder: Folder, name: str) -> bool:
 
 
 def holder(folder: Folder, name: str) -> str:
-    """Who holds the lock, in words."""
+    """Name the holder of the lock, in words."""
     try:
         by = json.loads(folder.read_bytes(name, _MAXIMUM_BYTES))
         return f"process {by['process']} on {by['host']}, since {by['since']}"

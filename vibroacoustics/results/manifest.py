@@ -1,4 +1,4 @@
-"""Which files of a folder belong to which results: `files.json`.
+"""Manifest `files.json`: files of a folder by the results that they belong to.
 
 It holds the hash of every dataset of the folder and of each file made of it. So what is left of an
 older run is seen.
@@ -50,7 +50,7 @@ class Entry(BaseModel):
 
 
 Manifest = dict[Name, Entry]
-"""By the name of the dataset."""
+"""Manifest by the name of the dataset."""
 _MANIFEST: Final = TypeAdapter(Manifest)
 
 
@@ -94,8 +94,8 @@ def replacing(path: Path, dataset: str, dataset_sha256: str = "") -> Iterator[St
 
 def _older(before: Entry | None, made: Container[str]) -> dict[str, str]:
     """Files that are no longer made, those too that a run that was killed did not remove."""
-    known = {**before.older, **before.files} if before else {}
-    return {name: digest for name, digest in known.items() if name not in made}
+    digests = {**before.older, **before.files} if before else {}
+    return {name: digest for name, digest in digests.items() if name not in made}
 
 
 def _remove(folder: Folder, name: str) -> None:
@@ -104,7 +104,7 @@ def _remove(folder: Folder, name: str) -> None:
 
 
 def _without(manifest: Manifest, names: Container[str]) -> Manifest:
-    """What it says of other files: a file is of the results that wrote it last."""
+    """Entries of other files: a file is of the results that wrote it last."""
     return {
         dataset: Entry(
             sha256=entry.sha256,
@@ -117,7 +117,7 @@ def _without(manifest: Manifest, names: Container[str]) -> Manifest:
 
 
 def mixed(path: Path) -> list[str]:
-    """What in a folder is not of the results that it should be of, a line each.
+    """Name the files in a folder that are not of its results, a line each.
 
     Nothing while a process writes there, or where no `files.json` is.
     """
@@ -183,7 +183,7 @@ def _hash(folder: Folder, name: str) -> str:
 
 
 def _read(folder: Folder) -> Manifest | None:
-    """What `files.json` says; nothing where there is none, None where it is damaged."""
+    """Content of `files.json`; nothing where there is none, None where it is damaged."""
     try:
         return _MANIFEST.validate_json(folder.read_bytes(MANIFEST_NAME, _MAXIMUM_BYTES))
     except FileNotFoundError:

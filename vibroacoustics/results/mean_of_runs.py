@@ -38,7 +38,7 @@ def mean_of_runs(
 
     Parameters
     ----------
-    runs : of `analyse_orders`, at speeds that all have within 2 %
+    runs : results of `analyse_orders`, at speeds that all have within 2 %
     specimens : name of the machine of each run; without, all are of one
     labels : name of each run, each once; default: its file, with a number where several have one
 
@@ -73,9 +73,14 @@ def mean_of_runs(
         if "channel_order" not in run:
             title = run.attrs.get("title", "result")
             raise ParameterError(f"{title}: is of no recording; only recordings are averaged")
-    at = _selections(runs)
+    selections = _selections(runs)
     peaks, rms, coherence = (
-        np.array([values_at(run[name], there) for run, there in zip(runs, at, strict=True)])
+        np.array(
+            [
+                values_at(run[name], selection)
+                for run, selection in zip(runs, selections, strict=True)
+            ]
+        )
         for name in ("channel_order", "channel_order_rms", "channel_order_coherence")
     )
     level_db = level_of_amplitude(rms)
@@ -87,15 +92,15 @@ def mean_of_runs(
         **_named("order", of_orders),
         "run_order": peaks,
         "run_order_rms": rms,
-        "run_speed": np.array([there["speed"] for there in at]),
+        "run_speed": np.array([selection["speed"] for selection in selections]),
         "machine_order_rms": amplitude_of_level(of_machine),
         "machine_order_deviation": deviation,
     }
     machines = list(dict.fromkeys(names))
-    coords = {**at[0], "run": named, "machine": machines}
+    coords = {**selections[0], "run": named, "machine": machines}
     units = channel_units(runs[0])
     further = {
-        "channel_unit": ("channel", [units[name] for name in at[0]["channel"]]),
+        "channel_unit": ("channel", [units[name] for name in selections[0]["channel"]]),
         "run_machine": ("run", names),
         "run_file": ("run", list(map(_file, runs))),
         "machine_runs": ("machine", list(map(names.count, machines))),
@@ -108,17 +113,17 @@ def mean_of_runs(
 
 def with_scatter(compared: xr.Dataset, mean: xr.Dataset) -> xr.Dataset:
     """Compared orders with the scatter of the second result, where it is of several runs."""
-    there = {
+    names_of_pairs = {
         "channel": compared["compared_channel"].values,
         "speed": compared["compared_speed"].values,
         "order": compared["order"].values,
     }
-    here = {name: compared[name].values for name in there}
+    here = {name: compared[name].values for name in names_of_pairs}
     names = [f"order_{part}" for part in _PARTS]
     if names[0] not in mean:
         return compared
     return compared.assign(
-        {name: stamp(name, values_at(mean[name], there), here) for name in names}
+        {name: stamp(name, values_at(mean[name], names_of_pairs), here) for name in names}
     ).assign_attrs({RUNS: mean.attrs[RUNS]})
 
 
@@ -130,18 +135,18 @@ def runs_of(result: xr.Dataset) -> list[dict[str, str]]:
 def _selections(runs: Sequence[xr.Dataset]) -> list[dict[str, Any]]:
     """Channels, speeds and orders that all runs have, as each run has them."""
     first = runs[0]
-    units = [channel_units(one).items() for one in runs]
+    units = [channel_units(run).items() for run in runs]
     common = [name for name, unit in units[0] if all((name, unit) in other for other in units)]
     if not common:
         raise ParameterError("the recordings have no channel of one name and unit in common")
     orders = np.asarray(first["order"].values, dtype=float)
     speeds, problems = [], []
-    for one in runs:
+    for run in runs:
         try:
-            off = np.abs(orders[:, None] - common_orders(first, one))
-            speeds.append(dict(common_speeds(first, one).tolist()))
+            off = np.abs(orders[:, None] - common_orders(first, run))
+            speeds.append(dict(common_speeds(first, run).tolist()))
         except ParameterError as error:
-            problems.append(f"{_file(one)}: {error}")
+            problems.append(f"{_file(run)}: {error}")
             continue
         orders = orders[off.min(axis=1) < ORDER_TOLERANCE]
     if problems:
@@ -173,7 +178,7 @@ def _levels(
             continue
         chosen = (run[variable].sel(channel=coords["channel"]) for run in runs)
         aligned = xr.align(*chosen, join="inner")
-        first, stacked = aligned[0], np.array([one.values for one in aligned])
+        first, stacked = aligned[0], np.array([run_values.values for run_values in aligned])
         of_levels = _scatter_of_known(stacked, names)
         of_machine, deviation = by_specimen(stacked, names)
         values = {
@@ -190,12 +195,12 @@ def _levels(
 
 def _scatter_of_known(level_db: Array, names: Sequence[str]) -> Scatter:
     """Scatter where all runs have a level; channels that are no sound pressure have none."""
-    known = np.isfinite(level_db).all(axis=0)
+    is_finite = np.isfinite(level_db).all(axis=0)
     filled = []
-    for values in scatter(level_db[:, known], names):
-        one = np.full(level_db.shape[1:], np.nan)
-        one[known] = values
-        filled.append(one)
+    for values in scatter(level_db[:, is_finite], names):
+        row = np.full(level_db.shape[1:], np.nan)
+        row[is_finite] = values
+        filled.append(row)
     return Scatter(*filled)
 
 
@@ -221,7 +226,7 @@ def _attributes(runs: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, A
     count = len(dict.fromkeys(names))
     what = f"mean of {len(runs)} recordings of {count} machine{'s' * (count != 1)}"
     kept = {"sha256": "source_sha256", "speed": "speed_source", "remarks": "reading_remarks"}
-    known = [
+    sources = [
         {"file": _file(run), "specimen": name}
         | {key: str(run.attrs[attr]) for key, attr in kept.items() if attr in run.attrs}
         for run, name in zip(runs, names, strict=True)
@@ -232,5 +237,5 @@ def _attributes(runs: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, A
         "title": f"Orders, {what}",
         "source_file": what,
         "angle_zero": NO_ANGLE_ZERO if NO_ANGLE_ZERO in zeros else sorted(zeros)[0],
-        RUNS: canonical_json(known),
+        RUNS: canonical_json(sources),
     }

@@ -49,7 +49,7 @@ def write_netcdf(results: xr.Dataset, path: Path) -> None:
 
 
 def _why_not_written(path: Path, error: RuntimeError | OSError) -> OSError:
-    """What the system says when more is written to a file that netCDF could not write."""
+    """Words of the system when more is written to a file that netCDF could not write."""
     try:
         with path.open("ab") as file:
             file.write(bytes(_PROBE_BYTES))
@@ -110,7 +110,7 @@ def _check_size(content: bytes) -> None:
 def _ascii_attributes(results: xr.Dataset) -> xr.Dataset:
     """String attributes in ASCII, others escaped: not every reader knows netCDF's other strings.
 
-    Which ones are escaped stands beside them, so that they are read as they were written.
+    An attribute names the escaped ones, so that they are read as they were written.
     """
     for attrs in _attributes(results):
         texts = {name: value for name, value in attrs.items() if isinstance(value, str)}

@@ -57,7 +57,7 @@ def number(
 
     Parameters
     ----------
-    results : of a run or of an analysis
+    results : results of a run or of an analysis
     variable : name in the vocabulary
     write : gives the text of an estimate
     unit : that of the vocabulary where none is given

@@ -17,8 +17,8 @@ from .provenance import software_attributes
 SPEED_TOLERANCE: Final = 0.02
 """Speeds of the two results that differ by less than this share are the same operating point."""
 NEGLIGIBLE: Final = 1e-9
-"""Of the largest order of the same unit in a result: below, a simulated order is rounding (spectra
-of accelerations are good to about 1e-11), and no recorder has a range of 180 dB."""
+"""Share of the largest order of the same unit in a result: a smaller simulated order is rounding
+(spectra of accelerations are good to about 1e-11), and no recorder has a range of 180 dB."""
 ORDER_TOLERANCE: Final = 1e-6
 Orders: TypeAlias = xr.DataArray | xr.Dataset
 
@@ -77,28 +77,30 @@ def compare(
     order = common_orders(ours, theirs)
     speeds = common_speeds(ours, theirs)
     here = {"channel": list(names), "speed": speeds[:, 0], "order": order}
-    there = {"channel": list(names.values()), "speed": speeds[:, 1], "order": order}
-    reference, other = values_at(ours, here), values_at(theirs, there)
+    other_coordinates = {"channel": list(names.values()), "speed": speeds[:, 1], "order": order}
+    reference, other = values_at(ours, here), values_at(theirs, other_coordinates)
     turned = other * np.exp(-1j * order * tacho_angle_rad)
-    known = ~(_negligible(ours, here) | _negligible(theirs, there))
+    is_comparable = ~(_negligible(ours, here) | _negligible(theirs, other_coordinates))
     with np.errstate(divide="ignore", invalid="ignore"):  # of what is not known
         level = level_of_amplitude(np.abs(turned) / np.abs(reference))
-    has_phase = known & (NO_ANGLE_ZERO not in (_angle_zero(first), _angle_zero(second)))
+    has_phase = is_comparable & (NO_ANGLE_ZERO not in (_angle_zero(first), _angle_zero(second)))
     values = {
         "channel_order": reference,
         "compared_order": turned,
-        "order_difference": np.where(known, level, np.nan),
+        "order_difference": np.where(is_comparable, level, np.nan),
         "order_phase_difference": np.where(has_phase, _phase(turned, reference), np.nan),
         "channel_order_rms": _rms(first, ours, here),
-        "compared_order_rms": _rms(second, theirs, there),
-        "channel_order_coherence": np.minimum(_coherence(first, here), _coherence(second, there)),
+        "compared_order_rms": _rms(second, theirs, other_coordinates),
+        "channel_order_coherence": np.minimum(
+            _coherence(first, here), _coherence(second, other_coordinates)
+        ),
     }
     compared = xr.Dataset(
         {name: stamp(name, value, here) for name, value in values.items()},
         coords={
             "compared_speed": ("speed", speeds[:, 1]),
             "channel_unit": ("channel", [channel_units(ours)[name] for name in names]),
-            "compared_channel": ("channel", there["channel"]),
+            "compared_channel": ("channel", other_coordinates["channel"]),
         },
     )
     compared.attrs = _attributes(first, second, (option, other_option), tacho_angle_rad)
@@ -182,7 +184,10 @@ def _by_order(study: xr.Dataset, variable: str) -> xr.DataArray:
 def _named(values: xr.DataArray, word: str, unit: str) -> xr.DataArray:
     """Values (speed, ..., order) as channels (channel, speed, order)."""
     other_dims = [dim for dim in values.dims if dim not in ("speed", "order")]
-    names = [" ".join([word, *at]) for at in product(*(values[dim].values for dim in other_dims))]
+    names = [
+        " ".join([word, *coordinate_words])
+        for coordinate_words in product(*(values[dim].values for dim in other_dims))
+    ]
     flat = values.transpose(*other_dims, "speed", "order").values
     coords = {
         "channel": names,
@@ -206,10 +211,10 @@ def _pairs(
             f'"{next(iter(units))}={next(iter(other_units))}"'
         )
     for name, other in chosen.items():
-        for wanted, there in ((name, units), (other, other_units)):
-            if wanted not in there:
+        for wanted, channels in ((name, units), (other, other_units)):
+            if wanted not in channels:
                 raise ParameterError(
-                    f"pair {name}={other}: no channel {wanted!r}; there are {listed(there)}"
+                    f"pair {name}={other}: no channel {wanted!r}; there are {listed(channels)}"
                 )
         if units[name] != other_units[other]:
             raise ParameterError(
@@ -232,8 +237,8 @@ def listed(units: Mapping[str, str]) -> str:
 def common_orders(ours: Orders, theirs: Orders) -> Array:
     """Orders that both have, without order 0."""
     order, other = (np.asarray(result["order"].values, dtype=float) for result in (ours, theirs))
-    there = np.abs(order[:, None] - other).min(axis=1) < ORDER_TOLERANCE
-    common: Array = order[there & (order > 0.0)]
+    is_common = np.abs(order[:, None] - other).min(axis=1) < ORDER_TOLERANCE
+    common: Array = order[is_common & (order > 0.0)]
     if not common.size:
         raise ParameterError(
             f"no order in common: {', '.join(map('{:g}'.format, order))} against "
@@ -267,7 +272,7 @@ def values_at(result: xr.DataArray, selection: Mapping[str, Any]) -> NDArray[Any
 
 
 def _negligible(result: xr.DataArray, selection: Mapping[str, Any]) -> NDArray[np.bool_]:
-    """Where an order is nothing beside the largest with its unit; order 0 does not count."""
+    """Orders that are negligible beside the largest with their unit; order 0 does not count."""
     size = abs(result.where(result["order"] > 0.0, 0.0))
     largest = size.max(("speed", "order")).groupby("channel_unit").max()
     largest_of_unit = largest.sel(channel_unit=result["channel_unit"]).drop_vars("channel_unit")
@@ -308,8 +313,10 @@ def _attributes(
 ) -> dict[str, Any]:
     names: tuple[str, ...] = f"A: {_title(first)}", f"B: {_title(second)}"
     if options[0] != options[1]:
-        both = zip(names, (first, second), options, strict=True)
-        names = tuple(f"{name}, {one}" if "option" in of.coords else name for name, of, one in both)
+        pair = zip(names, (first, second), options, strict=True)
+        names = tuple(
+            f"{name}, {option}" if "option" in of.coords else name for name, of, option in pair
+        )
     return {
         **software_attributes(f"compare {names[0]} with {names[1]}"),
         "title": f"Orders of {names[1]} against {names[0]}",

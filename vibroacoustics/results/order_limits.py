@@ -30,14 +30,14 @@ def check_limits(
 ) -> xr.Dataset:
     """Hold the RMS of every order against its limit.
 
-    Of a recording that is the RMS in the order's band, of a study the peak over √2. Where several
+    For a recording that is the RMS in the order's band, for a study the peak over √2. Where several
     limits hold for an order, the lowest counts.
 
     Parameters
     ----------
-    results : of `analyse_orders`, `run` or `compare`; of the latter both results are checked,
-        against limits of either one's channel, at the speeds of the first
-    limits : of `read_limits`, or made as `Limit`
+    results : result of `analyse_orders`, `run` or `compare`; of the latter both results are
+        checked, against limits of either one's channel, at the speeds of the first
+    limits : limits from `read_limits`, or made as `Limit`
     option : the balancing option of a study
 
     Returns
@@ -129,7 +129,7 @@ def _allowed(values: xr.Dataset, limits: Sequence[Limit]) -> tuple[Array, list[s
 
 
 def _subject(limit: Limit) -> str:
-    """What a limit is for, as `order 2 of ring from 0 to 3600 rpm`."""
+    """Subject of a limit, such as `order 2 of ring from 0 to 3600 rpm`."""
     named = f"order {limit.order:g} of {limit.channel}"
     if limit.speed_from_rpm == 0.0 and np.isinf(limit.speed_to_rpm):
         return named
@@ -137,7 +137,7 @@ def _subject(limit: Limit) -> str:
 
 
 def _holds(values: xr.Dataset, limit: Limit) -> NDArray[np.bool_]:
-    """Where a limit holds (channel, speed, order)."""
+    """Points at which a limit holds (channel, speed, order)."""
     speed, order = np.rint(values["speed"].values), values["order"].values  # measured: 2899.99
     at_speed = (speed >= limit.speed_from_rpm) & (speed <= limit.speed_to_rpm)
     at_order = np.abs(order - limit.order) < ORDER_TOLERANCE

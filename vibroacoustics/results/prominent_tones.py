@@ -17,11 +17,11 @@ class ProminentTone(NamedTuple):
 
     Attributes
     ----------
-    name, frequency_hz : of its strongest line
+    name, frequency_hz : name and frequency of its strongest line
     microphone : name
     level_db : with the weaker lines that belong to it, median, re 20 µPa
     excess_db : over its criterion
-    probability : of being audible and prominent
+    probability : probability that it is audible and prominent
     """
 
     name: str

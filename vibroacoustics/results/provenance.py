@@ -1,4 +1,4 @@
-"""Where a result comes from: software, versions, parameters, time."""
+"""Provenance of a result: software, versions, parameters, time."""
 
 import subprocess
 from collections.abc import Iterator, Mapping
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 SCHEMA_VERSION: Final = "3"
 RECORDING_SCHEMA_VERSION: Final = "1"
-"""Of orders of a recording and of compared orders."""
+"""Version of the schema of orders of a recording and of compared orders."""
 NOT_INSTALLED: Final = "not installed"
 PACKAGES: Final = (
     "numpy",
@@ -53,7 +53,7 @@ def attributes(study: "Study") -> dict[str, Any]:
 def radiation_attributes(
     study: "Study", radiated: Mapping[str, Any], was_cached: bool
 ) -> dict[str, Any]:
-    """The same, and where the transfer vectors come from."""
+    """Return these attributes, and where the transfer vectors come from."""
     return {
         **attributes(study),
         "reference_pressure_pa": REFERENCE_PRESSURE_PA,

@@ -28,7 +28,7 @@ class RatingChange(NamedTuple):
     ----------
     variable : one of `RATED`
     label : microphone or window
-    speed_rpm : of the first result
+    speed_rpm : speed of the first result
     first, second : values in the unit of the vocabulary
     change : second less first; with its interval where both have the same samples, else the
         difference of the values

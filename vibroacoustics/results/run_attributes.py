@@ -36,7 +36,7 @@ class Noise(Part):
     spectral_share: SpectralShare | None = None
 
 
-class Remainder(Part):
+class UnmodelledNoise(Part):
     speed_growth_db: Number | None = None
     flat_lowest_db: Number | None = None
     flat_highest_db: Number | None = None
@@ -102,7 +102,7 @@ class RedesignedMachine(Part):
 class Machine(RedesignedMachine):
     name: str
     overall_noise: Noise | None = None
-    remainder: Remainder = Remainder()
+    remainder: UnmodelledNoise = UnmodelledNoise()
     errata: list[Erratum]
     housing: RigidBody
     stopping: Stopping | None = None

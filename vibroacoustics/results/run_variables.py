@@ -22,7 +22,7 @@ from ..base.vocabulary import (
 _RULES: Final = tomllib.loads(
     resources.files(__package__).joinpath("run_variables.toml").read_text("utf-8")
 )
-"""Which variables a run has, and with what; the file explains each table."""
+"""Conditions on the variables of a run; the file explains each table."""
 COORDINATES_OF: Final[dict[str, list[str]]] = _RULES["coordinates_of"]
 ADDED_MASS: Final = "added_mass_kg"
 """Figure that every option has."""
@@ -39,7 +39,7 @@ LABELS: Final[dict[str, tuple[str, ...]]] = {
     "figure": (ADDED_MASS,),
     "stopping_phase": ("steady", "stopping"),
 }
-"""What a dimension must hold; others are free."""
+"""Labels that a dimension must hold; others are free."""
 AMONG: Final = {"path_speed": "speed", "path_order": "order"}
 """Dimensions whose values are some of those of another."""
 IN_ORDER: Final = ("axis", "dof")
@@ -56,11 +56,11 @@ def check_variables(results: xr.Dataset) -> None:
     SchemaError
         Names the variable or the coordinate.
     """
-    known = check_known(results)
-    check(known, needed_variables(known))
-    for variable in known.data_vars.values():
-        _check_dimensions(known, variable)
-    _check_labels(known)
+    declared_results = check_known(results)
+    check(declared_results, needed_variables(declared_results))
+    for variable in declared_results.data_vars.values():
+        _check_dimensions(declared_results, variable)
+    _check_labels(declared_results)
 
 
 def check_known(results: xr.Dataset) -> xr.Dataset:
@@ -72,14 +72,14 @@ def check_known(results: xr.Dataset) -> xr.Dataset:
         Names the variable or the coordinate: other dimensions, unit or type; a value that is
         missing and must not be, or beyond its bounds; a label twice.
     """
-    strangers = [name for name in results.data_vars if name not in VARIABLES]
-    strangers += [name for name in results.coords if name not in COORDINATES]
-    known = check(results.drop_vars(strangers))
-    for coordinate in known.coords.values():
+    third_party = [name for name in results.data_vars if name not in VARIABLES]
+    third_party += [name for name in results.coords if name not in COORDINATES]
+    checked = check(results.drop_vars(third_party))
+    for coordinate in checked.coords.values():
         _check_coordinate(coordinate)
-    for name, variable in known.data_vars.items():
+    for name, variable in checked.data_vars.items():
         VARIABLES[str(name)].check_numbers(variable)
-    return known
+    return checked
 
 
 def needed_variables(results: xr.Dataset) -> tuple[str, ...]:
@@ -91,13 +91,15 @@ def needed_variables(results: xr.Dataset) -> tuple[str, ...]:
 
 
 def _check_coordinate(array: xr.DataArray) -> None:
-    known = COORDINATES[str(array.name)]
-    if array.dims != known.dims:
-        raise SchemaError(f"coordinate {array.name}: dims are {array.dims}, must be {known.dims}")
-    if known.is_text and array.dtype.kind != "U":
+    declared = COORDINATES[str(array.name)]
+    if array.dims != declared.dims:
+        raise SchemaError(
+            f"coordinate {array.name}: dims are {array.dims}, must be {declared.dims}"
+        )
+    if declared.is_text and array.dtype.kind != "U":
         raise SchemaError(f"coordinate {array.name} holds no text")
-    if not known.is_text:
-        known.check_numbers(array)
+    if not declared.is_text:
+        declared.check_numbers(array)
     if array.dims == (array.name,) and np.unique(array.values).size < array.size:
         raise SchemaError(f"coordinate {array.name} holds a label twice")
 

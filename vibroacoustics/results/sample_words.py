@@ -20,6 +20,6 @@ def not_sampled_sentence(results: xr.Dataset) -> str:
         "1 value has a range; it is" if count == 1 else f"{count} values have a range; they are"
     )
     return (
-        f"{values} not sampled, so that nothing has a band: values are sampled only where a "
+        f"{values} not sampled, so that no result has an interval. Values are sampled only where a "
         "study has sources of sound, tables [sources.NAME]."
     )

@@ -14,7 +14,8 @@ COVERAGE: Final = 0.95
 
 
 class Scatter(NamedTuple):
-    """Of levels over several runs; not a number where the runs do not tell.
+    """Scatter of levels over several runs, shape (...) each; not a number where the runs do not
+    show it.
 
     Attributes
     ----------
@@ -44,7 +45,7 @@ def scatter(level_db: Array, specimens: Sequence[str]) -> Scatter:
     Parameters
     ----------
     level_db : shape (run, ...)
-    specimens : of each run
+    specimens : specimen of each run
     """
     groups = _groups(level_db, specimens)
     count = np.array([len(group) for group in groups])
@@ -68,7 +69,7 @@ def by_specimen(level_db: Array, specimens: Sequence[str]) -> tuple[Array, Array
     Parameters
     ----------
     level_db : shape (run, ...)
-    specimens : of each run
+    specimens : specimen of each run
 
     Returns
     -------
@@ -84,7 +85,7 @@ def by_specimen(level_db: Array, specimens: Sequence[str]) -> tuple[Array, Array
 def _groups(level_db: Array, specimens: Sequence[str]) -> list[Array]:
     """Levels (run, ...) of each specimen."""
     names = dict.fromkeys(specimens)
-    return [level_db[[one == name for one in specimens]] for name in names]
+    return [level_db[[specimen == name for specimen in specimens]] for name in names]
 
 
 def _of_mean(deviation: Array, count: int) -> tuple[Array, Array]:

@@ -33,7 +33,7 @@ from .provenance import attributes
 _AT_1_KHZ: Final = 30
 _PARTS: Final = ("first", "second")
 _Sounds = dict[str, dict[str, Ingredients]]
-"""By common receiver, then by machine."""
+"""Sounds by common receiver, then by machine."""
 
 
 def results_together(study: Study, runs: Mapping[str, MachineRun]) -> xr.Dataset:
@@ -42,7 +42,7 @@ def results_together(study: Study, runs: Mapping[str, MachineRun]) -> xr.Dataset
     Parameters
     ----------
     study : with tables of several machines
-    runs : of the machines, by name
+    runs : runs of the machines, by name
     """
     frame = on_base_frame(study, runs)
     on_floor = {
@@ -64,7 +64,7 @@ def sound_of(results: xr.Dataset, receiver: str) -> Ingredients:
 
     Parameters
     ----------
-    results : of `results_together`
+    results : result of `results_together`
     receiver : one of its common receivers
     """
     received = results.sel(common_receiver=receiver)

@@ -15,7 +15,7 @@ MOST_BYTES: Final = 2**31
 OF_SOUND: Final = (
     "pressure_line", "order_level", "level_modelled", "level_total", "room_pressure_line",
 )  # fmt: skip
-"""What is computed of the motion later, and by far the largest of it."""
+"""Variables that are computed of the motion later, by far the largest."""
 
 
 def check_size(study: Study, first: xr.Dataset, progress: Progress) -> None:

@@ -33,13 +33,13 @@ def gathered(parts: Iterable[xr.Dataset], speeds: int) -> xr.Dataset:
     steady, done = xr.Dataset(), 0
     for part in parts:
         figures.append(part["reported_figure"])
-        at = {"speed": slice(done, done + part.sizes["speed"])}
+        block = {"speed": slice(done, done + part.sizes["speed"])}
         for name, variable in part.drop_dims("figure").variables.items():
             if "speed" in variable.dims:
                 if name not in rows:
                     rows[str(name)] = _empty(variable, speeds)
-                rows[str(name)][at] = variable
-        steady, done = part.drop_dims(["speed", "figure"]), at["speed"].stop
+                rows[str(name)][block] = variable
+        steady, done = part.drop_dims(["speed", "figure"]), block["speed"].stop
     coords = {name: rows.pop(name) for name in list(rows) if name in COORDINATES}
     of_all = steady.assign_coords(coords).assign(rows)
     return of_all.assign(reported_figure=_all_figures(figures))

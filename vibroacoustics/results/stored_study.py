@@ -20,7 +20,7 @@ def parameters(results: xr.Dataset) -> dict[str, Any]:
 
 
 def words(results: xr.Dataset) -> dict[str, Any]:
-    """What machine and options say of themselves, as the run kept it."""
+    """Return the words of machine and options, as the run kept them."""
     return dict(_decoded(results.attrs["words"]))
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 COVERAGE: Final = 2.0
-"""About 95 % of a normal distribution."""
+"""Factor of the standard uncertainty: about 95 % of a normal distribution."""
 ONE_SIDED: Final = 1.64
 """95 % of a normal distribution lie below it."""
 LEVEL_TOLERANCE_DB: Final = 5.0
@@ -31,10 +31,10 @@ class Validation:
     Attributes
     ----------
     quantity : in words
-    unit : of all numbers
+    unit : unit of all numbers
     simulation, data : S and D
     numerical, inputs, published : uncertainties of numerics, of inputs and of the data
-    source : of the data
+    source : source of the data
     """
 
     quantity: str

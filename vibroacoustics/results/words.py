@@ -23,7 +23,7 @@ _RIGID_UNDER_BODIES: Final = (
 def words(
     study: Study, loads: Mapping[CaseKey, Mapping[str, Loads]], results: xr.Dataset
 ) -> dict[str, Any]:
-    """What machine and options say of themselves, as JSON values."""
+    """Return the words of machine and options, as JSON values."""
     inner_sources = bool(study.sources)
     options = study.options.items()
     left_out = [
@@ -55,11 +55,14 @@ def _labels(study: Study, results: xr.Dataset) -> dict[str, str]:
     reported = [(option, _figures(results, name)) for name, option in study.options.items()]
     labels = dict(study.machine.labels)
     for option in study.options.values():
-        others = [one for one in reported if one[0].kind != option.kind]
+        others = [entry for entry in reported if entry[0].kind != option.kind]
         labels |= {
             name: text
             for name, text in option.labels.items()
-            if all(name not in figures or one.labels.get(name) == text for one, figures in others)
+            if all(
+                name not in figures or entry_option.labels.get(name) == text
+                for entry_option, figures in others
+            )
         }
     for source in study.sources.values():
         labels |= source.labels

@@ -34,8 +34,8 @@ def rank_acceptability(utility: Array, sample_weight: Array, shares: Iterable[Ar
 
     Parameters
     ----------
-    utility : of each option by each criterion, shape (sample, option, criterion)
-    sample_weight : of the samples, shape (sample,), of any sum
+    utility : utility of each option by each criterion, shape (sample, option, criterion)
+    sample_weight : weight of the samples, shape (sample,), of any sum
     shares : weights of the criteria that go with each sample, each shape (weighting, criterion)
     """
     options = utility.shape[1]
@@ -53,7 +53,7 @@ def _positions(sums: Array) -> Array:
 
     Parameters
     ----------
-    sums : of each option by each weighting, shape (weighting, option)
+    sums : sums of each option by each weighting, shape (weighting, option)
     """
     weightings, options = sums.shape
     taken = np.zeros((options, options))

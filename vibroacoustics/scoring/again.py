@@ -18,12 +18,12 @@ def scored_again(results: xr.Dataset, settings: Scoring | None) -> xr.Dataset:
     Parameters
     ----------
     results : dataset of a run
-    settings : as of `score`
+    settings : settings, see `score`
 
     Raises
     ------
     ParameterError
-        As `score`.
+        See `score`.
     """
     with collected() as lines:
         scores = score(results, settings)

@@ -1,4 +1,4 @@
-"""From utilities to scores."""
+"""Ranking: from utilities to scores."""
 
 from collections.abc import Callable
 from typing import Final

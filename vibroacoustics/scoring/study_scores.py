@@ -10,8 +10,8 @@ from .scores import score
 
 def study_scores(study: Study, results: xr.Dataset) -> xr.Dataset:
     """Values and scores of the criteria, and the published table where the study has one."""
-    given = given_values(study.given, list(study.options))
-    scores = score(results.merge(given), study.scoring).merge(given)
+    given_scores = given_values(study.given, list(study.options))
+    scores = score(results.merge(given_scores), study.scoring).merge(given_scores)
     if study.scoring.published is None:
         return scores
     return scores.merge(published_table(study.scoring.published))

@@ -38,17 +38,19 @@ def scored_criteria(results: xr.Dataset, settings: Scoring) -> list[Scored]:
     ParameterError
         A criterion is neither registered nor given, or has no value for an option.
     """
-    known = _given_names(results)
-    computed = [name for name in CRITERIA if name in settings.criteria and name not in known]
-    given = sorted(set(settings.criteria) - set(computed))
+    given_names = _given_names(results)
+    computed = [name for name in CRITERIA if name in settings.criteria and name not in given_names]
+    not_computed = sorted(set(settings.criteria) - set(computed))
     every = []
     for name in computed:
         with CRITERIA.spared(), CRITERIA.fenced(name):
             every.append(_computed(name, results))
-    every += [_given(name, settings.criteria[name], results) for name in given]
-    if not sum(settings.criteria[one.name].weight for one in every) > 0.0:
+    every += [_given(name, settings.criteria[name], results) for name in not_computed]
+    if not sum(settings.criteria[value.name].weight for value in every) > 0.0:
         raise ParameterError("scoring.criteria: none with a weight above 0 has values")
-    return [one._replace(label=settings.criteria[one.name].title or one.label) for one in every]
+    return [
+        value._replace(label=settings.criteria[value.name].title or value.label) for value in every
+    ]
 
 
 def _computed(name: str, results: xr.Dataset) -> Scored:
@@ -57,9 +59,9 @@ def _computed(name: str, results: xr.Dataset) -> Scored:
 
 
 def _given(name: str, scale: CriterionScale, results: xr.Dataset) -> Scored:
-    known = _given_names(results)
-    if name not in known:
-        raise ParameterError(f"criterion {name}: {CRITERIA.unknown(name, known)}")
+    given_names = _given_names(results)
+    if name not in given_names:
+        raise ParameterError(f"criterion {name}: {CRITERIA.unknown(name, given_names)}")
     values = results["given_value"].sel(given_criterion=name)
     for option in options_without(values):
         raise ParameterError(f"options.{option}.given.{name}: is missing in the results")

@@ -19,7 +19,7 @@ NO_TONE_AUDIBILITY_DB: Final = -10.0
 TONE_MARGIN_DB: Final = 6.0
 """Level of a line over the mean noise line from which it belongs to a tone (clause 5.3.3)."""
 RESOLVED_BELOW_HZ: Final = 1000.0
-"""Below it two tones of one critical band may be heard apart (equation 18)."""
+"""Frequency below which two tones of one critical band may be heard apart (equation 18)."""
 _LEVEL_UNCERTAINTY_DB: Final = 3.0
 _COVERAGE: Final = 1.645
 

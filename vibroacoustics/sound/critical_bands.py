@@ -11,7 +11,7 @@ Frequency = TypeVar("Frequency", float, Array)
 HIGHEST_TONE_HZ: Final = 11220.0
 """Highest tone that is judged: upper edge of the third octave of 10 kHz (ECMA-418-1, clause 1)."""
 CUT_BELOW_HZ: Final = 171.4
-"""Of tones below, the critical band underneath is cut at 20 Hz."""
+"""Frequency below which the critical band underneath a tone is cut at 20 Hz."""
 _LOWER: Final = ((171.4, 20.0, 0.0, 0.0), (1600.0, -149.5, 1.001, -6.9e-5))
 _LOWER_ABOVE: Final = (6.8, 0.806, -8.2e-6)
 _UPPER_TO_1600: Final = (149.5, 1.035, 7.7e-5)

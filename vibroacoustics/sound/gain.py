@@ -12,7 +12,7 @@ from ..base.remembered import remembered
 from .ingredients import Ingredients, ingredients, positions
 
 _STEPS: Final = [2e-5, 5e-5, *(float(f"{n}e{k}") for k in range(-4, 6) for n in (1, 2, 5))]
-"""From the threshold of hearing on, Pa."""
+"""Steps from the threshold of hearing on, Pa."""
 _CREST: Final = 5.5
 """Largest value of ten minutes of Gaussian noise over its effective value."""
 
@@ -25,7 +25,7 @@ def full_scale_of(results: xr.Dataset, calibration_db: float | None = None) -> f
 
     Parameters
     ----------
-    results : of a run, with its noise by third octave
+    results : results of a run, with its noise by third octave
     calibration_db : level of a tone that has to fit, too
     """
     highest = _highest(results)

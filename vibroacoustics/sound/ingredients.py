@@ -1,4 +1,4 @@
-"""What the sound of an option is made of, at a microphone or in a room: lines and noise."""
+"""Ingredients of the sound of an option, at a microphone or in a room: lines and noise."""
 
 from dataclasses import dataclass, replace
 from typing import Any, Final
@@ -41,8 +41,8 @@ _ALONG: Final = (
 """Coordinates of a case."""
 _Case = dict[str, Any]
 """Values of an option at a position and speed, by name of variable or coordinate."""
-DUST: Final = 1e-9
-"""Of a band's mean square: less is what rounding leaves where lines are taken out."""
+ROUNDING_SHARE: Final = 1e-9
+"""Share of a band's mean square: less is what rounding leaves where lines are taken out."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class SoundLines:
     ----------
     frequency_hz : shape (line,)
     pressure_pa : complex peaks at the same crank angle, x(t) = Re{P exp(+jωt)}, shape (line,)
-    name : of each, such as `order 2`
+    name : name of each, such as `order 2`
     """
 
     frequency_hz: Array
@@ -90,7 +90,7 @@ class Ingredients:
 
     @property
     def mean_square(self) -> float:
-        """Of the sound, Pa²."""
+        """Mean square of the sound, Pa²."""
         return float(
             0.5 * np.sum(np.abs(self.lines.pressure_pa) ** 2) + np.sum(self.bands.pressure_pa**2)
         )
@@ -107,7 +107,7 @@ class Ingredients:
         return float(mean_square_level(square, REFERENCE_PRESSURE_PA))
 
     def louder(self, by_db: float) -> "Ingredients":
-        """The same sound at a level higher by some dB."""
+        """Return this sound at a level higher by some dB."""
         factor = amplitude_of_level(by_db)
         return Ingredients(
             replace(self.lines, pressure_pa=factor * self.lines.pressure_pa),
@@ -131,7 +131,7 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
 
     Parameters
     ----------
-    results : of a run
+    results : results of a run
     option, microphone : names in the results; also a listener's, where no microphone has it
     speed : one of theirs, rpm
 
@@ -154,8 +154,10 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
 def _at_microphone(case: _Case) -> Ingredients:
     lines = _measured_orders(case, _modelled_lines(case))
     number = third_octave_number(case["noise_band"])
-    one = "representative_" if "representative_noise_band_level" in case else ""
-    square = _square(case[f"{one}noise_band_level"]) + _square(case[f"{one}unmodelled_band_level"])
+    prefix = "representative_" if "representative_noise_band_level" in case else ""
+    square = _square(case[f"{prefix}noise_band_level"]) + _square(
+        case[f"{prefix}unmodelled_band_level"]
+    )
     if "baseline_band_level" in case:
         square = _measured_bands(case, lines, number, square)
     return Ingredients(lines, _bands(case, square))
@@ -210,16 +212,18 @@ def positions(results: xr.Dataset) -> list[str]:
 def _case(results: xr.Dataset, option: str, microphone: str, speed: float) -> _Case:
     if "noise_band_level" not in results:
         raise SchemaError("the results hold no noise of third octaves: run the study again")
-    for word, value, there in (
+    for word, value, available in (
         ("option", option, results.variables["option"].values),
         ("microphone", microphone, positions(results)),
         ("speed", speed, results.variables["speed"].values),
     ):
-        if value not in there:
+        if value not in available:
             unit = " rpm" if word == "speed" else ""
-            known = ", ".join(f"{one:g}" if word == "speed" else str(one) for one in there)
+            listed = ", ".join(
+                f"{value:g}" if word == "speed" else str(value) for value in available
+            )
             raise ParameterError(
-                f"{word} = {value}{unit}: the results hold no such one; there are {known}"
+                f"{word} = {value}{unit}: the results hold no such one; there are {listed}"
             )
     # A microphone precedes a listener with the same name.
     in_room = microphone not in results.variables["receiver"].values
@@ -249,12 +253,12 @@ def _bands(case: _Case, square: Array) -> SoundBands:
     """Noise of the bands that hold some, of their mean squares."""
     number = third_octave_number(case["noise_band"])
     loud = square > 0.0
-    centres = [Band(3, int(one) - _AT_1_KHZ).middle_hz for one in number[loud]]
+    centres = [Band(3, int(band) - _AT_1_KHZ).middle_hz for band in number[loud]]
     return SoundBands(np.array(centres), np.sqrt(square[loud]))
 
 
 def _room_lines(case: _Case) -> SoundLines:
-    """Lines of all sources by air, with the energy of what comes by the plate."""
+    """Airborne lines of all sources, with the energy of structure-borne sound."""
     pressure = case["room_pressure_line"]
     if "room_plate_line_level" in case:
         by_plate = 2.0 * _square(case["room_plate_line_level"])
@@ -301,8 +305,8 @@ def _measured_bands(case: _Case, lines: SoundLines, number: Array, otherwise: Ar
     of_lines = third_octave_number(lines.frequency_hz)[:, None] == number
     tones = (0.5 * np.abs(lines.pressure_pa) ** 2) @ of_lines
     measured = REFERENCE_PRESSURE_PA**2 * power_of_level(levels)
-    left = np.where(measured - tones > DUST * measured, measured - tones, 0.0)
-    return np.where(np.isnan(measured), otherwise, left)
+    noise_pa2 = np.where(measured - tones > ROUNDING_SHARE * measured, measured - tones, 0.0)
+    return np.where(np.isnan(measured), otherwise, noise_pa2)
 
 
 def _square(level_db: Array) -> Array:

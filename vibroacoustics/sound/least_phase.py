@@ -9,19 +9,19 @@ from ..base.arrays import Array, ComplexArray
 
 Numbers = TypeVar("Numbers", Array, ComplexArray)
 _FLOOR: Final = 1e-4
-"""Of the largest size, below which it changes no phase."""
+"""Share of the largest size below which the phase does not change."""
 _TINY: Final = 1e-300
 
 
 def least_phase(size: Array, length: int) -> ComplexArray:
-    """With the least phase that a causal response of these sizes has, by its cepstrum.
+    """Return sizes with the least phase that a causal response of them has, by its cepstrum.
 
     A. V. Oppenheim and R. W. Schafer, Discrete-Time Signal Processing, 3rd edition (2010), 13.5.
 
     Parameters
     ----------
     size : from the first line of the transform on, zero beyond, shape (..., frequency)
-    length : of the transform
+    length : length of the transform
     """
     lines = size.shape[-1]
     sizes = np.zeros((*size.shape[:-1], length // 2 + 1))
@@ -34,11 +34,11 @@ def least_phase(size: Array, length: int) -> ComplexArray:
     return np.asarray(size * np.exp(1j * phase))
 
 
-def between(at: Array, known_at: Array, values: Numbers) -> Numbers:
+def between(wanted: Array, known_at: Array, values: Numbers) -> Numbers:
     """Values (..., known) at further points, smooth: level at those that are known."""
-    number = np.clip(np.searchsorted(known_at, at) - 1, 0, known_at.size - 2)
+    number = np.clip(np.searchsorted(known_at, wanted) - 1, 0, known_at.size - 2)
     step = known_at[number + 1] - known_at[number]
-    part = np.clip((at - known_at[number]) / step, 0.0, 1.0)
+    part = np.clip((wanted - known_at[number]) / step, 0.0, 1.0)
     part = part**2 * (3.0 - 2.0 * part)
     result: Numbers = (1.0 - part) * values[..., number] + part * values[..., number + 1]
     return result

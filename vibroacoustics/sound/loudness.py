@@ -15,12 +15,12 @@ from .ingredients import HALF_BAND, Ingredients
 from .recorded import NarrowBands
 from .zwicker import SoundField, core_loudness, specific_loudness, total_loudness
 
-CENTRES_HZ: Final[Array] = np.array([one.middle_hz for one in bands_between(3, 25.0, 12500.0)])
+CENTRES_HZ: Final[Array] = np.array([band.middle_hz for band in bands_between(3, 25.0, 12500.0)])
 """Exact midband frequencies of the third octaves from 25 Hz to 12.5 kHz."""
 _ACROSS: Final = 20
 _SILENT_DB: Final = -60.0
 _QUIET_SONE: Final = 0.1
-"""Below it sharpness is not judged."""
+"""Loudness below which sharpness is not judged."""
 _BARK: Final[Array] = np.arange(1, 241) / 10.0
 """Critical-band rates at which sharpness reads the specific loudness, Bark (DIN 45692)."""
 _SHARPNESS_WEIGHT: Final[Array] = _BARK * np.where(
@@ -31,7 +31,7 @@ _SHARPNESS_WEIGHT: Final[Array] = _BARK * np.where(
 
 @dataclass(frozen=True)
 class Loudness:
-    """What an ear makes of a sound.
+    """Loudness and sharpness of a sound.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ def loudness_of(parts: Sequence[Ingredients], field: SoundField = "free") -> lis
 
     Parameters
     ----------
-    parts : of `ingredients`
+    parts : result of `ingredients`
     field : `free`, from the front, or `diffuse`, as at a listener in a room
 
     Raises
@@ -71,17 +71,17 @@ def recorded_loudness(bands: NarrowBands) -> Loudness:
 
     Parameters
     ----------
-    bands : of `narrow_bands`
+    bands : result of `narrow_bands`
 
     Raises
     ------
     ParameterError
-        As `loudness_of`.
+        See `loudness_of`.
     """
     audible = bands.frequency_hz > 0.0
     square = bands.even_mean_square[audible] @ filter_gain(bands.frequency_hz[audible])
-    (one,) = loudness_of_thirds(square[None])
-    return one
+    (loudness,) = loudness_of_thirds(square[None])
+    return loudness
 
 
 def loudness_of_thirds(mean_square: Array, field: SoundField = "free") -> list[Loudness]:
@@ -90,12 +90,12 @@ def loudness_of_thirds(mean_square: Array, field: SoundField = "free") -> list[L
     Parameters
     ----------
     mean_square : in the bands `CENTRES_HZ`, shape (sound, band), Pa²
-    field : as of `loudness_of`
+    field : sound field, see `loudness_of`
 
     Raises
     ------
     ParameterError
-        As `loudness_of`.
+        See `loudness_of`.
     """
     core = core_loudness(thirds_db(mean_square), field)
     total = total_loudness(core)
@@ -127,14 +127,14 @@ def sharpness(core: Array, loudness_sone: Array) -> Array:
 
 
 def filter_gain(frequency_hz: Array) -> Array:
-    """What third-octave filters let through of powers, shape (frequency, band).
+    """Return the gain of third-octave filters for powers, shape (frequency, band).
 
     Butterworth's of third order, 1/(1 + ((f/f_m - f_m/f)/b)^6), with b such that white noise comes
     out with the power of its band; a tone near an edge counts in two bands, as it does in a meter.
 
     Parameters
     ----------
-    frequency_hz : above zero
+    frequency_hz : frequency above zero, shape (frequency,)
     """
     ratio = frequency_hz[:, None] / CENTRES_HZ
     width = (HALF_BAND - 1.0 / HALF_BAND) * np.sinc(1.0 / 6.0)

@@ -22,7 +22,7 @@ class MachineRun:
 
     Attributes
     ----------
-    results : of the run
+    results : results of the run
     key : speed in rpm and option at which the machine runs beside others
     common : names of the receivers that all machines have
     transmission : from its loads to its receivers

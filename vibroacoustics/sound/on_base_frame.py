@@ -23,12 +23,12 @@ Lined = dict[str, complex]
 
 @dataclass(frozen=True)
 class FrameSound:
-    """What a base frame changes of the sound of the machines on it.
+    """Change of the sound of the machines on a base frame.
 
     Attributes
     ----------
     frame : the machines on it
-    runs : of the machines on the floor, by name
+    runs : runs of the machines on the floor, by name
     """
 
     frame: MachinesOnFrame
@@ -47,7 +47,7 @@ class FrameSound:
 
         Parameters
         ----------
-        name : of the machine
+        name : name of the machine
         on_floor : complex peaks by common receiver and name of the line, Pa
         """
         run = self.runs[name]
@@ -93,7 +93,7 @@ def on_base_frame(study: Study, runs: Mapping[str, MachineRun]) -> FrameSound | 
     Parameters
     ----------
     study : with tables of several machines
-    runs : of the machines, by name
+    runs : runs of the machines, by name
     """
     settings = study.base_frame
     if settings is None:

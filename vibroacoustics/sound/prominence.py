@@ -49,12 +49,13 @@ class _Bands(NamedTuple):
 
     Attributes
     ----------
-    number : of the lines between `LOWEST_PROMINENT_TONE_HZ` and `HIGHEST_TONE_HZ`, shape (tone,)
+    number : number of the lines between `LOWEST_PROMINENT_TONE_HZ` and `HIGHEST_TONE_HZ`, shape
+        (tone,)
     belongs : whether a weaker tone belongs to a stronger one, shape (stronger, weaker)
     line : 1 for a line in the critical band, and those below and above, shape (3, line, tone)
     noise : part of a third octave in these bands, shape (3, band, tone)
-    threshold_db : of hearing, shape (tone,)
-    criterion_db : of tone-to-noise and prominence ratio, shape (2, tone)
+    threshold_db : threshold of hearing, shape (tone,)
+    criterion_db : criterion of tone-to-noise and prominence ratio, shape (2, tone)
     """
 
     number: NDArray[np.intp]
@@ -72,7 +73,7 @@ def judged_tones(frequency_hz: Array, square: Array, noise: Array, centre_hz: Ar
 
     Parameters
     ----------
-    frequency_hz : of the lines, not a number where there is none, shape (line,)
+    frequency_hz : frequency of the lines, not a number where there is none, shape (line,)
     square : mean squares of the lines, shape (..., line), Pa²
     noise : mean squares of the noise in third octaves, shape (..., band), Pa²; within a band it is
         even over the logarithm of frequency

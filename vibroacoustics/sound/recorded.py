@@ -17,10 +17,11 @@ from .tonality import TonalSpectrum
 SEGMENT_S: Final = 4.0
 """Lines of 0.25 Hz, less than 1 % of the lowest tone."""
 SEGMENTS: Final = 3
-"""Of a short recording: fewer would leave single lines of noise that stand out like tones."""
+"""Segments of a short recording: fewer would leave single lines of noise that stand out like
+tones."""
 SHORTEST_S: Final = 3.0
 STANDS_OUT: Final = 4.0
-"""Of a tone's lines over the median of its critical band, as powers: 6 dB."""
+"""Power of a tone's lines over the median of its critical band: 6 dB."""
 WIDEST: Final = 0.15
 """Width of a discrete tone over that of its critical band."""
 OUTSIDE: Final = 0.01
@@ -35,9 +36,10 @@ FOOT: Final = 0.01
 """Power of a peak over that of the loudest in its critical band: a weaker one may be its foot in
 the segments that reach beyond the recording, and keeps its mean."""
 _HOPS: Final = 8
-"""Per segment: the squares of windows (harmonics up to the sixth) then add up to a constant."""
+"""Hops per segment: the squares of windows (harmonics up to the sixth) then add up to a
+constant."""
 _FADE_S: Final = 0.05
-"""At both ends, where a step would be heard as noise of all frequencies."""
+"""Fade at both ends, where a step would be heard as noise of all frequencies."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,7 @@ class NarrowBands:
     ----------
     frequency_hz : shape (line,)
     segments : mean square, shape (segment, line), Pa²; of the samples within the recording
-    share : of each segment's squared window that is within the recording, shape (segment,)
+    share : share of each segment's squared window that is within the recording, shape (segment,)
     """
 
     frequency_hz: Array
@@ -82,7 +84,7 @@ def narrow_bands(pressure_pa: Array, sample_rate_hz: float) -> NarrowBands:
     Parameters
     ----------
     pressure_pa : shape (sample,)
-    sample_rate_hz : of the recording
+    sample_rate_hz : sample rate of the recording
 
     Raises
     ------
@@ -120,7 +122,7 @@ def recorded_spectrum(bands: NarrowBands) -> TonalSpectrum:
 
     Parameters
     ----------
-    bands : of `narrow_bands`
+    bands : result of `narrow_bands`
     """
     hertz, square = bands.frequency_hz, bands.mean_square
     peaks, first, last = _tone_lines(hertz, square)
@@ -141,19 +143,19 @@ def recorded_spectrum(bands: NarrowBands) -> TonalSpectrum:
     level = total[last] - total[first]
     share, swing_db = np.ones_like(level), np.zeros_like(level)
     for number in np.flatnonzero(level > FOOT * _loudest_near(hertz[peaks], level)):
-        course = _course(bands, peaks[number], first[number], last[number])
-        level[number], share[number], swing_db[number] = course
+        history = _history(bands, peaks[number], first[number], last[number])
+        level[number], share[number], swing_db[number] = history
     return TonalSpectrum(hertz[peaks], level, noise, names, share, swing_db)
 
 
 def _loudest_near(hertz: Array, square: Array) -> Array:
     """Mean square of the loudest tone in the critical band of each, shape (tone,)."""
-    bands = [critical_band(float(one)) for one in hertz]
+    bands = [critical_band(float(frequency)) for frequency in hertz]
     near = [square[(hertz >= band.lower) & (hertz <= band.upper)] for band in bands]
-    return np.array([np.max(one) for one in near])
+    return np.array([np.max(levels) for levels in near])
 
 
-def _course(bands: NarrowBands, peak: int, first: int, last: int) -> tuple[float, float, float]:
+def _history(bands: NarrowBands, peak: int, first: int, last: int) -> tuple[float, float, float]:
     """Mean square of a tone while it sounds, share of the time, and its swing in dB.
 
     Segments that are louder than the loudest in which the tone stands out are not its own.

@@ -13,7 +13,7 @@ from .ingredients import HALF_BAND, Ingredients, SoundBands, SoundLines
 
 SAMPLE_RATE_HZ: Final = 48000
 SEED: Final = 1
-"""Of the noise: the same for all options, so that what differs is the option."""
+"""Seed of the noise: the same for all options, so that what differs is the option."""
 SHORTEST_S: Final = 1.0
 LONGEST_S: Final = 600.0
 _NEAR: Final = 20
@@ -53,10 +53,10 @@ def rendered(
 
     Parameters
     ----------
-    parts : lines and noise; what lies above 0.45 of the sample rate is left out
-    samples : of the sound, see `whole_revolutions`
-    sample_rate_hz : of the sound
-    seed : of the phases of the noise
+    parts : lines and noise; those above 0.45 of the sample rate are omitted
+    samples : number of samples of the sound, see `whole_revolutions`
+    sample_rate_hz : sample rate of the sound
+    seed : seed of the phases of the noise
     """
     tones = rendered_lines(parts.lines, samples, sample_rate_hz)
     apart_hz = parts.lines.frequency_hz
@@ -85,15 +85,15 @@ def rendered_noise(
 ) -> Array:
     """Noise with the mean square of each band over its duration, shape (sample,), Pa.
 
-    Lines of one transform, of random phase; the sound repeats without a seam. Within a band the
+    Lines of one transform, of random phase; the sound repeats without a step. Within a band the
     power per hertz goes with 1/(f √A(f)), A = gain of the A-weighting of powers: so its A-weighted
-    mean square is that of all of it at the middle of the band, as levels count it.
+    mean square is that of all of it at midband, as levels count it.
 
     Parameters
     ----------
     bands : third octaves
-    samples, sample_rate_hz : of the sound
-    seed : of the phases; those of a frequency do not hang on the bands
+    samples, sample_rate_hz : number of samples and sample rate of the sound
+    seed : seed of the phases; those of a frequency do not depend on the bands
     apart_hz : frequencies of tones, which the noise leaves free
     """
     hertz = fft.rfftfreq(samples, 1.0 / sample_rate_hz)

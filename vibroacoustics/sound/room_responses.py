@@ -10,7 +10,7 @@ from scipy import fft
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import AIR_IMPEDANCE_PA_S_PER_M, SPEED_OF_SOUND_M_PER_S
 from ..levels.bands import bands_between
-from ..levels.in_room import RoomWays
+from ..levels.in_room import RoomPaths
 from ..levels.sound_power import hemisphere_area_m2
 from .ingredients import HALF_BAND
 from .least_phase import Numbers, between, least_phase
@@ -19,41 +19,41 @@ from .rendering import SAMPLE_RATE_HZ, SEED
 FADE: Final = HALF_BAND**2
 """Highest frequency over that of the radiation: a third octave, in which the response fades out."""
 FADING_S: Final = 0.05
-"""After the record: what filters delay is not cut off."""
+"""Time after the record: what filters delay is not cut off."""
 LOWEST_HZ: Final = (10.0, 20.0)
 """Nothing below the first, all from the second on: what is computed of a room at a few hertz over
 the square of the frequency is rounding."""
 RISE_S: Final = 1e-3
 """Ahead of the direct sound, within which noise and pulse may begin."""
 _DECAY: Final = 3.0 * np.log(10.0)
-"""Of the pressure within a reverberation time."""
+"""Decay of the pressure within a reverberation time."""
 _DECAYS_FROM_HZ: Final = 125.0
 _BLOCK: Final = 4096
 _ROUNDS: Final = 8
 _MOST_GAIN: Final = 2.0
-"""Over that without correlation: bands that need nearly none get next to none."""
+"""Largest gain over that without correlation: bands that need nearly none get next to none."""
 
 
 @dataclass(frozen=True)
-class WaysOfRoom:
-    """How a machine's rigid motions come to listeners as sound.
+class PathsOfRoom:
+    """Paths of a machine's rigid motions to listeners as sound.
 
     Attributes
     ----------
     pressure : per velocity, of frequencies to the highest one: at the listeners by waves, then at
         the positions on a hemisphere, shape (place, motion, frequency), Pa s/m
-    ways : from these to mean squares at the listeners
+    paths : from these to mean squares at the listeners
     direct_per_power : mean square of direct sound per power, of frequencies, (listener, frequency),
         Pa²/W
     distance_m : from the machine, shape (listener,)
-    nearest_m : of the positions on the hemisphere from the machine's wall, or less
+    nearest_m : distance of the nearest position on the hemisphere from the machine's wall, or less
     decay_s : reverberation time, of frequencies
     record_s : duration of the waves
-    highest_hz : of the radiation
+    highest_hz : highest frequency of the radiation
     """
 
     pressure: Callable[[Array], ComplexArray]
-    ways: RoomWays
+    paths: RoomPaths
     direct_per_power: Callable[[Array], Array]
     distance_m: Array
     nearest_m: float
@@ -62,21 +62,21 @@ class WaysOfRoom:
     highest_hz: float
 
 
-def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Array:
+def room_responses(room: PathsOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Array:
     """Pressure at listeners per acceleration, (listener, motion, sample), Pa/(m/s²) or Pa/(rad/s²).
 
-    Of samples, so that the convolution of a sampled acceleration with it is the pressure. Below the
-    crossover the waves; in it and above direct sound, a pulse at its time of travel, and noise that
-    decays with the reverberation time from then on. The noise is a sum of those of all positions on
-    the hemisphere, so that motions together have the power that they have there. Both are changed
-    until the response has in each third octave the mean square of both methods. The square roots of
-    the methods' shares are filters of least phase, so that nothing sounds before it can: they turn
-    the phase of the waves, alike at all listeners and for all motions.
+    They are samples, so that the convolution of a sampled acceleration with it is the pressure.
+    Below the crossover the waves; in it and above direct sound, a pulse at its time of travel, and
+    noise that decays with the reverberation time from then on. The noise is a sum of those of all
+    positions on the hemisphere, so that motions together have the power that they have there. Both
+    are changed until the response has in each third octave the mean square of both methods. The
+    square roots of the methods' shares are filters of least phase, so that nothing sounds before it
+    can: they turn the phase of the waves, alike at all listeners and for all motions.
 
     Parameters
     ----------
-    room : ways of the machine's sound
-    sample_rate_hz : of acceleration and pressure
+    room : paths of the machine's sound
+    sample_rate_hz : sample rate of acceleration and pressure
     """
     decaying, fading = (round(time * sample_rate_hz) for time in (room.record_s, FADING_S))
     samples = decaying + fading
@@ -87,9 +87,9 @@ def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Ar
         _decaying(room, number, decaying, length, hertz) for number in range(room.distance_m.size)
     ]
     parts = _received(room, hertz, np.array(noise))
-    waves, others, square = _weighed(room, parts, hertz, length)
+    waves, others, square = _weighted(room, parts, hertz, length)
     spectrum = np.zeros((*waves.shape[:-1], length // 2 + 1), dtype=complex)
-    in_crossover = waves * least_phase(np.sqrt(1.0 - room.ways.wave_share(hertz)), length)
+    in_crossover = waves * least_phase(np.sqrt(1.0 - room.paths.wave_share(hertz)), length)
     gate = _gate(room.distance_m / SPEED_OF_SOUND_M_PER_S, samples, length, sample_rate_hz)
     scaled = _scaled(others, (waves, in_crossover), square, hertz, gate)
     spectrum[..., 1 : hertz.size + 1] = waves + scaled
@@ -99,7 +99,7 @@ def room_responses(room: WaysOfRoom, sample_rate_hz: int = SAMPLE_RATE_HZ) -> Ar
 
 
 def _decaying(
-    room: WaysOfRoom, listener: int, samples: int, length: int, hertz: Array
+    room: PathsOfRoom, listener: int, samples: int, length: int, hertz: Array
 ) -> ComplexArray:
     """Spectra of decaying noise of unit power, one a position, shape (position, frequency).
 
@@ -124,7 +124,7 @@ def _decaying(
 
 
 class _Received(NamedTuple):
-    """What comes of a unit acceleration before the shares of the methods.
+    """Response to a unit acceleration before the shares of the methods.
 
     Attributes
     ----------
@@ -140,8 +140,8 @@ class _Received(NamedTuple):
     square: Array
 
 
-def _received(room: WaysOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
-    """In blocks of frequencies; above the radiation's highest one as at that."""
+def _received(room: PathsOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
+    """Received sound in blocks of frequencies; above the radiation's highest one as at that."""
     parts = []
     for start in range(0, hertz.size, _BLOCK):
         block = slice(start, start + _BLOCK)
@@ -149,28 +149,30 @@ def _received(room: WaysOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
     return _Received(*(np.concatenate(each, axis=-1) for each in zip(*parts, strict=True)))
 
 
-def _of_block(room: WaysOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
-    ways, at = room.ways, np.minimum(hertz, room.highest_hz)
-    per_acceleration = room.pressure(at) / (2j * np.pi * at)
-    waves, positions = np.split(per_acceleration, [ways.listeners])
+def _of_block(room: PathsOfRoom, hertz: Array, noise: ComplexArray) -> _Received:
+    paths, bounded_hz = room.paths, np.minimum(hertz, room.highest_hz)
+    per_acceleration = room.pressure(bounded_hz) / (2j * np.pi * bounded_hz)
+    waves, positions = np.split(per_acceleration, [paths.listeners])
     by_motion = np.moveaxis(np.abs(per_acceleration) ** 2, 1, 0)
-    square = np.moveaxis(ways.at_listeners(by_motion, at), 1, 0)
-    turned = positions * np.exp(2j * np.pi * at * room.nearest_m / SPEED_OF_SOUND_M_PER_S)
-    return _Received(waves, np.einsum("pmf,lpf->lmf", turned, noise), ways.power(by_motion), square)
+    square = np.moveaxis(paths.at_listeners(by_motion, bounded_hz), 1, 0)
+    turned = positions * np.exp(2j * np.pi * bounded_hz * room.nearest_m / SPEED_OF_SOUND_M_PER_S)
+    return _Received(
+        waves, np.einsum("pmf,lpf->lmf", turned, noise), paths.power(by_motion), square
+    )
 
 
-def _weighed(
-    room: WaysOfRoom, parts: _Received, hertz: Array, length: int
+def _weighted(
+    room: PathsOfRoom, parts: _Received, hertz: Array, length: int
 ) -> tuple[ComplexArray, ComplexArray, Array]:
     """Waves, direct sound with noise, mean squares of all, each (listener, motion, frequency).
 
     They fade out below 20 Hz and above the highest frequency of the radiation.
     """
-    ways, at = room.ways, np.minimum(hertz, room.highest_hz)
+    paths, bounded_hz = room.paths, np.minimum(hertz, room.highest_hz)
     fade = _faded(hertz, room.highest_hz)
-    share, direct = ways.wave_share(at), room.direct_per_power(at)
-    reflected = np.maximum(ways.per_power(at) - direct, 0.0)
-    per_position = hemisphere_area_m2(ways.radius_m) / AIR_IMPEDANCE_PA_S_PER_M / _positions(room)
+    share, direct = paths.wave_share(bounded_hz), room.direct_per_power(bounded_hz)
+    reflected = np.maximum(paths.per_power(bounded_hz) - direct, 0.0)
+    per_position = hemisphere_area_m2(paths.radius_m) / AIR_IMPEDANCE_PA_S_PER_M / _positions(room)
     travel_s = room.distance_m[:, None, None] / SPEED_OF_SOUND_M_PER_S
     above = (1.0 - share) * fade**2
     pulse = least_phase(np.sqrt(above * direct[:, None] * parts.power), length)
@@ -181,7 +183,7 @@ def _weighed(
 
 
 def _faded(hertz: Array, highest_hz: float) -> Array:
-    """From 0 to 1 over the lowest octave, to 0 again above the highest frequency."""
+    """Fade from 0 to 1 over the lowest octave, to 0 again above the highest frequency."""
     rise = np.log(hertz / LOWEST_HZ[0]) / np.log(LOWEST_HZ[1] / LOWEST_HZ[0])
     fall = np.log(hertz / highest_hz) / np.log(FADE)
     return np.asarray(
@@ -190,9 +192,9 @@ def _faded(hertz: Array, highest_hz: float) -> Array:
     )
 
 
-def _positions(room: WaysOfRoom) -> int:
-    """How many there are on the hemisphere."""
-    return len(room.pressure(np.array([room.highest_hz]))) - room.ways.listeners
+def _positions(room: PathsOfRoom) -> int:
+    """Number of positions on the hemisphere."""
+    return len(room.pressure(np.array([room.highest_hz]))) - room.paths.listeners
 
 
 def _scaled(
@@ -257,10 +259,10 @@ def _gate(arrival_s: Array, samples: int, length: int, sample_rate_hz: int) -> A
 
     Parameters
     ----------
-    arrival_s : of the direct sound, shape (listener,)
-    samples : of a response
-    length : of the transform
-    sample_rate_hz : of the samples
+    arrival_s : arrival time of the direct sound, shape (listener,)
+    samples : number of samples of a response
+    length : length of the transform
+    sample_rate_hz : sample rate of the samples
     """
     number = np.arange(length)
     time_s = np.where(number < (length + samples) // 2, number, number - length) / sample_rate_hz

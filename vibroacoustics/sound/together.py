@@ -28,8 +28,8 @@ def machine_line(name: str, frequency_hz: float, machines: Iterable[str]) -> Mac
 
     Parameters
     ----------
-    name : of `line_name`
-    frequency_hz : of the line
+    name : name by `line_name`
+    frequency_hz : frequency of the line
     machines : names of all machines
     """
     machine = next(each for each in machines if name.startswith(line_name(each, "")))
@@ -74,8 +74,8 @@ def rendered_together(
 
     Parameters
     ----------
-    sound : of `together`
-    speeds_rpm : of the machines
+    sound : result of `together`
+    speeds_rpm : speeds of the machines
     duration_s : wanted
     """
     common_rpm = gcd(*(round(_PER_RPM * speed) for speed in speeds_rpm)) / _PER_RPM

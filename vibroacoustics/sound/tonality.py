@@ -29,11 +29,11 @@ class TonalSpectrum:
 
     Attributes
     ----------
-    frequency_hz, mean_square : of the tones, shape (tone,), Pa²
+    frequency_hz, mean_square : frequency and mean square of the tones, shape (tone,), Pa²
     noise : mean square of the noise between two frequencies, without the tones, Pa²
-    name : of the tones
-    share, swing_db : of the time that each tone sounds, and how its level swings meanwhile, shape
-        (tone,); computed tones are steady
+    name : name of the tones
+    share, swing_db : share of the time that each tone sounds, and how its level swings meanwhile,
+        shape (tone,); computed tones are steady
     """
 
     frequency_hz: Array
@@ -59,11 +59,11 @@ class Tone:
 
     Attributes
     ----------
-    name, frequency_hz : of the strongest line
+    name, frequency_hz : name and frequency of the strongest line
     level_db : with the weaker lines that belong to it, dB re 20 µPa
     noise_ratio_db : tone-to-noise ratio; infinite without noise
     prominence_db : prominence ratio; infinite without sound in the neighbouring bands
-    share : of the time that the strongest line sounds; the levels are those meanwhile
+    share : share of the time that the strongest line sounds; the levels are those meanwhile
     swing_db : level of the strongest line exceeded for 10 % of that time over that for 90 %
     """
 
@@ -101,7 +101,7 @@ def tonal_spectrum(parts: Ingredients) -> TonalSpectrum:
 
     Parameters
     ----------
-    parts : of `ingredients`
+    parts : result of `ingredients`
     """
     square = parts.bands.pressure_pa**2
     lower, upper = (parts.bands.centre_hz * edge for edge in (1.0 / HALF_BAND, HALF_BAND))
@@ -143,7 +143,7 @@ def tones(spectrum: TonalSpectrum) -> list[Tone]:
 
     Parameters
     ----------
-    spectrum : of `tonal_spectrum` or `recorded_spectrum`
+    spectrum : result of `tonal_spectrum` or `recorded_spectrum`
     """
     hertz = spectrum.frequency_hz
     judged = np.flatnonzero((hertz >= LOWEST_PROMINENT_TONE_HZ) & (hertz <= HIGHEST_TONE_HZ))

@@ -14,7 +14,7 @@ from ..base.vocabulary import stamped
 from ..levels.by_source import membership
 from ..levels.measured_points import BASELINE_BANDS, MIDDLE_HZ
 from .audibility import tonal_adjustment_db
-from .ingredients import DUST
+from .ingredients import ROUNDING_SHARE
 from .predicted_audibility import predicted_audibility
 from .prominence import judged_tones
 
@@ -26,9 +26,10 @@ class ToneSpectra(NamedTuple):
 
     Attributes
     ----------
-    frequency_hz : of the lines, not a number where there is none, shape (speed, line)
+    frequency_hz : frequency of the lines, not a number where there is none, shape (speed, line)
     square : mean squares of the lines, shape (..., speed, option, receiver, line), Pa²
-    noise : of the noise in `BASELINE_BANDS`, shape (..., speed, option, receiver, band), Pa²
+    noise : mean square of the noise in `BASELINE_BANDS`, shape (..., speed, option, receiver,
+        band), Pa²
     """
 
     frequency_hz: Array
@@ -49,7 +50,7 @@ class ToneSpectra(NamedTuple):
 
         Parameters
         ----------
-        names : of the lines, all orders that were measured among them
+        names : names of the lines, all orders that were measured among them
         orders : that were measured
         order_db : their levels, not a number where not measured, (..., speed, option, receiver,
             order)
@@ -63,7 +64,7 @@ class ToneSpectra(NamedTuple):
         measured = band_square(band_db)
         replaced = self._replace(square=square)
         noise = measured - replaced.in_bands()
-        noise = np.where(noise > DUST * measured, noise, 0.0)
+        noise = np.where(noise > ROUNDING_SHARE * measured, noise, 0.0)
         return ToneSpectra(
             self.frequency_hz, square, np.where(np.isnan(band_db), self.noise, noise)
         )
@@ -80,7 +81,7 @@ def noise_square(noise_db: Array, unmodelled_db: Array) -> Array:
     Parameters
     ----------
     noise_db : levels of the sources' noise, shape (..., speed, option, receiver, band)
-    unmodelled_db : of unmodelled noise, the same shape
+    unmodelled_db : level of unmodelled noise, the same shape
     """
     return np.asarray(band_square(noise_db) + band_square(unmodelled_db))
 
@@ -116,7 +117,7 @@ def tone_probabilities(excess_db: Array) -> dict[str, Array]:
 
     Parameters
     ----------
-    excess_db : of tones, shape (..., line)
+    excess_db : excess of tones, shape (..., line)
 
     Returns
     -------

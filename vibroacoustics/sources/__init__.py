@@ -1,1 +1,1 @@
-"""Who drives the machine from within: gas, keys, motor."""
+"""Sources within the machine: gas, keys, motor."""

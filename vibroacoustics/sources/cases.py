@@ -41,7 +41,7 @@ class MovingParts(Source):
 
 
 def cases_of(study: Study, progress: Progress) -> dict[CaseKey, Case]:
-    """Every speed with every option, with the values as given."""
+    """Return every speed with every option, with nominal values."""
     operation = study.operation
     supplies = operation.supply_frequency_hz or (None,) * len(operation.speed_rpm)
     points = list(product(zip(operation.speed_rpm, supplies, strict=True), study.options))
@@ -74,13 +74,13 @@ def _revolution(
 
 
 def added_by(option: Option, machine: Machine, revolution: Revolution) -> Added:
-    """What an option adds, with the mass of the bodies that it attaches.
+    """Return what an option adds, with the mass of the bodies that it attaches.
 
     Parameters
     ----------
     option : whose shapes are checked
     machine : with the option built into it
-    revolution : of the machine
+    revolution : revolution of the machine
 
     Raises
     ------
@@ -178,7 +178,7 @@ def wrench_lines(
     speed, port = case.revolution.rotation.speed_rad_per_s, case.machine.mechanism_port
 
     def spectrum(wrenches: Collection[Wrench]) -> ComplexArray:
-        each = [order_spectra(np.concatenate(one), speed, highest_order) for one in wrenches]
+        each = [order_spectra(np.concatenate(wrench), speed, highest_order) for wrench in wrenches]
         return np.asarray(np.sum(each, axis=0))
 
     return {
@@ -199,14 +199,14 @@ def without_time_series(case: Case, loads: Mapping[str, Loads]) -> tuple[Case, d
 
 
 def check_revolution(revolution: Revolution, samples: int) -> None:
-    """Refuse a revolution whose courses are not over the crank angles.
+    """Refuse a revolution whose time histories are not over the crank angles.
 
     Raises
     ------
     ValueError
-        Names the course.
+        Names the time history.
     """
-    _check_course("rotation", revolution.rotation.speed_rad_per_s, (samples,))
+    _check_history("rotation", revolution.rotation.speed_rad_per_s, (samples,))
     _check_wrenches(revolution.wrenches, samples)
 
 
@@ -221,7 +221,7 @@ def check_added(added: Added, samples: int) -> None:
     if not isfinite(added.figures.get(ADDED_MASS, float("nan"))):
         raise ValueError(f"figures: need a finite {ADDED_MASS}")
     for part in added.parts:
-        _check_course(part.source, part.position_m, (3, samples))
+        _check_history(part.source, part.position_m, (3, samples))
 
 
 def check_loads(loads: Loads, samples: int) -> None:
@@ -242,10 +242,10 @@ def check_loads(loads: Loads, samples: int) -> None:
 
 def _check_wrenches(wrenches: Mapping[str, Wrench], samples: int) -> None:
     for name, of_source in wrenches.items():
-        for course in of_source:
-            _check_course(name, course, (3, samples))
+        for history in of_source:
+            _check_history(name, history, (3, samples))
 
 
-def _check_course(name: str, course: Array | ComplexArray, shape: Iterable[int]) -> None:
-    if course.shape != tuple(shape):
-        raise ValueError(f"{name}: shape {course.shape}, must be {tuple(shape)}")
+def _check_history(name: str, history: Array | ComplexArray, shape: Iterable[int]) -> None:
+    if history.shape != tuple(shape):
+        raise ValueError(f"{name}: shape {history.shape}, must be {tuple(shape)}")

@@ -22,14 +22,15 @@ def curves(
     speed_rpm: float | None = None,
     option: str = REFERENCE_OPTION,
 ) -> xr.Dataset:
-    """What goes on inside a machine: pressures, films, friction, torques, critical speeds.
+    """Return inner curves of a machine: pressures, films, friction, torques, critical speeds.
 
     Parameters
     ----------
     study_or_machine : a study, whose sources have curves too; or a machine alone
     speed_rpm : mean over time; None for the study's first speed, or that of the machine's overall
         noise
-    option : of the study; a redesign changes the machine, another one what acts on the sources
+    option : option of the study; a redesign changes the machine, another one what acts on the
+        sources
 
     Returns
     -------

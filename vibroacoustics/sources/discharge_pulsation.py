@@ -36,7 +36,7 @@ class DischargePulsation(Source):
 
     @classmethod
     def why_not(cls, machine: Machine) -> str | None:
-        """There is no discharge tube between a block and its shell."""
+        """Say that there is no discharge tube between a block and its shell."""
         suspended = machine.suspension
         if suspended is None or suspended.discharge_tube is None:
             return "needs a block on springs with a discharge tube, suspension.discharge_tube"
@@ -79,10 +79,10 @@ def muffler_pressure_pa(
 
     Parameters
     ----------
-    flow_m3_per_s : through the valve by line, Q
-    angular_frequency : of the lines, rad/s
+    flow_m3_per_s : flow Q through the valve, shape (line,)
+    angular_frequency : angular frequency of the lines, shape (line,), rad/s
     gas : volume, density, speed of sound
-    area_m2 : of the tube
+    area_m2 : area of the tube
     """
     impedance = gas.density_kg_per_m3 * gas.speed_of_sound_m_per_s
     stored = 1j * angular_frequency * gas.muffler_volume_m3

@@ -109,7 +109,7 @@ class ScrollGasForces(Source):
 
 
 def _flows(case: Case, cycle: ScrollGasCycle, highest: int) -> dict[Port, ComplexArray]:
-    """Into dome and annulus, where the gas has inertia and the machine has the tables."""
+    """Flows into dome and annulus, where the gas has inertia and the machine has the tables."""
     machine, flows = case.machine, dict[Port, ComplexArray]()
     if cycle.port_flow_kg_per_s is None:
         return flows
@@ -182,7 +182,7 @@ def gas_cycle(machine: Machine, shared: Shared, speed_rpm: float) -> ScrollGasCy
     Raises
     ------
     ParameterError, SolverError
-        As `steady_opening`.
+        See `steady_opening`.
     """
     wraps, gas = machine.table(ScrollWraps), machine.table(ScrollGas)
     tables = (machine.table(table) for table in gas_tables(machine).values())
@@ -201,18 +201,18 @@ def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> dict[Port,
     Parameters
     ----------
     machine : with wraps and gas
-    speed_rpm : of the steady running
+    speed_rpm : speed of the steady running
     angle : shape (times,), rad
 
     Raises
     ------
     ParameterError, SolverError
-        As `steady_opening`.
+        See `steady_opening`.
     """
     cycle = gas_cycle(machine, Shared(), speed_rpm)
     samples = cycle.crank_angle.size
-    at, part = np.divmod(np.mod(angle, 2.0 * np.pi) * samples / (2.0 * np.pi), 1.0)
-    before = at.astype(int) % samples
+    sample, part = np.divmod(np.mod(angle, 2.0 * np.pi) * samples / (2.0 * np.pi), 1.0)
+    before = sample.astype(int) % samples
     after = (before + 1) % samples
     return {
         port: (1.0 - part) * load[:, before] + part * load[:, after]
@@ -243,7 +243,7 @@ def gas_tables(machine: Machine) -> Mapping[str, type[Parameters]]:
 
 
 def _why_no_opening(machine: Machine) -> str | None:
-    """Why the machine's pockets cannot open with inertia; none where they can, or do not."""
+    """Say why the machine's pockets cannot open with inertia; none where they can, or do not."""
     gas = machine.table(ScrollGas)
     if not gas.opens_with_inertia:
         return None

@@ -76,7 +76,7 @@ class OldhamKeyForces(Source):
     needs: ClassVar[type[Capability]] = OldhamRing
     drives_shell: ClassVar[bool] = True
     revolutions: int = Field(default=8, ge=1, le=1000)
-    """Over which the forces are taken."""
+    """Revolutions over which the forces are taken."""
 
     @classmethod
     def tables_read(cls, machine: Machine) -> Mapping[str, type[Parameters]]:
@@ -106,9 +106,9 @@ class OldhamKeyForces(Source):
             lost = contact_loss_speed_rpm(keys, carried, ring.stroke_m, moment)
             figures["key_contact_lost_above_rpm"] = lost
         for further in case.added.rings:
-            twin, seen = self._further(case, further)
+            twin, further_figures = self._further(case, further)
             spectra.append(twin)
-            figures |= seen
+            figures |= further_figures
         of_rings, torques, noise = zip(*spectra, strict=True)
         return Loads(
             lines=summed(of_rings),
@@ -119,8 +119,8 @@ class OldhamKeyForces(Source):
 
     def curves(self, case: Case) -> Iterable[Curve]:
         """Forces on the keys of the machine's ring; see `oldham_key_curves`."""
-        one = self.model_copy(update={"revolutions": 1})
-        return oldham_key_curves(one._forces(case, _turning(case)))
+        short = self.model_copy(update={"revolutions": 1})
+        return oldham_key_curves(short._forces(case, _turning(case)))
 
     def _further(self, case: Case, ring: FurtherRing) -> tuple[_Spectra, dict[str, float]]:
         """Spectra and figures of the keys of a second ring, which no gas presses."""
@@ -141,9 +141,9 @@ class OldhamKeyForces(Source):
     def _forces(self, case: Case, ring: _Ring) -> KeyForces:
         """Simulated forces of one ring's keys, once for all cases that share them."""
         keys, numbers = ring.keys, (ring.mass_kg, ring.stroke_m)
-        courses = (ring.moment_n_m.tobytes(), ring.force.force_n.tobytes())
+        histories = (ring.moment_n_m.tobytes(), ring.force.force_n.tobytes())
         return case.shared(
-            ("keys", keys, *numbers, case.speed_rpm, self.revolutions, *courses),
+            ("keys", keys, *numbers, case.speed_rpm, self.revolutions, *histories),
             lambda: steady_key_forces(
                 keys,
                 *numbers,
@@ -179,7 +179,7 @@ def resolved_orders(signal: Array, highest: int) -> ComplexArray:
 
 
 def _turning(case: Case) -> _Ring:
-    """The machine's ring with the gas moment that presses its keys and what hangs on it."""
+    """The machine's ring with the gas moment that presses its keys and the parts on it."""
     ring = case.machine.require(OldhamRing)
     gas = gas_cycle(case.machine, case.shared, case.speed_rpm).self_rotation_moment_n_m
     moment, force = gas + case.added.on_scroll_n_m, case.added.on_ring or NOTHING_HUNG
@@ -198,18 +198,20 @@ def _spectra(
     ----------
     case : for the highest frequency
     ring : that made the forces
-    forces : of all four keys
+    forces : forces of all four keys
     on_parts : load on each part per unit of each resultant
     """
     highest = case.maximum_order
     resultants = key_resultants(forces, ring.keys.radius_m, ring.stroke_m)
-    mean, rest = split_periodic(resultants, forces.revolutions)
+    mean, fluctuation = split_periodic(resultants, forces.revolutions)
     torque_n_m = key_torque_n_m(forces, ring.stroke_m)
     torque = order_spectrum(split_periodic(torque_n_m, forces.revolutions)[0], highest)
-    torque[0] = 0.0  # all friction is left out of the mean
+    torque[0] = 0.0  # the mean holds no friction
     block = 2 * mean.shape[-1] if forces.revolutions > 1 else mean.shape[-1]
     highest_hz = case.maximum_frequency_hz
-    noise = Noise(on_parts, *spectral_density(rest, forces.sample_rate_hz, block, highest_hz))
+    noise = Noise(
+        on_parts, *spectral_density(fluctuation, forces.sample_rate_hz, block, highest_hz)
+    )
     orders = order_spectrum(mean, highest)
     if ring.force.from_housing and ring.force.force_n.size > 1:
         orders[0] -= resolved_orders(ring.force.force_n, highest)

@@ -87,14 +87,15 @@ def _tone(line: int, turns: int, frequency_hz: float, loads: PortLoads) -> Tone:
 
 @register
 class InductionMotorForces(_AirGapForces):
-    """Of the capacitor motor: both its fields, the slots of stator and cage, eccentricity."""
+    """Forces of the capacitor motor: both its fields, the slots of stator and cage,
+    eccentricity."""
 
     kind: ClassVar[str] = "induction-motor-forces"
     label: ClassVar[str] = "magnetic forces of the motor"
     tables: ClassVar[Mapping[str, type[Parameters]]] = {"motor": CapacitorMotor, **_TABLES}
 
     def supply_frequency_hz(self, case: Case, before: Mapping[str, Loads]) -> float:
-        """As of the motor's torque."""
+        """Supply frequency of the motor's torque."""
         mean = float(total_torque_n_m(before.values(), case.maximum_order)[0].real)
         return supply_frequency_hz(case.machine.table(CapacitorMotor), case.speed_rpm, mean)
 
@@ -112,9 +113,9 @@ class InductionMotorForces(_AirGapForces):
 
 @register
 class SynchronousMotorForces(_AirGapForces):
-    """Of the synchronous motor: its magnets' fundamental, the stator's slots, eccentricity.
+    """Forces of the synchronous motor: its magnets' fundamental, the stator's slots, eccentricity.
 
-    All of them are orders of the shaft. The field of the currents is left out.
+    All of them are orders of the shaft. The field of the currents is neglected.
     """
 
     kind: ClassVar[str] = "synchronous-motor-forces"

@@ -34,7 +34,7 @@ class _MotorTorque(Source):
     drives_shell: ClassVar[bool] = True
 
     def supply_frequency_hz(self, case: Case, before: Mapping[str, Loads]) -> float:
-        """Of the supply on which the motor carries the mean load at the case's speed."""
+        """Frequency of the supply on which the motor carries the mean load at the case's speed."""
         mean = float(_load_torque(case, before)[0].real)
         return supply_frequency_hz(case.machine.table(CapacitorMotor), case.speed_rpm, mean)
 

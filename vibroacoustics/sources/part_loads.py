@@ -1,4 +1,4 @@
-"""What the sources of a scroll do to the parts in its shell, over crank angle."""
+"""Loads of the sources of a scroll on the parts in its shell, over crank angle."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -28,7 +28,7 @@ def gas_loads(
     Parameters
     ----------
     cycle : over uniform crank angles
-    height_m : of the middle of the wraps
+    height_m : mid-height of the wraps
     flanks_close : whether the flanks' contact takes the radial force, as with a drive bushing
 
     Returns
@@ -55,7 +55,7 @@ def key_resultants(forces: KeyForces, radius_m: float, stroke_m: float) -> Array
     Parameters
     ----------
     forces : in all four slots
-    radius_m : of the keys
+    radius_m : radius of the keys
     stroke_m : r, of the ring
     """
     standing, scroll = forces.on_housing_slots_n, forces.on_scroll_slots_n
@@ -71,7 +71,7 @@ def key_parts(standing: Port, orbiting: Port, height_m: float) -> dict[Port, Arr
     ----------
     standing : part with the slots that stand
     orbiting : part that the other two keys load
-    height_m : of the ring
+    height_m : height of the ring
     """
     loads: dict[Port, Array] = {
         part: np.zeros((len(WRENCH), KEY_FORCES)) for part in (standing, orbiting)
@@ -108,7 +108,7 @@ def motor_loads(
     ----------
     mechanism : the body with the motor
     roll_moment_n_m : on it, complex peaks, shape (line,)
-    torque_n_m : on the rotor, likewise
+    torque_n_m : torque on the rotor, complex peaks, shape (line,)
 
     Returns
     -------

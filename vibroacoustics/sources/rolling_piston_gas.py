@@ -15,7 +15,7 @@ from ..machine.source import Case, Source
 from ..mechanics.capabilities import Capability
 from ..mechanics.loads import Loads
 from ..mechanics.ports import Port
-from ..mechanics.rolling_piston import RollingCourses, RollingPiston
+from ..mechanics.rolling_piston import RollingHistories, RollingPiston
 from ..orders.spectrum import order_spectrum_at_speed
 from .part_loads import about_z
 
@@ -48,9 +48,9 @@ class RollingPistonGas(Source):
         The swing of the shaft's speed, which answers to the others, is that of the moving parts.
         """
         piston, highest = case.machine.require(RollingPiston), case.maximum_order
-        courses = courses_of(case)
-        block = spectrum(courses, courses.block_torque_n_m, highest)
-        motor = spectrum(courses, courses.motor_torque_n_m, highest)
+        histories = histories_of(case)
+        block = spectrum(histories, histories.block_torque_n_m, highest)
+        motor = spectrum(histories, histories.motor_torque_n_m, highest)
         mean = np.zeros(highest + 1, dtype=complex)
         mean[0] = motor[0]
         motor[0] = block[0] = 0.0
@@ -59,7 +59,7 @@ class RollingPistonGas(Source):
             STATOR: about_z(-motor),
         }
         if case.machine.has_table(DischargeDome):
-            flow = spectrum(courses, courses.discharge_m3_per_s, highest)
+            flow = spectrum(histories, histories.discharge_m3_per_s, highest)
             lines[_port(piston)] = flow[None]
         return Loads(lines=lines, shaft_torque_n_m=mean)
 
@@ -83,15 +83,15 @@ class VaneImpacts(Source):
         The couple of the two vanes of a twin is neglected.
         """
         piston, highest = case.machine.require(RollingPiston), case.maximum_order
-        courses = courses_of(case)
-        force = spectrum(courses, courses.landing_n, highest)
+        histories = histories_of(case)
+        force = spectrum(histories, histories.landing_n, highest)
         still = np.zeros_like(force)
         wrench = [force, still, still, still, piston.vane_height_m * force, still]
         return Loads(lines={BEARING_HOUSING: np.stack(wrench)})
 
 
-def courses_of(case: Case) -> RollingCourses:
-    """Courses of the case's machine, which sources and cases of a sample share.
+def histories_of(case: Case) -> RollingHistories:
+    """Time histories of the case's machine, which sources and cases of a sample share.
 
     Parameters
     ----------
@@ -101,20 +101,20 @@ def courses_of(case: Case) -> RollingCourses:
     piston = case.machine.require(RollingPiston)
     return case.shared(
         ("rolling piston", id(case.machine), case.speed_rpm, samples),
-        lambda: piston.courses(case.speed_rpm, samples),
+        lambda: piston.histories(case.speed_rpm, samples),
     )
 
 
-def spectrum(courses: RollingCourses, course: Array, highest: int) -> ComplexArray:
+def spectrum(histories: RollingHistories, history: Array, highest: int) -> ComplexArray:
     """Complex peaks at multiples of the mean shaft frequency, shape (highest + 1,).
 
     Parameters
     ----------
-    courses : with the speed
-    course : over its crank angles, shape (samples,)
+    histories : with the speed
+    history : over its crank angles, shape (samples,)
     highest : order
     """
-    return order_spectrum_at_speed(course, courses.speed_rad_per_s, highest)
+    return order_spectrum_at_speed(history, histories.speed_rad_per_s, highest)
 
 
 def _port(piston: RollingPiston) -> GasPort:

@@ -1,4 +1,4 @@
-"""Gas in the shell as a source: what the suction valve draws shakes it, and it the shell."""
+"""Gas in the shell as a source: the flow into the suction valve excites it, and it the shell."""
 
 from collections.abc import Mapping
 from typing import ClassVar, Final
@@ -19,7 +19,7 @@ from ..mechanics.ports import HOUSING
 from ..orders import order_spectrum
 
 MODES: Final = 20
-"""With one node across the axis; the last is at 60 times the first one's frequency."""
+"""Modes with one node across the axis; the last is at 60 times the first one's frequency."""
 
 
 @register
@@ -37,13 +37,13 @@ class GasInShell(Source):
 
     @classmethod
     def why_not(cls, machine: Machine) -> str | None:
-        """There is no gas round a block."""
+        """Say that there is no gas around a block."""
         if machine.suspension is None:
             return "needs a block on springs in a shell, suspension"
         return super().why_not(machine)
 
     def loads(self, case: Case, before: Mapping[str, Loads]) -> Loads:
-        """Force on the shell in the direction of the intake, at the middle of the gas."""
+        """Force on the shell in the direction of the intake, at mid-height of the gas."""
         gas = case.machine.table(ShellGas)
         shaft = 2.0 * np.pi * case.shaft_frequency_hz
         angular = shaft * np.arange(case.maximum_order + 1, dtype=float)
@@ -73,13 +73,13 @@ def wall_force_per_flow(
     Sum over the modes J1(κ r/a) cos θ of a closed cylinder (P. M. Morse, K. U. Ingard, Theoretical
     Acoustics, McGraw-Hill 1968, 9.2): only those with one node across the axis push the wall to
     one side, and of these only those alike along it. Below all modes it is jωρ r, the momentum of
-    the gas that gives way.
+    the compliant gas.
 
     Parameters
     ----------
     gas : size, speed of sound, density, place of the source
     angular_frequency : ω, shape (line,), rad/s
-    modes : of the sum
+    modes : number of modes of the sum
     """
     numbers = mode_numbers(modes)[:, None]
     at_wall = scipy.special.j1(numbers)

@@ -20,7 +20,7 @@ from .synchronous_motor.switching import Sideband, sidebands
 SUPPLY_TOLERANCE: Final = 1e-6
 """A synchronous motor turns with its supply."""
 SMALLEST_SHARE: Final = 1e-4
-"""Of the largest sideband: smaller ones are left out, 80 dB down."""
+"""Share of the largest sideband: smaller ones are neglected, 80 dB down."""
 
 
 @register
@@ -65,10 +65,10 @@ class SynchronousMotorTorque(Source):
         )
 
     def _check_supply(self, case: Case) -> None:
-        given, needed = case.supply_frequency_hz, self._electrical_hz(case)
-        if given is not None and abs(given - needed) > SUPPLY_TOLERANCE * needed:
+        stated_hz, needed = case.supply_frequency_hz, self._electrical_hz(case)
+        if stated_hz is not None and abs(stated_hz - needed) > SUPPLY_TOLERANCE * needed:
             raise ParameterError(
-                f"operation.supply_frequency_hz = {given:g} Hz: a synchronous motor turns at "
+                f"operation.supply_frequency_hz = {stated_hz:g} Hz: a synchronous motor turns at "
                 f"{case.speed_rpm:g} rpm on {needed:.6g} Hz alone; leave it out"
             )
 
@@ -78,7 +78,7 @@ class SynchronousMotorTorque(Source):
 
 
 def _tones(motor: SynchronousMotor, point: OperatingPoint, case: Case) -> tuple[Tone, ...]:
-    """Of all sidebands that are no order, but for those far below the largest."""
+    """Torques of all sidebands that are no order, except those far below the largest."""
     every = sidebands(motor, point, case.maximum_frequency_hz)
     largest = max((abs(side.torque_n_m) for side in every), default=0.0)
     electrical_hz = point.electrical_rad_per_s / (2.0 * np.pi)

@@ -15,7 +15,8 @@ WRENCH: Final = "residual_unbalance"
 
 @register
 class ResidualUnbalance(Source):
-    """What a balance quality grade leaves in two planes: counterweights are perfect without it."""
+    """Unbalance that a balance quality grade allows in two planes: without it counterweights are
+    perfect."""
 
     kind: ClassVar[str] = "residual-unbalance"
     position: ClassVar[float] = 0.5

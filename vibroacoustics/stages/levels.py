@@ -3,7 +3,7 @@
 from ..base.registry import register
 from ..levels.axes import LevelAxes
 from ..levels.nominal import NominalSound
-from ..levels.remainder import REMAINDER_MIDDLE_HZ
+from ..levels.remainder import UNMODELLED_MIDDLE_HZ
 from ..levels.structure_borne import structure_borne_variables
 from ..machine.cases import Cases
 from ..radiation.spreading import spreading_of
@@ -40,7 +40,7 @@ class Levels(Stage):
 
     def run(self, chain: Chain) -> Given:
         study, results = chain.study, chain.results
-        spreading = spreading_of(study, REMAINDER_MIDDLE_HZ)
+        spreading = spreading_of(study, UNMODELLED_MIDDLE_HZ)
         axes = LevelAxes.of(study, list(sources_of(study)), results, spreading)
         received = chain[Transmission].received(with_published(chain)[Cases])
         nominal = NominalSound.of(study, axes, received)

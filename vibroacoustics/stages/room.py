@@ -11,7 +11,7 @@ from ..levels.in_room import blended_gains, room_sound
 from ..levels.nominal import NominalSound
 from ..levels.room_levels import AirInRoom, room_variables
 from ..levels.room_map import map_bands_hz, map_level
-from ..levels.room_seam import seam_variables
+from ..levels.room_seam import crossover_variables
 from ..machine.cases import Cases
 from ..radiation.patterns import SurfaceMotion
 from ..radiation.rooms import of_study as rooms
@@ -19,7 +19,7 @@ from ..radiation.rooms.cost import room_cost
 from ..radiation.rooms.wall_absorption import warn_of_absorption
 from ..results import storage
 from ..results.estimates import nominal_values
-from ..sound.room_ways import ways_of
+from ..sound.room_paths import paths_of
 from ..study.room import StudyRoom
 from ..study.study import Study
 from ..transfer.observers import Observers
@@ -77,19 +77,21 @@ def vectors_of(
 def _sound_in_room(chain: Chain, settings: StudyRoom) -> xr.Dataset:
     study, results, shell = chain.study, nominal_values(chain.results), chain.get(ShellPath)
     vectors, _ = vectors_of(study, settings, modes_of(chain), chain.progress)
-    pressure, listeners = rooms.pressure_at_places(vectors), list(settings.listeners)
+    pressure, listeners = rooms.pressure_at_positions(vectors), list(settings.listeners)
     modes = None if shell is None else rooms.of_modes(pressure)
     paths = Transmission(study, Observers(rooms.of_rigid(pressure), modes), shell)
-    both = ways_of(settings, study.machine.shell, vectors, pressure)
+    both = paths_of(settings, study.machine.shell, vectors, pressure)
     received = paths.received(chain[Cases]).items()
-    sound = {key: room_sound(of_case, both.ways) for key, of_case in received}
-    gains, _ = blended_gains(both.waves, both.ways)
+    sound = {key: room_sound(of_case, both.paths) for key, of_case in received}
+    gains, _ = blended_gains(both.waves, both.paths)
     air = AirInRoom.of(chain[NominalSound], listeners, sound, results, gains)
     per_power = rooms.plate_per_power(settings, vectors)
     statistics = sampled_room_level(air, results, study.catalogue_receiver)
     levels = room_variables(air, sound, results, statistics, per_power)
     levels = levels.merge(rooms.surface_variables(settings))
-    levels = levels.merge(seam_variables(listeners, both.shown, *both.both, both.gains_db))
+    levels = levels.merge(
+        crossover_variables(listeners, both.shown, *both.transfers, both.gains_db)
+    )
     return levels.merge(_map(study, settings, air, chain.progress))
 
 

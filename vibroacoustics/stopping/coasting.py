@@ -10,8 +10,8 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..machine.stopping import CheckValve, Stopping, TurningBack
 from ..mechanics.moving_parts import MovingPart
-from .course import Course, course_of
 from .equation import Coasting, Shift, wrench_along
+from .history import TimeHistory, history_of
 from .integration import coast
 from .reversal import Reversal, TrappedGas, turn_back
 
@@ -25,9 +25,9 @@ class Peaks(NamedTuple):
 
     force_n: float
     tilting_moment_n_m: float
-    """About a horizontal axis."""
+    """Moment about a horizontal axis."""
     roll_moment_n_m: float
-    """About z."""
+    """Moment about z."""
 
 
 def peaks(force_n: Array, moment_n_m: Array) -> Peaks:
@@ -40,7 +40,7 @@ def peaks(force_n: Array, moment_n_m: Array) -> Peaks:
 
 
 class AfterStop(NamedTuple):
-    """What may follow the first rest."""
+    """Events that may follow the first rest."""
 
     table: TurningBack
     gas: TrappedGas
@@ -49,16 +49,17 @@ class AfterStop(NamedTuple):
 
 @dataclass(frozen=True)
 class RunDown:
-    """From steady running over switch-off at time zero to rest; T uniform times.
+    """Run-down from steady running over switch-off at time zero to rest; T uniform times.
 
     Attributes
     ----------
-    time_s, crank_angle_rad, speed_rad_per_s, acceleration_rad_per_s2 : of the shaft, shape (T,)
-    shift : of the set against it, shape (T,) each
+    time_s, crank_angle_rad, speed_rad_per_s, acceleration_rad_per_s2 : time and motion of the
+        shaft, shape (T,)
+    shift : shift of the set against it, shape (T,) each
     sources : who makes force and moment
     force_n, moment_n_m : on the housing, shape (sources, 3, T)
     stop_time_s : when the shaft comes to rest, after the last sample
-    gas_share : of the gas's forces of steady running, shape (T,)
+    gas_share : share of the gas's forces of steady running, shape (T,)
     brake_force_n : around the shaft between brake and wall, shape (T,)
     """
 
@@ -108,9 +109,9 @@ def run_down(
     shifted : sources of the set that turns against the others; the Oldham ring goes with its scroll
     gas_torque_n_m : against the rotation at steady running, shape (samples,), from crank angle zero
     speed_rad_per_s : before switch-off
-    sample_rate_hz : of the result
+    sample_rate_hz : sample rate of the result
     steady_revolutions : before switch-off, at constant speed
-    after : what follows the first rest; none for a stop that ends there
+    after : stretch after the first rest; none for a stop that ends there
 
     Raises
     ------
@@ -121,37 +122,37 @@ def run_down(
     """
     _check(parts, shifted, speed_rad_per_s)
     coasting = Coasting.of(stopping, parts, shifted, gas_torque_n_m)
-    motion, rest, rest_angle = _coast(coasting, speed_rad_per_s, sample_rate_hz)
+    motion, rest_s, rest_angle = _coast(coasting, speed_rad_per_s, sample_rate_hz)
     reversal = None
     if after is not None:
-        reversal = turn_back(coasting, after.table, after.gas, rest, rest_angle)
+        reversal = turn_back(coasting, after.table, after.gas, rest_s, rest_angle)
     first = -int(steady_revolutions * 2.0 * np.pi / speed_rad_per_s * sample_rate_hz)
-    end = _end_s(rest, reversal, after)
+    end = _end_s(rest_s, reversal, after)
     time = np.arange(first, np.ceil(end * sample_rate_hz)) / sample_rate_hz
-    course = course_of(coasting, motion, reversal, time, rest_angle, speed_rad_per_s)
+    history = history_of(coasting, motion, reversal, time, rest_angle, speed_rad_per_s)
     shift = coasting.shift(np.maximum(time, 0.0))
-    unshifted = course.angle, course.speed, course.acceleration
-    ahead = tuple(one + turned for one, turned in zip(unshifted, shift, strict=True))
+    unshifted = history.angle, history.speed, history.acceleration
+    ahead = tuple(angle + turned for angle, turned in zip(unshifted, shift, strict=True))
     wrenches = [
         (part.source, wrench_along(part, *(ahead if part.source in shifted else unshifted)))
         for part in parts
     ]
-    wrenches += _further(stopping, course, after and after.valve, time - rest)
+    wrenches += _further(stopping, history, after and after.valve, time - rest_s)
     force, moment = np.stack([np.stack(wrench) for _, wrench in wrenches], axis=1)
     sources = tuple(source for source, _ in wrenches)
     return RunDown(
-        time, *unshifted, shift, sources, force, moment, end, course.gas_share,
-        course.brake_force_n,
+        time, *unshifted, shift, sources, force, moment, end, history.gas_share,
+        history.brake_force_n,
     )  # fmt: skip
 
 
 def _further(
-    stopping: Stopping, course: Course, valve: CheckValve | None, since_rest_s: Array
+    stopping: Stopping, history: TimeHistory, valve: CheckValve | None, since_rest_s: Array
 ) -> list[tuple[str, tuple[Array, Array]]]:
-    """Of the rotor a moment about z, of the valve a force along z."""
+    """Wrenches: of the rotor a moment about z, of the valve a force along z."""
     still: Array = np.zeros((3, since_rest_s.size))
     spin = still.copy()
-    spin[2] = -stopping.shaft_inertia_kg_m2 * course.acceleration
+    spin[2] = -stopping.shaft_inertia_kg_m2 * history.acceleration
     further = [("rotor", (still, spin))]
     if valve is not None:
         force = still.copy()
@@ -161,7 +162,7 @@ def _further(
 
 
 def _end_s(rest_s: float, reversal: Reversal | None, after: AfterStop | None) -> float:
-    """When shaft and valve stand."""
+    """Time at which shaft and valve stand."""
     ends = [rest_s]
     if reversal is not None and reversal.end_s is not None:
         ends.append(reversal.end_s)
@@ -175,14 +176,14 @@ def _coast(
 ) -> tuple[Array, float, float]:
     """Angle, speed and acceleration from switch-off to the first rest, its time and angle."""
     motion = np.empty((3, int(LONGEST_S * rate_hz)))
-    samples, rest, angle = coast(speed_rad_per_s, 1.0 / rate_hz, motion, coasting.constants)
-    if np.isnan(rest):
+    samples, rest_s, angle = coast(speed_rad_per_s, 1.0 / rate_hz, motion, coasting.constants)
+    if np.isnan(rest_s):
         friction = coasting.stopping.friction_torque_n_m
         raise ParameterError(
             f"friction_torque_n_m = {friction:g} N m: does not stop the shaft within "
             f"{LONGEST_S:g} s"
         )
-    return motion[:, :samples], rest, angle
+    return motion[:, :samples], rest_s, angle
 
 
 def _check(parts: Sequence[MovingPart], shifted: Collection[str], speed: float) -> None:
@@ -194,7 +195,7 @@ def _check(parts: Sequence[MovingPart], shifted: Collection[str], speed: float) 
 
 
 def flight_s(valve: CheckValve) -> float:
-    """From rest over the lift, √(2 m s/F)."""
+    """Return the flight time from rest over the lift, √(2 m s/F)."""
     return float(np.sqrt(2.0 * valve.mass_kg * valve.lift_m / valve.closing_force_n))
 
 
@@ -209,7 +210,7 @@ def closing_time_s(valve: CheckValve) -> float:
 
 
 def closing_force_n(valve: CheckValve, time_s: Array) -> Array:
-    """Force along z on what carries the valve, by its change of momentum, shape of the times.
+    """Force along z on the valve's support, by its change of momentum, shape of the times.
 
     The disc flies down: its reaction F pushes up; on the seat it stays, with the half sine of the
     impulse √(2 F s m). Both cancel over time.
@@ -217,7 +218,8 @@ def closing_force_n(valve: CheckValve, time_s: Array) -> Array:
     Parameters
     ----------
     valve : disc
-    time_s : from where it starts, uniform; an impact shorter than a step keeps its impulse
+    time_s : time from where it starts, uniform, shape (times,); an impact shorter than a step keeps
+    its impulse
     """
     flight, length = flight_s(valve), impact_s(valve)
     step = float(time_s[1] - time_s[0])

@@ -47,13 +47,13 @@ class Constants(NamedTuple):
 def brake_shift(time_s: Array, shift_rad: float, duration_s: float) -> Shift:
     """A turn from rest to rest with the least jerk, δ (10u³ - 15u⁴ + 6u⁵) with u = t/duration.
 
-    The thesis gives neither course nor size ("a few degrees"); the course is assumed.
+    The thesis gives neither time history nor size ("a few degrees"); it is assumed.
 
     Parameters
     ----------
     time_s : from switch-off, any shape
     shift_rad : δ reached at the end
-    duration_s : of the turn
+    duration_s : duration of the turn
     """
     u = np.minimum(np.maximum(time_s / duration_s, 0.0), 1.0)
     return Shift(
@@ -80,21 +80,21 @@ def acceleration(
 
     Parameters
     ----------
-    time, angle, speed : of the shaft
-    constants : of the equation
-    share : of the gas's torque that is left
+    time, angle, speed : time, angle and speed of the shaft
+    constants : constants of the equation
+    share : share of the gas's torque that remains
     turning : sense in which friction is overcome; 0 leaves it out
     push : torque forwards, N m
     """
     shift, rate, shift_acceleration = _shift_at(time, constants.shift, constants.shift_duration)
     ahead = angle + shift
     fixed, fixed_slope = value_and_slope(constants.fixed_inertia, angle)
-    moved, moved_slope = value_and_slope(constants.shifted_inertia, ahead)
+    shifted_inertia, moved_slope = value_and_slope(constants.shifted_inertia, ahead)
     gas, _ = value_and_slope(constants.gas_torque, ahead)
     torque = constants.gas_share * share * gas + constants.friction * turning
-    torque += constants.viscous * speed + moved * shift_acceleration
+    torque += constants.viscous * speed + shifted_inertia * shift_acceleration
     torque += 0.5 * fixed_slope * speed**2 + 0.5 * moved_slope * (speed + rate) ** 2
-    return float((push - torque) / (fixed + moved))
+    return float((push - torque) / (fixed + shifted_inertia))
 
 
 @dataclass(frozen=True)
@@ -114,11 +114,13 @@ class Coasting:
         shifted: Collection[str],
         gas_torque_n_m: Array,
     ) -> "Coasting":
-        """With the reduced inertia of the parts over a revolution."""
+        """Return the coasting with the reduced inertia of the parts over a revolution."""
         angle = 2.0 * np.pi * np.arange(ANGLES) / ANGLES
         fixed = inertia_over_angle([part for part in parts if part.source not in shifted], angle)
-        moved = inertia_over_angle([part for part in parts if part.source in shifted], angle)
-        curves = fixed + stopping.shaft_inertia_kg_m2, moved, gas_torque_n_m
+        shifted_inertia = inertia_over_angle(
+            [part for part in parts if part.source in shifted], angle
+        )
+        curves = fixed + stopping.shaft_inertia_kg_m2, shifted_inertia, gas_torque_n_m
         return cls(stopping, *(_periodic(curve) for curve in curves))
 
     @cached_property
@@ -137,7 +139,7 @@ class Coasting:
         )
 
     def shift(self, time: Array) -> Shift:
-        """Of the set against the crank pin."""
+        """Shift of the set against the crank pin."""
         return brake_shift(time, self.stopping.shift_rad, self.stopping.shift_duration_s)
 
     def inertia_kg_m2(self, time: float, angle: float) -> float:
@@ -145,7 +147,7 @@ class Coasting:
 
         Parameters
         ----------
-        time, angle : of the shaft, s and rad
+        time, angle : time and angle of the shaft, s and rad
         """
         ahead = angle + self.shift(np.asarray(time)).angle
         return float(self.fixed_inertia(angle) + self.shifted_inertia(ahead))
@@ -198,7 +200,8 @@ def wrench_along(
     Parameters
     ----------
     part : its path over one revolution
-    angle, rate, acceleration : of the part's own angle in time, shape (times,), rad, rad/s, rad/s²
+    angle, rate, acceleration : angle, rate and acceleration of the part's own angle in time, shape
+        (times,), rad, rad/s, rad/s²
 
     Returns
     -------

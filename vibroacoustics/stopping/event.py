@@ -17,13 +17,13 @@ from .coasting import RunDown
 from .through_shell import StopThroughShell
 
 FADE_S: Final = 1.0
-"""In which the steady load is faded in, so slowly that the mounts do not ring."""
+"""Time in which the steady load is faded in, so slowly that the mounts do not ring."""
 STEADY_S: Final = 1.5
 """Twelve Fast time constants: the level is settled within 3e-5 dB."""
 REST_S: Final = (8.0, 16.0, 32.0, 64.0)
-"""After the stop, until the mounts have rung out; tried in this order."""
+"""Time after the stop, until the motion on the mounts has decayed; tried in this order."""
 RESIDUE: Final = 1e-4
-"""Of the largest force into a foot, in the last second: rung out."""
+"""Share of the largest force into a foot, in the last second: the vibration has decayed."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ def stopping_event(
     run : with steady running for the clock's lead at least, LOAD_SAMPLES per sample of the clock
     clock : times of the result
     body : the machine on its mounts
-    pressure_per_velocity : of frequencies to shape (receiver, dof, frequency)
+    pressure_per_velocity : function of frequencies to shape (receiver, dof, frequency)
     shell : that bends too; none for a rigid one
 
     Raises
@@ -90,19 +90,20 @@ def stopping_event(
         The mounts have next to no loss and do not ring out.
     """
     first = np.count_nonzero(run.time_s < 0.0) - LOAD_SAMPLES * clock.lead
-    course = np.concatenate([run.force_n.sum(axis=0), run.moment_n_m.sum(axis=0)])[:, first:]
+    history = np.concatenate([run.force_n.sum(axis=0), run.moment_n_m.sum(axis=0)])[:, first:]
     speed = run.speed_rad_per_s[first:]
-    response = _response(course, clock, body, pressure_per_velocity)
+    response = _response(history, clock, body, pressure_per_velocity)
     if shell is not None:
-        fade = _fade(course.shape[-1], clock.rate_hz)
+        fade = _fade(history.shape[-1], clock.rate_hz)
         through = shell.pressure(run, first, fade, clock.shown.stop, clock.rate_hz)
         response.pressure_pa[:, : through.shape[-1]] += through
     weighted = levels.weighted_signal(response.pressure_pa, clock.rate_hz, "A")
     fast = levels.time_weighted_mean_square(weighted, clock.rate_hz, levels.FAST_TIME_CONSTANT_S)
     shown = clock.shown
-    rest = LOAD_SAMPLES * shown.stop - speed.size
+    padding = LOAD_SAMPLES * shown.stop - speed.size
     shaft_speed, force, moment = np.split(
-        np.pad(np.vstack([speed, course]), ((0, 0), (0, rest)))[:, ::LOAD_SAMPLES][:, shown], [1, 4]
+        np.pad(np.vstack([speed, history]), ((0, 0), (0, padding)))[:, ::LOAD_SAMPLES][:, shown],
+        [1, 4],
     )
     return StoppingEvent(
         shaft_speed[0],
@@ -115,7 +116,7 @@ def stopping_event(
 
 
 def _fade(samples: int, rate_hz: float) -> Array:
-    """Of a load from its first sample to its last."""
+    """Fade of a load from its first sample to its last."""
     fade = np.ones(samples)
     rising = np.linspace(0.0, np.pi, round(FADE_S * LOAD_SAMPLES * rate_hz))
     fade[: rising.size] = 0.5 - 0.5 * np.cos(rising)
@@ -123,18 +124,19 @@ def _fade(samples: int, rate_hz: float) -> Array:
 
 
 def _response(
-    course: Array,
+    history: Array,
     clock: Clock,
     body: MachineOnMounts,
     pressure_per_velocity: Callable[[Array], ComplexArray],
 ) -> Transient:
-    """To a load that is faded in and followed by rest until the mounts have rung out."""
+    """Response to a load that is faded in and followed by rest until the motion on the mounts has
+    decayed."""
     rate = LOAD_SAMPLES * clock.rate_hz
-    fade = _fade(course.shape[-1], clock.rate_hz)
+    fade = _fade(history.shape[-1], clock.rate_hz)
     for rest_s in REST_S:
         samples = fft.next_fast_len(clock.shown.stop + round(rest_s * clock.rate_hz), real=True)
         load = np.zeros((6, LOAD_SAMPLES * samples))
-        load[:, : fade.size] = fade * course
+        load[:, : fade.size] = fade * history
         response = transient(body, load, rate, pressure_per_velocity)
         size = np.abs(response.foot_force_n)
         if np.max(size[..., -round(clock.rate_hz) :]) < RESIDUE * np.max(size):

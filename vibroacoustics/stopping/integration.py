@@ -26,7 +26,7 @@ def advanced(
     ----------
     time, angle, speed : before the step
     step : s, backwards where negative
-    constants : of the equation
+    constants : constants of the equation
     """
     half = 0.5 * step
     first = acceleration(time, angle, speed, constants)
@@ -51,7 +51,7 @@ def coast(
     speed : at switch-off, rad/s
     interval : between samples, s
     motion : shape (3, samples), see `ANGLE`; the samples before rest are written to it
-    constants : of the equation
+    constants : constants of the equation
 
     Returns
     -------

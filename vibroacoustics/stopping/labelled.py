@@ -84,8 +84,8 @@ def stopping_variables(
         "receiver": results["receiver"].values,
         "stopping_phase": list(PHASES),
     }
-    courses, phases = _courses(events), _phases(events, clock.time_s)
-    labelled = stamped({**_of_runs(runs), **courses, **phases}, axes)
+    histories, phases = _histories(events), _phases(events, clock.time_s)
+    labelled = stamped({**_of_runs(runs), **histories, **phases}, axes)
     if turns_back:
         labelled = labelled.merge(stamped(_of_turning_back(runs), axes))
     return labelled.merge(stopping_order_map(stops, max(speeds)))
@@ -115,8 +115,8 @@ def _of_turning_back(runs: Sequence[RunDown]) -> dict[str, Any]:
     }
 
 
-def _courses(events: Sequence[StoppingEvent]) -> dict[str, Array]:
-    """What is kept over time."""
+def _histories(events: Sequence[StoppingEvent]) -> dict[str, Array]:
+    """Time histories that are kept."""
     names = ("shaft_speed", "force", "moment", "pressure", "fast_level")
     return {f"stopping_{name}": _of_events(events, name) for name in names}
 
@@ -126,7 +126,7 @@ def _phases(events: Sequence[StoppingEvent], time_s: Array) -> dict[str, Array]:
     phases = (time_s < 0.5 * time_s[0], time_s >= 0.0)
 
     def greatest(values: Array) -> Array:
-        """Over the times of each phase, shape (phase, ...)."""
+        """Return the greatest value over the times of each phase, shape (phase, ...)."""
         return np.stack([values[..., times].max(axis=-1) for times in phases])
 
     square = greatest(_of_events(events, "pressure") ** 2)

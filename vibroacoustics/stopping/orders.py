@@ -14,7 +14,7 @@ from .coasting import RunDown
 from .stops import Stops
 
 MAP_REVOLUTIONS: Final = 8
-"""In a block of the order map: orders 0.19 apart are told from each other."""
+"""Revolutions in a block of the order map: orders 0.19 apart are separated."""
 KERNEL_REVOLUTIONS: Final = 2
 """Lost to the resampling's kernel, which spans 1.6 for the orders below."""
 MAP_ORDER: Final = 4
@@ -26,11 +26,11 @@ def stopping_order_map(stops: Stops, speed_rpm: float) -> xr.Dataset:
     """Order map of a stop without gas load; empty where it lasts too few revolutions or too long.
 
     A stop from the highest speed runs through all others. Under load it is over within a few
-    revolutions, too few to tell orders from each other.
+    revolutions, too few to separate orders.
 
     Parameters
     ----------
-    stops : of the machine
+    stops : stops of the machine
     speed_rpm : before switch-off
     """
     no_gas = stops.stopping.model_copy(update={"gas_share_ratio": 0.0})

@@ -20,7 +20,8 @@ MOST_TURNS: Final = 2000
 CREEP_RAD_PER_S: Final = 1e-4
 """A shaft that slows to this in a contact that damps more than it swings stands."""
 STUCK_RATIO: Final = 0.01
-"""Of the gas's torque, that a standing shaft may lack: what the damping carries as it creeps."""
+"""Share of the gas's torque that a standing shaft may lack: what the damping carries as it
+creeps."""
 
 CLOSED_RAD: Final = 1e-11
 """A gap as small is rounding of the angle at which the contact closed."""
@@ -34,8 +35,8 @@ class TrappedGas:
     ----------
     volume_m3 : that is trapped
     per_turn_m3 : that a turn back gives to it, the pockets at their opening
-    pressures_pa : of suction and discharge
-    index : of the expansion
+    pressures_pa : pressures of suction and discharge
+    index : index of the expansion
     """
 
     volume_m3: float
@@ -44,9 +45,9 @@ class TrappedGas:
     index: float
 
     def share(self, turned_back: Array | float) -> Array:
-        """Of the torque that is left when the shaft has turned back by an angle, rad.
+        """Share of the torque that remains when the shaft has turned back by an angle, rad.
 
-        As the difference of pressure with p V^κ constant; none below the suction's.
+        It follows the difference of pressure with p V^κ constant; none below the suction's.
         """
         suction, discharge = self.pressures_pa
         grown = np.maximum(turned_back, 0.0) * self.per_turn_m3 / (2.0 * np.pi * self.volume_m3)
@@ -70,7 +71,7 @@ class Jamming:
     damping: float
 
     def force_n(self, angle: float, speed: float) -> float:
-        """Around the shaft, forwards."""
+        """Return the force around the shaft, forwards."""
         radius, stiffness = self.table.wall_radius_m, self.table.contact_stiffness_n_per_m1p5
         depth = max(-radius * self.gap(angle), 0.0)
         return float(dry_force(depth, -radius * speed, stiffness, self.damping))
@@ -106,7 +107,7 @@ class Reversal:
 
     @property
     def end_s(self) -> float | None:
-        """When the shaft stands for good."""
+        """Time at which the shaft stands for good."""
         return self.stretches[-1].end_s if self.stretches else None
 
 
@@ -123,7 +124,7 @@ def turn_back(
     coasting : equation of motion
     table : brake
     gas : trapped
-    rest_s, rest_angle : of the first rest
+    rest_s, rest_angle : time and angle of the first rest
 
     Raises
     ------
@@ -153,8 +154,8 @@ def _starts(
     share = float(gas.share(jamming.rest_angle - angle))
     push = jamming.table.wall_radius_m * jamming.force_n(angle, 0.0)
     free, rubbed, empty = (
-        acceleration(time, angle, 0.0, coasting.constants, left, turning, push)
-        for left, turning in ((share, 0.0), (share, 1.0), (0.0, 0.0))
+        acceleration(time, angle, 0.0, coasting.constants, gas_share, turning, push)
+        for gas_share, turning in ((share, 0.0), (share, 1.0), (0.0, 0.0))
     )
     held = abs(free - rubbed) + STUCK_RATIO * abs(free - empty)
     return float(np.sign(free)) if abs(free) > held else 0.0

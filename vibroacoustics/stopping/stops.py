@@ -21,7 +21,7 @@ from .reversal import TrappedGas
 SHIFTED: Final = ("orbiting_scroll", "brake", "oldham")
 """The set that the brake lets turn against pin and counterweights (thesis 6.4)."""
 PATH_SAMPLES: Final = 256
-"""Of the moving parts' paths, which are circles and a line."""
+"""Samples of the moving parts' paths, which are circles and a line."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Stops:
     stopping : inertia, drag, shift
     parts : moving parts over a revolution
     machine : with its gas, whose torque is that of steady running at the speed before the stop
-    after : what follows the first rest; none for stops that end there
+    after : stretch after the first rest; none for stops that end there
     """
 
     stopping: Stopping
@@ -43,7 +43,7 @@ class Stops:
 
     @classmethod
     def of(cls, machine: Machine, turns_back: bool = False) -> "Stops":
-        """Of a machine with gas and a table of stopping.
+        """Return the stops of a machine with gas and a table of stopping.
 
         Parameters
         ----------
@@ -55,7 +55,7 @@ class Stops:
         return cls(machine.table(Stopping), parts, machine, after)
 
     def run_down(self, speed_rpm: float, rate_hz: float, steady_revolutions: int) -> RunDown:
-        """From a speed to rest.
+        """Return the run-down from a speed to rest.
 
         Parameters
         ----------

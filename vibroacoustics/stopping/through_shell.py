@@ -19,14 +19,14 @@ from ..transfer.transient import LOAD_SAMPLES
 from .coasting import VALVE, RunDown
 
 FADE_OUT_S: Final = 0.2
-"""In which what stays after the stop is faded out: no mode of a shell is as slow."""
+"""Time in which what stays after the stop is faded out: no mode of a shell is as slow."""
 RING_OUT_S: Final = 0.3
 """Then, until the shell is still."""
 
 
 @dataclass(frozen=True)
 class StopThroughShell:
-    """What the stop of one machine does to its shell.
+    """Response of the shell to the stop of one machine.
 
     Attributes
     ----------
@@ -48,11 +48,11 @@ class StopThroughShell:
 
         Parameters
         ----------
-        run : of the machine
+        run : run of the machine
         first : sample of the run with which the result begins
-        fade : factor of the load, from that sample to the run's end
-        samples : of the result
-        rate_hz : of the result
+        fade : shape (load samples,): factor of the load, from that sample to the run's end
+        samples : number of samples of the result
+        rate_hz : sample rate of the result
         """
         loads = {port: fade * load for port, load in self.loads(run, first).items()}
         out = round(LOAD_SAMPLES * FADE_OUT_S * rate_hz)
@@ -62,17 +62,17 @@ class StopThroughShell:
         held = np.concatenate([np.ones(standing), falling])
 
         def event(load: Array) -> Array:
-            course = np.zeros((len(load), LOAD_SAMPLES * total))
-            course[:, : fade.size] = load
-            course[:, fade.size :][:, : held.size] = load[:, -1:] * held
-            return course
+            history = np.zeros((len(load), LOAD_SAMPLES * total))
+            history[:, : fade.size] = load
+            history[:, fade.size :][:, : held.size] = load[:, -1:] * held
+            return history
 
         events = {port: event(load) for port, load in loads.items()}
         rate = LOAD_SAMPLES * rate_hz
         return pressure_over_time(self.shell, self.microphones, events, rate)[:, :samples]
 
     def loads(self, run: RunDown, first: int) -> dict[Port, Array]:
-        """On the parts from a sample on, shape (component, times), N and N m."""
+        """Return the loads on the parts from a sample on, shape (component, times), N and N m."""
         angle = (run.crank_angle_rad + run.shift.angle)[first:]
         of_gas = gas_on_parts(self.machine, self.speed_rpm, angle)
         loads = {port: run.gas_share[first:] * load for port, load in of_gas.items()}
@@ -98,8 +98,8 @@ def brake_on_parts(
     ----------
     table : brake and wall
     force_n : F around the shaft, shape (times,)
-    angle : of crank pin and brake, rad
-    height_m : of the brake
+    angle : angle of crank pin and brake, shape (times,), rad
+    height_m : height of the brake
 
     Returns
     -------

@@ -1,1 +1,1 @@
-"""From a study file to a `Study`: settings, reading, units, ranges, refusals."""
+"""Studies from file to `Study`: settings, reading, units, ranges, refusals."""

@@ -21,7 +21,7 @@ _BY_QUANTITY: Final = {
     "dead_time_s": "us",
     "grade_m_per_s": "mm_per_s",
 }
-"""By the end of a field's name, the first that fits."""
+"""Words by the end of a field's name, the first that fits."""
 _BY_UNIT: Final = {
     "m": "mm",
     "rad": "deg",
@@ -58,6 +58,6 @@ def meant_field(key: str, fields: list[str]) -> str | None:
 def meant_key(key: str, field: str) -> str:
     """Key for a field, in the unit of the misspelt one where it fits."""
     stem, unit = split_key(field)
-    given = split_key(key)[1]
-    fits = given is not None and si_key(f"{stem}_{given.suffix}")[0] == field
-    return f"{stem}_{given.suffix}" if given is not None and unit and fits else asked_key(field)
+    parts = split_key(key)[1]
+    fits = parts is not None and si_key(f"{stem}_{parts.suffix}")[0] == field
+    return f"{stem}_{parts.suffix}" if parts is not None and unit and fits else asked_key(field)

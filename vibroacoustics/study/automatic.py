@@ -36,7 +36,7 @@ def fill_in_automatic(content: Mapping[str, Any], machine: Machine | None) -> No
     Parameters
     ----------
     content : tables in SI, sources as parameters of their kind
-    machine : of the study; none where it is refused
+    machine : machine of the study; none where it is refused
     """
     operation, radiation = content.get("operation"), content.get("radiation")
     if not isinstance(operation, dict) or not isinstance(radiation, dict):

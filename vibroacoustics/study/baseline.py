@@ -62,7 +62,7 @@ class BaselineOrders(Parameters):
     level_db: tuple[float, ...]
     """re 20 µPa, a level for each order."""
     phase_rad: tuple[float | None, ...]
-    """None where it is not known."""
+    """Phase, None where it is not known."""
 
     def contradictions(self) -> Contradictions:
         if not self.order[0] > 0.0:
@@ -70,39 +70,39 @@ class BaselineOrders(Parameters):
 
 
 class BaselineMicrophone(Parameters):
-    """What a microphone is called in the files."""
+    """Name of a microphone in the files."""
 
     channel: str | None = None
-    """Of a recording."""
+    """Channel of a recording."""
     node: int | None = Field(default=None, ge=0, le=999_999_999)
-    """Of a function of frequency."""
+    """Node of a function of frequency."""
 
 
 class BaselineSettings(Parameters):
     """Files of the baseline, and what they do not say themselves."""
 
     file: tuple[str, ...] = Field(min_length=1)
-    """In a study file a name, or a list of names."""
+    """File: in a study file a name, or a list of names."""
     microphones: dict[str, BaselineMicrophone] = Field(default_factory=dict)
-    """By receiver; those that are called as in the files are left out."""
+    """Names by receiver; those of the files need no entry."""
     tacho_angle_rad: float | None = Field(default=None, ge=-7.0, le=7.0)
     """Crank angle of the study at which the tacho gives its pulse; none for energies."""
     recorded_speed_rpm: tuple[float, ...] = ()
-    """Of each file that states none, in their order."""
+    """Speed of each file that states none, in their order."""
     window: Literal["hann", "rectangular", "flat_top"] = "hann"
-    """Of narrow-band spectra."""
+    """Window of narrow-band spectra."""
     spectra: Literal["peak", "rms"] = "peak"
-    """What spectra of phasors are in."""
+    """Scale of the spectra of phasors."""
     tolerance_db: float = Field(default=1.5, ge=0.1, le=10.0)
     """Standard deviation of measured levels, for the weights of samples."""
 
     @field_validator("file", "recorded_speed_rpm", mode="before")
     @classmethod
-    def _one_or_several(cls, given: Any) -> Any:
-        if isinstance(given, list):
-            return tuple(given)
-        one = isinstance(given, str | int | float) and not isinstance(given, bool)
-        return (float(given) if not isinstance(given, str) else given,) if one else given
+    def _one_or_several(cls, value: Any) -> Any:
+        if isinstance(value, list):
+            return tuple(value)
+        is_single = isinstance(value, str | int | float) and not isinstance(value, bool)
+        return (float(value) if not isinstance(value, str) else value,) if is_single else value
 
 
 class Baseline(BaselineSettings):
@@ -113,13 +113,13 @@ class Baseline(BaselineSettings):
 
     def contradictions(self) -> Contradictions:
         for name in self.measured_at:
-            if len({one.band_hz for one in self.spectra_at(name)}) > 1:
+            if len({spectrum.band_hz for spectrum in self.spectra_at(name)}) > 1:
                 yield f"microphone {name}: has other bands at another speed"
-            if len({one.order for one in self.orders_at(name)}) > 1:
+            if len({row.order for row in self.orders_at(name)}) > 1:
                 yield f"microphone {name}: has other orders at another speed"
         for name in self.measured_at:
             for kind in (self.spectra_at(name), self.orders_at(name)):
-                speeds = [one.speed_rpm for one in kind]
+                speeds = [spectrum.speed_rpm for spectrum in kind]
                 twice = {speed for speed in speeds if speeds.count(speed) > 1}
                 if twice:
                     yield f"microphone {name}: {min(twice):g} rpm is there twice"
@@ -127,36 +127,38 @@ class Baseline(BaselineSettings):
     @property
     def measured_at(self) -> tuple[str, ...]:
         """Microphones, each once."""
-        of_bands = [one.microphone for one in self.third_octaves]
-        return tuple(dict.fromkeys([*of_bands, *(one.microphone for one in self.orders)]))
+        of_bands = [spectrum.microphone for spectrum in self.third_octaves]
+        return tuple(dict.fromkeys([*of_bands, *(row.microphone for row in self.orders)]))
 
     @property
     def all_orders(self) -> tuple[float, ...]:
         """Orders that were measured at any microphone, rising."""
-        return tuple(sorted({order for one in self.orders for order in one.order}))
+        return tuple(sorted({order for row in self.orders for order in row.order}))
 
     def spectra_at(self, microphone: str) -> list[BaselineSpectrum]:
         """Third octaves at a microphone, by rising speed."""
-        here = (one for one in self.third_octaves if one.microphone == microphone)
-        return sorted(here, key=lambda one: one.speed_rpm)
+        here = (spectrum for spectrum in self.third_octaves if spectrum.microphone == microphone)
+        return sorted(here, key=lambda spectrum: spectrum.speed_rpm)
 
     def orders_at(self, microphone: str) -> list[BaselineOrders]:
         """Orders at a microphone, by rising speed."""
-        here = (one for one in self.orders if one.microphone == microphone)
-        return sorted(here, key=lambda one: one.speed_rpm)
+        here = (row for row in self.orders if row.microphone == microphone)
+        return sorted(here, key=lambda row: row.speed_rpm)
 
     def covers(self, microphone: str, speed_rpm: float) -> bool:
         """Whether all that was measured at a microphone reaches a speed."""
         kinds = (self.spectra_at(microphone), self.orders_at(microphone))
-        speeds = [[one.speed_rpm for one in kind] for kind in kinds if kind]
+        speeds = [[row.speed_rpm for row in kind] for kind in kinds if kind]
         return bool(speeds) and all(
-            min(one) * (1.0 - SPEED_TOLERANCE) <= speed_rpm <= max(one) * (1.0 + SPEED_TOLERANCE)
-            for one in speeds
+            min(measured) * (1.0 - SPEED_TOLERANCE)
+            <= speed_rpm
+            <= max(measured) * (1.0 + SPEED_TOLERANCE)
+            for measured in speeds
         )
 
 
 class MeasuredSound(Parameters):
-    """What was measured of the machine, in place of what is assumed."""
+    """Sound that was measured of the machine, in place of what is assumed."""
 
     baseline: Baseline | None = None
     floor: MeasuredFloor | None = None
@@ -167,7 +169,8 @@ class MeasuredSound(Parameters):
     """Hammer tests, which weigh the samples."""
 
     def problems(self, receivers: Sequence[str], speeds: Sequence[float]) -> Iterator[str]:
-        """Why it does not fit a study: microphones that it has not, no speed that is covered."""
+        """Yield why it does not fit a study: microphones that it has not, no speed that is
+        covered."""
         yield from () if self.sound is None else self.sound.problems(receivers)
         if self.baseline is None:
             return
@@ -178,9 +181,9 @@ class MeasuredSound(Parameters):
             elif name not in self.baseline.measured_at:
                 yield f"{where}: the files hold nothing of it"
             elif not any(self.baseline.covers(name, speed) for speed in speeds):
-                known = [one.speed_rpm for one in self.baseline.spectra_at(name)]
-                known += [one.speed_rpm for one in self.baseline.orders_at(name)]
+                measured_rpm = [spectrum.speed_rpm for spectrum in self.baseline.spectra_at(name)]
+                measured_rpm += [row.speed_rpm for row in self.baseline.orders_at(name)]
                 yield (
                     f"{where}: speed_rpm = {', '.join(f'{speed:g}' for speed in speeds)} rpm "
-                    f"lies outside its {min(known):g} to {max(known):g} rpm"
+                    f"lies outside its {min(measured_rpm):g} to {max(measured_rpm):g} rpm"
                 )

@@ -20,8 +20,8 @@ class BaselineFile:
 
     Attributes
     ----------
-    path : of the file
-    settings : of the baseline
+    path : path of the file
+    settings : settings of the baseline
     receivers : names of the study's microphones
     stated_speed : gives the speed of a file that states none, rpm
     """
@@ -34,7 +34,7 @@ class BaselineFile:
 
 @dataclass(frozen=True)
 class BaselineContent:
-    """What a file holds.
+    """Content of a file.
 
     Attributes
     ----------
@@ -52,9 +52,9 @@ class BaselineReader:
 
     Attributes
     ----------
-    name : of the format, short
-    suffixes : of the files' names, small letters with the dot
-    read : what a file holds
+    name : name of the format, short
+    suffixes : suffixes of the files' names, small letters with the dot
+    read : function that reads the content of a file
     """
 
     name: str
@@ -70,7 +70,7 @@ BASELINE_READERS: Final[Registry[BaselineReader]] = Registry(
 def read_baseline(
     settings: BaselineSettings, paths: Sequence[Path], receivers: Sequence[str]
 ) -> BaselineContent:
-    """What all files of a baseline hold together.
+    """Read what all files of a baseline hold together.
 
     Third octaves that a file states take the place of those that come from a narrow band at the
     same microphone.
@@ -80,7 +80,7 @@ def read_baseline(
     ParameterError
         A file is of no known format, cannot be read, or there are more speeds than files.
     """
-    by_suffix = {end: one for one in BASELINE_READERS.values() for end in one.suffixes}
+    by_suffix = {end: reader for reader in BASELINE_READERS.values() for end in reader.suffixes}
     speeds = list(settings.recorded_speed_rpm)
     third_octaves: Rows = []
     orders: Rows = []
@@ -97,11 +97,13 @@ def read_baseline(
             f"recorded_speed_rpm: {len(settings.recorded_speed_rpm)} values, "
             f"{len(settings.recorded_speed_rpm) - len(speeds)} files state no speed"
         )
-    stated = {one["microphone"] for one in third_octaves if not one.get("without_orders")}
+    stated = {
+        spectrum["microphone"] for spectrum in third_octaves if not spectrum.get("without_orders")
+    }
     kept = [
-        one
-        for one in third_octaves
-        if one["microphone"] not in stated or not one.get("without_orders")
+        spectrum
+        for spectrum in third_octaves
+        if spectrum["microphone"] not in stated or not spectrum.get("without_orders")
     ]
     return BaselineContent(kept, orders)
 

@@ -18,9 +18,9 @@ class BoxBody(Parameters):
 
     kind: Literal["box"]
     length_m: float = Field(gt=0.01, le=3.0)
-    """Along x."""
+    """Length along x."""
     width_m: float = Field(gt=0.01, le=3.0)
-    """Along y."""
+    """Width along y."""
     height_m: float = Field(gt=0.01, le=3.0)
 
 

@@ -13,11 +13,11 @@ _FEWER_SAMPLES: Final = 5
 _COARSER_GRID: Final = 1.5
 _NODES_PER_WAVE: Final = 8.0
 _HIGHEST_IN_ROOM_HZ: Final = 710.0
-"""End of the third octave of 630 Hz, from which on the diffuse field stands alone."""
+"""End of the third octave of 630 Hz, from which on the diffuse field is used alone."""
 _END: Final = 0.05
 """Share of the samples beyond each end of a band of 90 %."""
 _DENSITY: Final = 0.1031
-"""Of the normal distribution at its 5 % quantile."""
+"""Density of the normal distribution at its 5 % quantile."""
 
 
 def coarse(study: Study) -> Study:
@@ -101,7 +101,7 @@ def _grid(study: Study) -> _Change:
         return None
     words = (
         f"cut cells of {1e3 * coarser:g} instead of {1e3 * spacing:.3g} mm: their error grows "
-        f"{(coarser / spacing) ** 2:.2g} times; what is estimated of it stands under Radiation"
+        f"{(coarser / spacing) ** 2:.2g} times; its estimate is under Radiation"
     )
     return {"radiation.near_field_spacing_mm": 1e3 * coarser}, words
 

@@ -16,7 +16,7 @@ from .record import ParameterRecord
 from .toml_files import leaves
 
 BESIDE = frozenset({"title", "given"})
-"""What the table of a combination may say."""
+"""Keys of the table of a combination."""
 
 
 def is_combination(name: str, table: Any) -> bool:
@@ -24,8 +24,8 @@ def is_combination(name: str, table: Any) -> bool:
 
     Parameters
     ----------
-    name : of the option
-    table : as the study's file has it
+    name : name of the option
+    table : table in the study's file
     """
     return SEPARATOR in name and isinstance(table, dict) and "kind" not in table
 
@@ -35,7 +35,7 @@ def take_combinations(content: Mapping[str, Any], reader: Reader) -> dict[str, t
 
     Parameters
     ----------
-    content : of the study
+    content : content of the study
     reader : gets the problems
     """
     options = content.get("options")
@@ -76,8 +76,8 @@ def joined_changes(
 
     Parameters
     ----------
-    names : of the options that are joined
-    changes : of each redesign of the study
+    names : names of the options that are joined
+    changes : changes of each redesign of the study
     where : file and key of the combination
 
     Raises
@@ -142,8 +142,8 @@ def joined_machine(
     Parameters
     ----------
     where : file and key of the combination
-    names : of the options that are joined
-    changes : of each redesign of the study
+    names : names of the options that are joined
+    changes : changes of each redesign of the study
     read : the machine with further tables of changes, by their keys
 
     Raises
@@ -168,7 +168,7 @@ def validate_options(
 
     Parameters
     ----------
-    content : of the study
+    content : content of the study
     joined, machines, reader : see `with_combinations`
     """
     tables = content.get("options")

@@ -1,4 +1,4 @@
-"""What holds between the tables of a study."""
+"""Consistency between the tables of a study."""
 
 from collections.abc import Callable, Iterable
 from functools import partial
@@ -18,7 +18,7 @@ from .scoring import check_given, check_scales
 from .tables import StudyTables
 
 LEAST_ORDERS: Final = 2
-"""Which every result holds."""
+"""Orders that every result holds."""
 ROUNDING: Final = 1e-9
 
 
@@ -37,7 +37,7 @@ def check_consistent(study: StudyTables) -> None:
     reference = study.options.get(REFERENCE_OPTION)
     if reference is None or reference.kind != REFERENCE_OPTION:
         raise ValueError('options: an option named none with kind = "none" is required')
-    _raise_all(partial(_check_fits, study, name, one) for name, one in study.options.items())
+    _raise_all(partial(_check_fits, study, name, option) for name, option in study.options.items())
     checks = (
         _check_catalogue, _check_orders, _check_sources, _check_sound_power, _check_room,
         _check_spectrum, _check_rating, _check_criteria, _check_machines,
@@ -203,7 +203,7 @@ def _check_room(study: StudyTables) -> None:
         if name in study.receivers:
             raise ValueError(
                 f"room.listeners.{name}: a microphone has this name, receivers.{name}; give "
-                "another, so that sounds and tables tell them apart"
+                "another, so that sounds and tables distinguish them"
             )
     try:
         study.room.check_holds(study.machine.shell)
@@ -212,13 +212,13 @@ def _check_room(study: StudyTables) -> None:
 
 
 def _check_orders(study: StudyTables) -> None:
-    """Refuse more orders than the radiation or the crank angles can tell apart."""
+    """Refuse more orders than the radiation or the crank angles can resolve."""
     speeds = {*study.operation.speed_rpm, study.catalogue_speed_rpm}
     fastest, slowest = max(speeds), min(speeds)
     orders, samples = study.highest_order(slowest), study.operation.crank_angle_samples
     if 2 * orders >= samples:
-        given = study.operation.maximum_order is not None
-        twice = f"maximum_order = {orders}" if given else f"{orders} orders at {slowest:g} rpm"
+        is_stated = study.operation.maximum_order is not None
+        twice = f"maximum_order = {orders}" if is_stated else f"{orders} orders at {slowest:g} rpm"
         raise ValueError(
             f"operation.crank_angle_samples = {samples}: must be above {2 * orders}, twice {twice}"
         )
@@ -268,7 +268,7 @@ def _check_sources(study: StudyTables) -> None:
         )
     if study.shell_modes is not None and _gas_flows_into(study):
         raise ValueError(
-            "shell_modes: measured modes do not tell what gas in the shell does to its wall; "
+            "shell_modes: measured modes do not show what gas in the shell does to its wall; "
             f"leave the gas out: machine.without = {_gas_flows_into(study)}"
         )
     if study.operation.stopping and not study.machine.has_table(Stopping):
@@ -286,7 +286,7 @@ def _check_turning_back(study: StudyTables) -> None:
 
 
 def _gas_flows_into(study: StudyTables) -> list[str]:
-    read = {name for one in study.sources.values() for name in one.tables_read(study.machine)}
+    read = {name for source in study.sources.values() for name in source.tables_read(study.machine)}
     return sorted(read & set(SPACES))
 
 

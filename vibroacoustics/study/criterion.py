@@ -10,7 +10,7 @@ from ..base.units import split_key
 
 
 class Criterion:
-    """What options are scored by; a further one is one file of `scoring.criteria`.
+    """Criterion by which options are scored; a further one is one file of `scoring.criteria`.
 
     Class and registry lie here, not in `scoring`: a study refuses the name of an unknown
     criterion when it is loaded, and parameters import no stage.
@@ -75,7 +75,7 @@ class Criterion:
 
     @property
     def needed(self) -> str:
-        """What a study lacks without the table, in words."""
+        """Needs of a study without the table, in words."""
         return f"needs the table [{self.table}] in the study"
 
 
@@ -91,7 +91,7 @@ def label_and_unit(name: str, label: str = "", unit: str = "") -> tuple[str, str
     Parameters
     ----------
     name : key in study files
-    label, unit : of the criterion
+    label, unit : label and unit of the criterion
     """
     stem, suffix = split_key(name)
     words = label or stem.replace("_", " ").capitalize()

@@ -22,7 +22,7 @@ class DesignVariable(Parameters):
     list: tuple[Number | str, ...] | None = Field(default=None, min_length=1, max_length=10_000)
     """Numbers or words in place of a range."""
     points: int | None = Field(default=None, ge=2, le=100_000)
-    """Of a range in a grid."""
+    """Number of points of a range in a grid."""
 
     def contradictions(self) -> Contradictions:
         if (self.range is None) == (self.list is None):
@@ -37,10 +37,10 @@ class DesignVariable(Parameters):
 
 
 class Tolerance(Parameters):
-    """How far a value lies from what is meant, evenly spread, in the unit of its key."""
+    """Tolerance about the intended value, evenly spread, in the unit of its key."""
 
     ratio: float | None = Field(default=None, gt=0.0, lt=1.0)
-    """Of the value, to both sides."""
+    """Share of the value, to both sides."""
     plus_minus: float | None = Field(default=None, gt=0.0)
     range: tuple[float, float] | None = None
     """The value itself, whatever is meant: the angle of a residual unbalance."""
@@ -62,17 +62,17 @@ class Wanted(Parameters):
     speeds: Statistic = "worst"
     receivers: Statistic = "mean"
     samples: Statistic | None = None
-    """Over the samples of machine and tolerances; 0.9 is met by nine of ten.
+    """Statistic over the samples of machine and tolerances; 0.9 is met by nine of ten.
 
     Without it the median of a study with uncertainty, else nine pieces of ten.
     """
 
     @field_validator("speeds", "receivers", "samples")
     @classmethod
-    def _share(cls, given: Statistic) -> Statistic:
-        if isinstance(given, float) and not 0.0 < given <= 1.0:
-            raise ValueError(f"{given:g}: allowed worst, mean or a share above 0 to 1")
-        return given
+    def _share(cls, value: Statistic) -> Statistic:
+        if isinstance(value, float) and not 0.0 < value <= 1.0:
+            raise ValueError(f"{value:g}: allowed worst, mean or a share above 0 to 1")
+        return value
 
 
 class Objective(Wanted):
@@ -93,17 +93,17 @@ class Constraint(Wanted):
 
 
 class Search(Parameters):
-    """How the best designs are looked for."""
+    """Search for the best designs."""
 
     population: int = Field(default=64, ge=8, le=10_000)
     """Designs a generation."""
     generations: int = Field(default=100, ge=1, le=100_000)
     seed: int = Field(default=1, ge=0, le=2**31 - 1)
-    """Of the random numbers; the same seed asks for the same designs."""
+    """Seed of the random numbers; the same seed gives the same designs."""
     best: int = Field(default=5, ge=1, le=20)
-    """Designs that are told one by one."""
+    """Designs that are reported one by one."""
     fresh_samples: int = Field(default=10_000, ge=100, le=1_000_000)
-    """Of the tolerances, that the search has not seen, behind what a design promises."""
+    """Samples of the tolerances that the search has not used; a design's promise rests on them."""
 
 
 class Design(Parameters):
@@ -112,12 +112,12 @@ class Design(Parameters):
     option: tuple[str, ...] = Field(min_length=1, max_length=100)
     """Options of the study among which a design chooses; in a file also one name."""
     variables: dict[str, DesignVariable] = Field(default_factory=dict, max_length=64)
-    """By dotted key of an option's or the machine's value, with its unit."""
+    """Variables by dotted key of an option's or the machine's value, with its unit."""
     objectives: dict[str, Objective] = Field(min_length=1, max_length=16)
     constraints: dict[str, Constraint] = Field(default_factory=dict, max_length=32)
     tolerances: dict[str, Tolerance] = Field(default_factory=dict, max_length=64)
     tolerance_samples: int = Field(default=64, ge=1, le=1_000_000)
-    """Of the tolerances, the same for all designs."""
+    """Samples of the tolerances, the same for all designs."""
     sampling: Literal["grid", "latin-hypercube", "sobol"] = "grid"
     samples: int = Field(default=1000, ge=1, le=100_000_000)
     """Designs of a sample."""
@@ -126,13 +126,13 @@ class Design(Parameters):
 
     @field_validator("option", mode="before")
     @classmethod
-    def _names(cls, given: Any) -> Any:
-        return (given,) if isinstance(given, str) else given
+    def _names(cls, value: Any) -> Any:
+        return (value,) if isinstance(value, str) else value
 
     @field_validator("variables", "tolerances", mode="before")
     @classmethod
-    def _dotted(cls, given: Any) -> Any:
-        return flattened(given) if isinstance(given, Mapping) else given
+    def _dotted(cls, value: Any) -> Any:
+        return flattened(value) if isinstance(value, Mapping) else value
 
     def contradictions(self) -> Contradictions:
         if len(set(self.option)) < len(self.option):

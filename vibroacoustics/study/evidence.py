@@ -1,4 +1,4 @@
-"""What is published or measured of a machine, to hold results against."""
+"""Evidence on a machine, published or measured, to compare results with."""
 
 from pydantic import Field
 
@@ -24,4 +24,4 @@ class Evidence(Parameters):
 
     forces: tuple[PublishedForce, ...] = ()
     spectrum: MeasuredSpectrum | None = None
-    """It weighs the samples together with the published level."""
+    """Spectrum that weights the samples together with the published level."""

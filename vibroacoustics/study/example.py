@@ -48,9 +48,9 @@ def unmarked(source: str, key: str, value: Any, folder: Path) -> tuple[str, bool
 
     Parameters
     ----------
-    source : of the value
-    key : of the value, with its unit
-    value : as in the file
+    source : source of the value
+    key : key of the value, with its unit
+    value : value in the file
     folder : that names of data files are relative to
     """
     if not source.startswith(MARK):

@@ -44,8 +44,8 @@ def _without_options(study: Study, fault: FaultError) -> Study:
     }
     failing = _failing(fault, kinds, {name: {entry.kind} for name, entry in study.sources.items()})
     options = {name: entry for name, entry in study.options.items() if name not in failing}
-    given = {name: values for name, values in study.given.items() if name not in failing}
-    return study.model_copy(update={"options": options, "given": given})
+    remaining = {name: values for name, values in study.given.items() if name not in failing}
+    return study.model_copy(update={"options": options, "given": remaining})
 
 
 def without_failing(written: Written, fault: FaultError) -> Written:
@@ -91,7 +91,7 @@ def _failing(fault: FaultError, options: _Kinds, sources: _Kinds) -> list[str]:
 
     Parameters
     ----------
-    fault : of a plug-in
+    fault : fault of a plug-in
     options, sources : kinds by name
     """
     failing = _of_kind(fault, OPTIONS.noun, options)

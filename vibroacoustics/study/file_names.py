@@ -12,7 +12,7 @@ def resolve_file_names(table: dict[str, Any], reader: Reader, prefix: tuple[str,
     Parameters
     ----------
     table : in SI; changed in place
-    reader : of the file
+    reader : reader of the file
     prefix : keys of the table
     """
     for key, value in table.items():

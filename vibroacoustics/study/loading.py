@@ -73,7 +73,7 @@ def study_of(written: Written) -> Study:
     Raises
     ------
     ParameterError
-        As `load_study`.
+        See `load_study`.
     FaultError
         The code of a machine or source failed.
     """
@@ -115,7 +115,7 @@ def _study_of(written: Written) -> Study:
         if name in content:
             del content[name]
             reader.problems.append(f"{path}: {name}: unknown key")
-    given = reader.tried(lambda: take_given(content, reader))
+    given_values = reader.tried(lambda: take_given(content, reader))
     evidence = reader.tried(lambda: take_evidence(content, reader))
     content = reader.to_si(content, ())
     for name in _WITH_DATA_FILES:
@@ -123,7 +123,7 @@ def _study_of(written: Written) -> Study:
             resolve_file_names(content[name], reader, (name,))
     reader.tried(lambda: _read_measured(content, reader))
     plate = reader.tried(lambda: _plate(content, reader))
-    content.update(source_file=path.name, given=given, evidence=evidence, titles=titles)
+    content.update(source_file=path.name, given=given_values, evidence=evidence, titles=titles)
     for name, (redesigned, _, _) in redesigns.items():
         content["options"][name]["machine"] = _under(plate, redesigned)
     validate_options(
@@ -166,7 +166,7 @@ def _redesigns(
 
     Parameters
     ----------
-    content : of the study
+    content : content of the study
     reader : gets what is refused
     read : the machine with further tables of changes, by their keys
     joined : names that each combination joins
@@ -208,7 +208,7 @@ def load_machine(path: str | Path) -> Machine:
     Raises
     ------
     ParameterError
-        As `load_study`; also where a value has no source.
+        See `load_study`; also where a value has no source.
 
     Parameters
     ----------
@@ -334,7 +334,7 @@ def _resolve(content: Mapping[str, Any], keys: tuple[str, ...], reader: Reader) 
 
 
 def _resolve_list(content: Mapping[str, Any], keys: tuple[str, ...], reader: Reader) -> None:
-    """Of a list of names."""
+    """Resolve a list of names."""
     table = _table_at(content, keys[:-1])
     if table is not None and isinstance(table.get(keys[-1]), list):
         file = reader.file(keys)
@@ -355,7 +355,7 @@ def load_study_or_machine(path: str | Path) -> Study | Machine:
     Raises
     ------
     ParameterError
-        As `load_study` and `load_machine`.
+        See `load_study` and `load_machine`.
     """
     is_machine = "kind" in read_toml(Path(path))
     return load_machine(path) if is_machine else load_study(path)

@@ -37,7 +37,7 @@ def read_machine(
         the study
     study : reader of the study
     point : one of the file's operating points; its values replace the machine's before the changes
-    without : tables of the file that are left out
+    without : tables of the file that are omitted
 
     Raises
     ------

@@ -23,7 +23,7 @@ class StudyMachine(Parameters):
     position_m: tuple[_Metres, _Metres]
     """x and y of its axis on the floor, in the axes of the common receivers."""
     angle_rad: float = Field(default=0.0, ge=-6.3, le=6.3)
-    """From the common x axis to the machine's, about the vertical."""
+    """Angle from the common x axis to the machine's, about the vertical."""
     speed_rpm: float = Field(ge=60.0, le=60000.0)
     option: str = REFERENCE_OPTION
     """Among the options of its study."""
@@ -39,11 +39,11 @@ class BaseFrame(Parameters):
     height_m: float = Field(ge=0.0, le=3.0)
     """Height of its centre of mass above the floor."""
     top_height_m: float = Field(ge=0.0, le=0.4)
-    """Above the floor, of the surface on which the mounts of the machines stand."""
+    """Height above the floor, of the surface on which the mounts of the machines stand."""
     mounts: Mounts
-    """Between frame and floor, four in a square about its centre of mass."""
+    """Mounts between frame and floor, four in a square about its centre of mass."""
     feet: Feet | None = None
-    """From its centre of mass, in place of the square."""
+    """Feet from its centre of mass, in place of the square."""
 
 
 def machines_problems(

@@ -24,9 +24,9 @@ class WallPoint(Hit):
     """A point of the wall; its direction is that of the outward normal, as the file calls it."""
 
     angle_rad: float = Field(ge=-2.0 * pi, le=2.0 * pi)
-    """From x towards y."""
+    """Angle from x towards y."""
     height_m: float = Field(ge=-2.0, le=2.0)
-    """From the centre of mass."""
+    """Height from the centre of mass."""
 
 
 class PartPoint(Hit):
@@ -58,12 +58,12 @@ class MeasuredShell(Parameters):
     parts: dict[str, PartPoint] = Field(default_factory=dict)
 
     def contradictions(self) -> Contradictions:
-        seen: dict[tuple[int, str], str] = {}
+        name_of_key: dict[tuple[int, str], str] = {}
         for kind, points in (("wall", self.wall), ("parts", self.parts)):
             for name, point in points.items():
                 key = (point.node, point.direction[1])
-                if key in seen:
-                    yield f"{kind}.{name}: has node and direction of {seen[key]}"
-                seen[key] = f"{kind}.{name}"
+                if key in name_of_key:
+                    yield f"{kind}.{name}: has node and direction of {name_of_key[key]}"
+                name_of_key[key] = f"{kind}.{name}"
         if self.highest_frequency_hz <= self.lowest_frequency_hz:
             yield "highest_frequency_hz: must be above lowest_frequency_hz"

@@ -12,18 +12,18 @@ _POSITION = ("x_m", "y_m", "z_m")
 
 
 class ForcePoint(Hit):
-    """Where a hammer hit: the machine at a position, or the floor under a foot."""
+    """Point at which a hammer hit: the machine at a position, or the floor under a foot."""
 
     foot: str | None = None
     """Its name; none on the machine."""
     x_m: float | None = Field(default=None, ge=-10.0, le=10.0)
     y_m: float | None = Field(default=None, ge=-10.0, le=10.0)
     z_m: float | None = Field(default=None, ge=-10.0, le=10.0)
-    """From the centre of mass at rest."""
+    """Height from the centre of mass at rest."""
 
     def contradictions(self) -> Contradictions:
-        given = [name for name in _POSITION if getattr(self, name) is not None]
-        if (self.foot is None) != (len(given) == len(_POSITION)) or (self.foot and given):
+        stated = [name for name in _POSITION if getattr(self, name) is not None]
+        if (self.foot is None) != (len(stated) == len(_POSITION)) or (self.foot and stated):
             yield "needs either foot or x_mm, y_mm and z_mm"
 
 
@@ -40,7 +40,7 @@ class MeasuredSoundPath(Parameters):
     units: dict[str, str] = Field(default_factory=dict)
     points: dict[str, ForcePoint] = Field(min_length=1)
     microphones: dict[str, MicrophoneNode] = Field(min_length=1)
-    """By the study's receiver."""
+    """Microphones by the study's receiver."""
 
     def contradictions(self) -> Contradictions:
         kinds = {point.foot is None for point in self.points.values()}
@@ -59,7 +59,7 @@ class MeasuredSoundPath(Parameters):
         return next(iter(self.points.values())).foot is not None
 
     def problems(self, receivers: Sequence[str]) -> Iterator[str]:
-        """Why it does not fit a study."""
+        """Yield why it does not fit a study."""
         for name in receivers:
             if name not in self.microphones:
                 yield f"measured.sound.microphones.{name}: is missing, the study has this receiver"

@@ -91,7 +91,7 @@ class MeasuredSpectrum(FileTable):
 
         Parameters
         ----------
-        receivers, speeds : of the study, rpm
+        receivers, speeds : receivers and speeds of the study, rpm
         points : operating points at which it computes, or None for the machine's own values
         maximum_hz : highest frequency of the radiation
         """

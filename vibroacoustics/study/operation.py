@@ -15,23 +15,24 @@ _SHOWN_SUPPLY = WithJsonSchema({"type": "number", "minimum": 1.0, "maximum": 100
 MOST_SPEEDS: Final = 1000
 KEYS: Final = ("start", "stop", "step")
 DECIMALS: Final = 9
-"""Of a speed in rpm; and a speed that misses `stop` by 1e-9 of a step counts as it."""
+"""Decimals of a speed in rpm; a speed that misses `stop` by 1e-9 of a step counts as it."""
 
 
 class Operation(Parameters):
     speed_rpm: tuple[Annotated[float, _SHOWN_SPEED], ...] = Field(
         min_length=1, max_length=MOST_SPEEDS
     )
-    """In a file also a table of start, stop and step."""
+    """Speeds; in a file also a table of start, stop and step."""
     crank_angle_samples: int = Field(default=256, ge=64, le=65536)
     maximum_order: int | None = Field(default=None, ge=2, le=1000)
-    """None for as many at each speed as the highest frequency of the radiation holds."""
+    """Maximum order; None for as many at each speed as the highest frequency of the radiation
+    holds."""
     keep_time_series: bool | None = None
     """Forces and moments over crank angle in the results; none for up to 100 speeds only."""
     supply_frequency_hz: tuple[Annotated[float, _SHOWN_SUPPLY], ...] | None = None
-    """Of the motor's supply, one for each speed; where a source needs it."""
+    """Frequency of the motor's supply, one for each speed; where a source needs it."""
     point: str | None = None
-    """Operating point of the machine's file, whose values hold; none for the machine's as given."""
+    """Operating point of the machine's file, whose values hold; none for the nominal machine."""
     stopping: bool = False
     """Whether a stop from each speed is computed, where the machine has a table of that name."""
     turning_back: bool = False
@@ -39,10 +40,10 @@ class Operation(Parameters):
 
     @field_validator("speed_rpm", mode="before")
     @classmethod
-    def _range(cls, given: Any) -> Any:
-        if isinstance(given, dict):
-            return speed_range(given)
-        return tuple(given) if isinstance(given, list) else given
+    def _range(cls, value: Any) -> Any:
+        if isinstance(value, dict):
+            return speed_range(value)
+        return tuple(value) if isinstance(value, list) else value
 
     def contradictions(self) -> Contradictions:
         for speed in self.speed_rpm:

@@ -1,4 +1,4 @@
-"""How a recording's orders are to be found."""
+"""Settings of the analysis of a recording's orders."""
 
 import math
 from dataclasses import dataclass
@@ -20,17 +20,17 @@ BAND_METHODS: Final[tuple[BandMethod, ...]] = get_args(BandMethod)
 
 @dataclass(frozen=True)
 class SpeedChannel:
-    """A channel tells the speed: in rpm where that is its unit, else by pulses.
+    """A channel gives the speed: in rpm where that is its unit, else by pulses.
 
     Attributes
     ----------
-    channel : of the tacho, or of the speed with the unit rpm
-    pulses_per_revolution : of the tacho
+    channel : channel of the tacho, or of the speed with the unit rpm
+    pulses_per_revolution : pulses per revolution of the tacho
     index_channel : with one pulse a revolution, at which the crank angle is zero
     threshold : level of the tacho that marks the angle, in its unit; None: from its pulses, whose
         height it follows
-    edge : of the tacho's pulses, `rising` or `falling`; None: the rising one, but of pulses to both
-        sides of a rest the steeper one
+    edge : edge of the tacho's pulses, `rising` or `falling`; None: the rising one, but of pulses to
+        both sides of a rest the steeper one
 
     Raises
     ------
@@ -59,7 +59,7 @@ class SpeedChannel:
 
 @dataclass(frozen=True)
 class NominalSpeed:
-    """The speed is told, and taken to be even.
+    """The speed is stated, and taken to be even.
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ class TacholessSpeed:
     channel : name, or None for the recording's only channel
     minimum_rpm, maximum_rpm : limits within which the speed is looked for
     comb : rising orders that the machine is known to have; one or two may be silent
-    mains_hz : nominal frequency of the mains, whose multiples are left out; None: nothing is
+    mains_hz : nominal frequency of the mains, whose multiples are removed; None: nothing is
 
     Raises
     ------
@@ -106,7 +106,7 @@ class TacholessSpeed:
     """
 
     channel: str | None
-    """None: the recording's only channel."""
+    """Channel; None: the recording's only channel."""
     minimum_rpm: float
     maximum_rpm: float
     comb: tuple[float, ...] = DEFAULT_COMB
@@ -136,7 +136,7 @@ class SpeedLine:
     ----------
     channel : name, or None for the recording's only channel
     points : time, s from the first sample, and speed, rpm, of at least two points; times rise
-    comb, mains_hz : as of `TacholessSpeed`
+    comb, mains_hz : see `TacholessSpeed`
 
     Raises
     ------
@@ -183,9 +183,9 @@ class OrderAnalysis:
     ----------
     speed : where the speed comes from
     orders : wanted, rising
-    maximum_order : of spectra and map
+    maximum_order : maximum order of spectra and map
     resolution_order : coarsest noise bandwidth of a line, orders
-    speed_step_rpm : of the operating points of a run-up
+    speed_step_rpm : speed step of the operating points of a run-up
     with_map : whether the order map of every block is kept; None: of a run-up where it takes at
         most 128 MiB
     bands : third octaves of sound pressure as "sums" of the lines within a band, or through the
@@ -208,11 +208,11 @@ class OrderAnalysis:
     orders: tuple[float, ...] = (1.0, 2.0, 3.0, 4.0)
     """Rising."""
     maximum_order: float = 20.0
-    """Of spectra and map."""
+    """Maximum order of spectra and map."""
     resolution_order: float = 0.25
     """Coarsest noise bandwidth of a line, orders."""
     speed_step_rpm: float = 100.0
-    """Of the operating points of a run-up."""
+    """Step of the operating points of a run-up."""
     with_map: bool | None = False
     """Keep the order map of every block; None: that of a run-up, up to 128 MiB."""
     bands: BandMethod = "sums"

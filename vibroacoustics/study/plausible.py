@@ -28,7 +28,7 @@ def warn_of_doubts(
     machine : to which the values belong, nominal or as an option changes it
     of_machine : reader of its file
     of_study : reader of the study, of which some tables are judged
-    speeds_rpm : of the study, against which the machine is judged
+    speeds_rpm : speeds of the study, against which the machine is judged
     """
     lines = [*_doubts(machine, of_machine, tuple(type(machine).model_fields))]
     lines += [f"{of_machine.path}: {words}" for words in machine.doubts()]

@@ -33,12 +33,13 @@ class RadiationSettings(Parameters):
     body: RadiatingBody = ShellBody()
     surroundings: Surroundings = Surroundings()
     method: Literal["automatic", "revolution", "cut-cells"] = "automatic"
-    """How the machine's wall radiates: boundary elements on the meridian of a shell or a sphere in
-    free field or over the floor, or cut cells; automatic takes the first where it can."""
+    """Method of radiation by the machine's wall: boundary elements on the meridian of a shell or a
+    sphere in free field or over the floor, or cut cells; automatic takes the first where it can."""
     room_solver: Literal["k-wave", "closed-form"] = "k-wave"
-    """How sound travels from the box to the receivers of `kwave_receivers`, up to 4 kHz."""
+    """Method of the sound from the box to the receivers of `kwave_receivers`, up to 4 kHz."""
     kwave_receivers: Literal["catalogue", "all"] = "catalogue"
-    """Where k-Wave computes the room: at the microphone of the catalogue's noise, or at all."""
+    """Receivers for which k-Wave computes the room: the microphone of the published level, or
+    all."""
     near_field_spacing_m: float | None = Field(default=None, ge=0.002, le=_LARGEST_SPACING_M)
     """Cell size of the finer cut-cell grid around the body; the coarser one has 1.5 times it.
     Without it automatic: the largest that resolves the wave, the body and a cabinet's panels."""

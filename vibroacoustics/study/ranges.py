@@ -1,4 +1,4 @@
-"""Which values of the machine a study reads and samples, and from which ranges."""
+"""Values of the machine that a study reads and samples, and their ranges."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any, get_args
@@ -123,7 +123,7 @@ def _is_integer(annotation: Any) -> bool:
 
 
 def _why_held(owner: Parameters, name: str, measured: bool) -> str | None:
-    """Why a value is not sampled; none where it is."""
+    """Say why a value is not sampled; none where it is."""
     field = type(owner).model_fields[name]
     if measured and isinstance(owner, ShellStructure) and name in owner.changes_modes:
         return "change modes, which are measured here"

@@ -23,7 +23,7 @@ class Window(Parameters):
     sensitive_s: float = Field(default=0.0, ge=0.0, le=57600.0)
     """Part of the operating time in hours of raised sensitivity."""
     limit_dba: float | None = Field(default=None, ge=0.0, le=120.0)
-    """In place of the limit of the area."""
+    """Limit in place of the limit of the area."""
     impulse_adjustment_db: float = Field(default=0.0, ge=0.0, le=12.0)
 
 

@@ -17,7 +17,7 @@ class RatingRules:
     Attributes
     ----------
     name : in study files
-    title : what reports show
+    title : title in reports
     source : document, and where its values are quoted
     rating_time_s : length of each period
     tonal_steps : adjustments for tones

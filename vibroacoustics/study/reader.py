@@ -46,7 +46,7 @@ class Reader:
         return result
 
     def _number_or_problem(self, keys: tuple[str, ...], value: Any) -> Any:
-        """The bare value of a leaf; what is wrong with its source or range is told later."""
+        """The bare value of a leaf; what is wrong with its source or range is reported later."""
         try:
             return self.number(keys, value)
         except ParameterError as error:
@@ -76,9 +76,9 @@ class Reader:
 
         Parameters
         ----------
-        keys : of the leaf
+        keys : keys of the leaf
         value : number, or table with value, source and range
-        unit : where the key's suffix tells none
+        unit : unit where the key's suffix states none
         """
         where = self.file_and_key(keys)
         if not is_quantity(value):
@@ -119,12 +119,12 @@ class Reader:
         return _frozen(number)
 
 
-def _limits(where: str, given: Any) -> tuple[float, float] | tuple[None, None]:
-    if given is None:
+def _limits(where: str, limits: Any) -> tuple[float, float] | tuple[None, None]:
+    if limits is None:
         return None, None
-    if not isinstance(given, list) or len(given) != 2 or not all(map(is_number, given)):
+    if not isinstance(limits, list) or len(limits) != 2 or not all(map(is_number, limits)):
         raise ParameterError(f"{where}: range must be two numbers [lowest, highest]")
-    return float(given[0]), float(given[1])
+    return float(limits[0]), float(limits[1])
 
 
 def is_number(value: Any) -> bool:

@@ -1,4 +1,4 @@
-"""Where the microphones stand."""
+"""Positions of the microphones."""
 
 from math import hypot
 
@@ -16,5 +16,5 @@ class Receiver(Parameters):
 
     @property
     def distance_m(self) -> float:
-        """From the foot of the machine's axis on the floor."""
+        """Distance from the foot of the machine's axis on the floor."""
         return hypot(self.x_m, self.y_m, self.height_m)

@@ -1,11 +1,11 @@
-"""Where values come from."""
+"""Sources of values."""
 
 from ..base.parameters import Parameters
 from .example import MARK
 
 
 class ParameterRecord(Parameters):
-    """Where a value comes from: one row of the assumptions table."""
+    """Source of a value: one row of the assumptions table."""
 
     file: str
     field: str

@@ -38,7 +38,7 @@ def density_ratios(
     Parameters
     ----------
     ranges : that the samples are from
-    others : of the same values
+    others : other ranges of the same values
     samples : values by table and field
     """
     ratio = np.ones(len(samples))

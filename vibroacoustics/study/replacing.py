@@ -18,7 +18,7 @@ _MACHINE: Final = ("machine", "override")
 
 
 def replaced(written: Written, values: Mapping[str, Any]) -> Written:
-    """What a study's file would say with other values.
+    """Return what a study's file would say with other values.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def replaced(written: Written, values: Mapping[str, Any]) -> Written:
     ParameterError
         A key is no text, or what is to be taken out is not there.
     """
-    over: dict[str, Any] = {}
+    changes: dict[str, Any] = {}
     content = deepcopy(written.content)
     for dotted, value in values.items():
         if not isinstance(dotted, str) or not all(dotted.split(".")):
@@ -40,20 +40,25 @@ def replaced(written: Written, values: Mapping[str, Any]) -> Written:
             _take_out(content, keys)
             continue
         in_machine = keys[: len(_MACHINE)] == _MACHINE
-        _put(over, keys, _as_in_file(value, in_machine))
-    origin = written.origin | dict.fromkeys(leaves(over), FILE)
-    return Written(written.path, merge(content, over), origin)
+        _put(changes, keys, _as_in_file(value, in_machine))
+    origin = written.origin | dict.fromkeys(leaves(changes), FILE)
+    return Written(written.path, merge(content, changes), origin)
 
 
 def _keys(dotted: str) -> tuple[str, ...]:
     """Keys in the study's file; values of the machine are in its table `machine.override`."""
-    first, *rest = dotted.split(".")
-    inner = first == "machine" and rest[:1] not in (["file"], ["title"], ["override"], ["without"])
-    return (*_MACHINE, *rest) if inner else (first, *rest)
+    first, *further = dotted.split(".")
+    inner = first == "machine" and further[:1] not in (
+        ["file"],
+        ["title"],
+        ["override"],
+        ["without"],
+    )
+    return (*_MACHINE, *further) if inner else (first, *further)
 
 
-def _put(over: dict[str, Any], keys: tuple[str, ...], value: Any) -> None:
-    table = over
+def _put(changes: dict[str, Any], keys: tuple[str, ...], value: Any) -> None:
+    table = changes
     for key in keys[:-1]:
         table = table.setdefault(key, {})
     if is_table(table.get(keys[-1])) and is_table(value):

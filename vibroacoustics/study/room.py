@@ -24,7 +24,7 @@ Coordinate = Annotated[float, Field(ge=0.0, le=LONGEST_M)]
 
 
 class Furniture(Parameters):
-    """A solid cuboid that is left out of the air of a room."""
+    """A solid cuboid in a room, which holds no air."""
 
     lower_m: tuple[Coordinate, Coordinate, Coordinate]
     """Its corner nearest to the room's origin: x, y, z."""
@@ -35,7 +35,8 @@ class Furniture(Parameters):
         """Whether a point lies inside."""
         point = (x_m, y_m, z_m)
         return all(
-            low < at < high for low, at, high in zip(self.lower_m, point, self.upper_m, strict=True)
+            low < coordinate < high
+            for low, coordinate, high in zip(self.lower_m, point, self.upper_m, strict=True)
         )
 
 
@@ -66,8 +67,8 @@ class RoomLimits(Parameters):
     @property
     def levels(self) -> dict[str, float]:
         """Those that are given, by time of day."""
-        given = {"day": self.day_dba, "night": self.night_dba}
-        return {time: level for time, level in given.items() if level is not None}
+        limits = {"day": self.day_dba, "night": self.night_dba}
+        return {time: level for time, level in limits.items() if level is not None}
 
 
 class StudyRoom(Parameters):
@@ -78,11 +79,11 @@ class StudyRoom(Parameters):
 
     size_m: tuple[Length, Length, Length]
     foot_m: tuple[Coordinate, Coordinate]
-    """Of the shell's axis: x and y."""
+    """Foot of the shell's axis: x and y."""
     standing_height_m: float = Field(default=0.0, ge=0.0, le=LONGEST_M)
     """Top of what the machine stands on, above the floor."""
     maximum_frequency_hz: float = Field(default=1000.0, ge=250.0, le=1000.0)
-    """Up to which waves are computed; above, the diffuse field."""
+    """Frequency up to which waves are computed; above, the diffuse field."""
     walls: dict[RoomSide, Material] = Field(default_factory=dict)
     furniture: dict[str, Furniture] = Field(default_factory=dict)
     patches: dict[str, RoomPatch] = Field(default_factory=dict)
@@ -105,9 +106,11 @@ class StudyRoom(Parameters):
         self._check_stands()
 
     def _check_listeners(self) -> None:
-        for name, one in self.listeners.items():
-            point = (one.x_m, one.y_m, one.height_m)
-            if not all(0.0 < at < size for at, size in zip(point, self.size_m, strict=True)):
+        for name, listener in self.listeners.items():
+            point = (listener.x_m, listener.y_m, listener.height_m)
+            if not all(
+                0.0 < coordinate < size for coordinate, size in zip(point, self.size_m, strict=True)
+            ):
                 raise ValueError(
                     f"listeners.{name}: at {_millimetres(point)} mm: must lie in the room, "
                     f"0 to {_millimetres(self.size_m)} mm"
@@ -161,9 +164,9 @@ class StudyRoom(Parameters):
                 raise ValueError(
                     f"foot_mm = {_millimetres(self.foot_m)}: the shell stands in furniture.{name}"
                 )
-        for name, one in self.listeners.items():
-            height = one.height_m - self.standing_height_m
-            if shell.distance_m(one.x_m - x, one.y_m - y, height) < _ON_WALL_M:
+        for name, listener in self.listeners.items():
+            height = listener.height_m - self.standing_height_m
+            if shell.distance_m(listener.x_m - x, listener.y_m - y, height) < _ON_WALL_M:
                 raise ValueError(f"listeners.{name}: lies in the machine")
 
 
@@ -179,8 +182,8 @@ def _overlaps(
     if not block.lower_m[2] < upper[2] or not lower[2] < block.upper_m[2]:
         return False
     beside = [
-        max(low - at, at - high, 0.0)
-        for at, low, high in zip((x, y), block.lower_m, block.upper_m, strict=False)
+        max(low - coordinate, coordinate - high, 0.0)
+        for coordinate, low, high in zip((x, y), block.lower_m, block.upper_m, strict=False)
     ]
     return hypot(*beside) < radius
 

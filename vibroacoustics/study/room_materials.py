@@ -1,4 +1,4 @@
-"""What covers walls and furniture of a room: absorption by octave, and the package's library."""
+"""Covers of walls and furniture of a room: absorption by octave, and the package's library."""
 
 import tomllib
 from functools import cache
@@ -19,7 +19,7 @@ class Covering(Parameters):
 
     absorption_ratio: tuple[Ratio, Ratio, Ratio, Ratio, Ratio, Ratio]
     name: str = ""
-    """In the library."""
+    """Name in the library."""
     source: str = ""
 
 
@@ -38,18 +38,18 @@ def library() -> dict[str, Covering]:
     }
 
 
-def _by_name(given: Any) -> Any:
+def _by_name(value: Any) -> Any:
     """A covering for a name of the library; anything else as it is."""
-    if isinstance(given, dict) and isinstance(ratios := given.get("absorption_ratio"), list):
-        return {**given, "absorption_ratio": tuple(ratios)}  # strict beyond this function
-    if not isinstance(given, str):
-        return given
-    if given not in library():
+    if isinstance(value, dict) and isinstance(ratios := value.get("absorption_ratio"), list):
+        return {**value, "absorption_ratio": tuple(ratios)}  # strict beyond this function
+    if not isinstance(value, str):
+        return value
+    if value not in library():
         raise ValueError(
-            f"{given} is no material of the library; allowed {', '.join(library())}, "
+            f"{value} is no material of the library; allowed {', '.join(library())}, "
             "or a table with absorption_ratio"
         )
-    return library()[given]
+    return library()[value]
 
 
 _SCHEMA: Final = {
@@ -71,4 +71,4 @@ _SCHEMA: Final = {
     ]
 }
 Material = Annotated[Covering, BeforeValidator(_by_name), WithJsonSchema(_SCHEMA)]
-"""In files a name of the library, or a table of absorption by octave."""
+"""Material: in files a name of the library, or a table of absorption by octave."""

@@ -17,7 +17,7 @@ from .sampling import Sample, latin_hypercubes, narrowed
 from .study import Study
 
 MOST_ROUNDS: Final = 20
-"""Of sampling anew for samples that contradict themselves."""
+"""Most rounds of sampling anew for samples that contradict themselves."""
 
 Table = TypeVar("Table", bound=Parameters)
 
@@ -28,7 +28,7 @@ class SampleSet:
 
     Attributes
     ----------
-    samples : as many as the study asks for
+    samples : number of samples that the study wants
     refused : why others were not taken, one line each
     """
 
@@ -118,15 +118,15 @@ def warn_of_contradictions(study: Study) -> None:
         )
 
 
-def with_sample(machine: Machine, given: Machine, sample: Sample) -> Machine:
+def with_sample(machine: Machine, nominal: Machine, sample: Sample) -> Machine:
     """A machine with sampled values and what follows from them.
 
     What an option has changed of the given machine stays changed.
 
     Parameters
     ----------
-    machine : as an option leaves it
-    given : of the study
+    machine : machine with an option
+    nominal : nominal machine of the study
     sample : values by table and field
 
     Raises
@@ -137,7 +137,7 @@ def with_sample(machine: Machine, given: Machine, sample: Sample) -> Machine:
     changed = {
         f"{table}.{field}".lstrip("."): value
         for (table, field), value in sample.items()
-        if _read(machine, table, field) == _read(given, table, field)
+        if _read(machine, table, field) == _read(nominal, table, field)
     }
     if not changed:
         return machine
@@ -145,7 +145,7 @@ def with_sample(machine: Machine, given: Machine, sample: Sample) -> Machine:
 
 
 def _derived(machine: Machine, changed: Mapping[str, float], sample: Sample) -> dict[str, float]:
-    """What follows from the sampled values of a machine, in the order of `derived`.
+    """Values that follow from the sampled values of a machine, in the order of `derived`.
 
     They are not checked before: sampled values may contradict a given one that follows from them.
     """
@@ -199,16 +199,16 @@ def _by_table(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, dict
     direct: dict[str, Any] = {}
     inner: dict[str, dict[str, Any]] = {}
     for name, value in values.items():
-        first, _, rest = name.partition(".")
-        if rest:
-            inner.setdefault(first, {})[rest] = value
+        first, _, further = name.partition(".")
+        if further:
+            inner.setdefault(first, {})[further] = value
         else:
             direct[first] = value
     return direct, inner
 
 
 def _why_not(study: Study, sample: Sample) -> str | None:
-    """Why the machine or a source cannot take a sample; none where they can."""
+    """Say why the machine or a source cannot take a sample; none where they can."""
     try:
         machine = with_sample(study.machine, study.machine, sample)
     except ParameterError as error:

@@ -33,7 +33,7 @@ class CriterionScale(Parameters):
     best: float
     worst: float
     title: str = Field(default="", max_length=60)
-    """What reports show in place of the criterion's words; these where empty."""
+    """Title in reports in place of the criterion's words; these where empty."""
     label: str = ""
     """Plain words of a given criterion; those of its name where empty."""
     unit: str = ""
@@ -54,7 +54,7 @@ class Measurable(Parameters):
 
     level_db: float = Field(default=0.5, gt=0.0, le=20.0)
     force_ratio: float = Field(default=0.05, gt=0.0, lt=1.0)
-    """Of the force or moment without the option."""
+    """Share of the force or moment without the option."""
     quietest_line_db: float = Field(default=0.0, ge=-40.0, le=60.0)
     """A line that is quieter counts as this."""
     samples_ratio: float = Field(default=0.5, ge=0.0, lt=1.0)
@@ -73,7 +73,7 @@ class Scoring(Parameters):
             yield "at least one criterion needs a weight above 0"
 
 
-def check_given(given: Given, options: Collection[str]) -> None:
+def check_given(values_of_option: Given, options: Collection[str]) -> None:
     """Refuse given values that belong to no option, or whose name cannot be a criterion's.
 
     Raises
@@ -81,7 +81,7 @@ def check_given(given: Given, options: Collection[str]) -> None:
     ValueError
         One line that names option and key.
     """
-    for option, values in given.items():
+    for option, values in values_of_option.items():
         if option not in options:
             raise ValueError(f"given.{option}: there is no such option")
         for name in values:
@@ -92,7 +92,7 @@ def check_given(given: Given, options: Collection[str]) -> None:
                 raise ValueError(f"{where}: is the name of a computed criterion; choose another")
 
 
-def check_scales(scoring: Scoring, given: Given, options: Collection[str]) -> None:
+def check_scales(scoring: Scoring, values_of_option: Given, options: Collection[str]) -> None:
     """Refuse scored criteria that are unknown, or not given by every option.
 
     Raises
@@ -100,7 +100,7 @@ def check_scales(scoring: Scoring, given: Given, options: Collection[str]) -> No
     ValueError
         One line that names the key.
     """
-    names = {name for values in given.values() for name in values}
+    names = {name for values in values_of_option.values() for name in values}
     for name, scale in scoring.criteria.items():
         where = f"scoring.criteria.{name}"
         if name in CRITERIA:
@@ -109,7 +109,7 @@ def check_scales(scoring: Scoring, given: Given, options: Collection[str]) -> No
         elif name not in names:
             raise ValueError(f"{where}: {CRITERIA.unknown(name, names)}")
         for option in options if name in names else ():
-            if name not in given.get(option, {}):
+            if name not in values_of_option.get(option, {}):
                 raise ValueError(
                     f"options.{option}.given.{name}: is missing; it is scored, so every option "
                     "needs it"

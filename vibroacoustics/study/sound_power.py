@@ -1,4 +1,4 @@
-"""What is asked of the sound field besides the microphones: sound power, map, directivity."""
+"""Settings of the sound field besides the microphones: sound power, map, directivity."""
 
 from math import ceil, pi
 from typing import Annotated, Final, Literal
@@ -9,9 +9,9 @@ from ..base.parameters import Contradictions, Parameters
 
 HEMISPHERES: Final = ("iso3744-hemisphere-10", "iso3744-hemisphere-20")
 MINIMUM_BACKGROUND_MARGIN_DB: Final = 6.0
-"""Below, a measurement does not qualify (ISO 3744:2010, 8.2.3)."""
+"""Margin below which a measurement does not qualify (ISO 3744:2010, 8.2.3)."""
 MAXIMUM_POINTS: Final = 20_000
-"""Of a map or a directivity; each is one point of the Green's function."""
+"""Most points of a map or a directivity; each is one point of the Green's function."""
 
 Coordinate = Annotated[float, Field(ge=-20.0, le=20.0)]
 
@@ -25,7 +25,7 @@ class SoundPowerSettings(Parameters):
     radius_m: float = Field(default=1.0, ge=1.0, le=16.0)
     """Radius of the hemisphere (7.2.3: not below 1 m, nor below twice the source's extent)."""
     distance_m: float = Field(default=1.0, ge=0.25, le=16.0)
-    """From the machine's reference box to the measurement box (7.2.4)."""
+    """Distance from the machine's reference box to the measurement box (7.2.4)."""
     background_margin_db: float | None = Field(
         default=None, ge=MINIMUM_BACKGROUND_MARGIN_DB, le=100.0
     )
@@ -34,9 +34,9 @@ class SoundPowerSettings(Parameters):
     """Absorption area of that test stand's room; none is an ideal hemi-anechoic room."""
 
     def contradictions(self) -> Contradictions:
-        given = self.model_fields_set
+        stated = self.model_fields_set
         unused = "distance_m" if self.arrangement in HEMISPHERES else "radius_m"
-        if unused in given:
+        if unused in stated:
             yield (
                 f"{unused.removesuffix('_m')}_mm: has no meaning for arrangement = "
                 f"{self.arrangement}"
@@ -90,7 +90,7 @@ class DirectivitySettings(Parameters):
 
     radius_m: float = Field(default=10.0, ge=0.5, le=100.0)
     step_rad: float = Field(default=pi / 18.0, ge=pi / 180.0, le=pi / 4.0)
-    """Of both angles; a quarter turn is a whole number of it."""
+    """Step of both angles; a quarter turn is a whole number of it."""
 
     def contradictions(self) -> Contradictions:
         steps = pi / 2.0 / self.step_rad

@@ -22,11 +22,11 @@ class StructureBorne(Parameters):
     youngs_modulus_pa: float = Field(ge=1e7, le=1e12)
     poisson_ratio: float = Field(default=0.3, ge=0.0, le=0.49)
     loss_factor_ratio: float = Field(ge=1e-4, le=1.0)
-    """Of the plate as it is built in, without what it radiates."""
+    """Loss factor of the plate as it is built in, without what it radiates."""
     length_m: float | None = Field(default=None, ge=0.05, le=50.0)
     width_m: float | None = Field(default=None, ge=0.05, le=50.0)
     absorption_area_m2: float | None = Field(default=None, ge=0.1, le=1e5)
-    """Of the room in front of the plate; none for an open half space."""
+    """Absorption area of the room in front of the plate; none for an open half space."""
     deviation_db: float = Field(default=5.0, ge=0.0, le=20.0)
     """Standard deviation of such predictions apart from the spread of the plate's modes."""
 
@@ -66,7 +66,7 @@ class StructureBorne(Parameters):
         return 1.0 / (8.0 * sqrt(self.bending_stiffness_n_m * self.mass_kg_per_m2))
 
     def under(self, machine: Machine) -> Machine:
-        """The machine on the plate; as it is where it has a floor that gives way already.
+        """The machine on the plate; unchanged where it has a compliant floor already.
 
         A single row of a mobility holds above its frequency; below, the plate is a spring.
         """

@@ -22,7 +22,7 @@ AT_CATALOGUE_POINT: Final = "none at the catalogue's point"
 
 
 class AsRead(NamedTuple):
-    """What a study's file says, and what makes a study of that: `loading`, which is above.
+    """Content of a study's file; `loading`, which is above, makes a study of it.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class Study(StudyTables):
         Raises
         ------
         ParameterError
-            As `load_study`; or the study was not read from a file, or changed by `model_copy`.
+            See `load_study`; or the study was not read from a file, or changed by `model_copy`.
 
         Examples
         --------
@@ -115,7 +115,7 @@ class Study(StudyTables):
         return study_of(replaced(written, values)).leaving_out(self.left_out)
 
     def as_written(self) -> dict[str, Any]:
-        """What its file says, with those that it extends; numbers as there, in their units."""
+        """Return what its file says, with those that it extends; numbers and units as there."""
         return deepcopy(self._as_read().written.content)
 
     def _as_read(self) -> AsRead:

@@ -25,7 +25,7 @@ def study_lines(study: "StudyTables") -> Iterator[str]:
 
 
 def samples_text(study: "StudyTables") -> str:
-    """How many values are sampled how often."""
+    """Say how many values are sampled how often."""
     if not study.ranges:
         if not study.sources:
             ranges = sum(record.lowest is not None for record in study.records)

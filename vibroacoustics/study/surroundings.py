@@ -1,4 +1,4 @@
-"""What stands around the machine: floor or ground, walls, a cabinet, a barrier."""
+"""Surroundings of the machine: floor or ground, walls, a cabinet, a barrier."""
 
 from typing import Final, Literal
 
@@ -31,7 +31,7 @@ class Wall(Parameters):
     """An upright wall of the room, large against the wavelength."""
 
     distance_m: float = Field(gt=0.0, le=5.0)
-    """From the shell's axis."""
+    """Distance from the shell's axis."""
     absorption_ratio: float = Field(default=0.0, ge=0.0, le=1.0)
     """Absorbed share of the energy, the same at every angle and frequency; 0 is hard."""
 
@@ -51,9 +51,9 @@ class Cabinet(Parameters):
     """Hard panels around the machine, standing on the floor; inside dimensions."""
 
     depth_m: float = Field(gt=0.0, le=3.0)
-    """Along x, centred on the shell's axis."""
+    """Depth along x, centred on the shell's axis."""
     width_m: float = Field(gt=0.0, le=3.0)
-    """Along y, centred on the shell's axis."""
+    """Width along y, centred on the shell's axis."""
     height_m: float = Field(gt=0.0, le=3.0)
     panel_thickness_m: float = Field(default=0.018, ge=0.003, le=0.1)
     open_sides: tuple[PanelSide, ...] = ()
@@ -85,9 +85,9 @@ class Barrier(Parameters):
 
     side: WallSide
     distance_m: float = Field(gt=0.0, le=20.0)
-    """From the shell's axis."""
+    """Distance from the shell's axis."""
     height_m: float = Field(ge=0.3, le=10.0)
-    """Above the floor."""
+    """Height above the floor."""
 
 
 class Surroundings(Parameters):

@@ -36,25 +36,25 @@ class StudyTables(Parameters):
     options: dict[str, AnyOption]
     receivers: dict[str, Receiver] = Field(min_length=1)
     catalogue_receiver: str = ""
-    """Of the machine's overall noise; the first where the machine's file gives none."""
+    """Receiver of the machine's published level; the first where the machine's file gives none."""
     catalogue_point: str | None = None
     """Operating point of the machine's file at which its overall noise holds; none for the values
     of the study."""
     catalogue_machine: AnyMachine | None = None
-    """At that point; none where it is the study's. Filled in by `load_study`."""
+    """Machine at that point; none where it is the study's. Filled in by `load_study`."""
     radiation: RadiationSettings
     scoring: Scoring
     given: dict[str, dict[str, float]] = Field(default={})
     """Values of criteria that are judged, not computed, by option and criterion."""
     titles: Titles = Titles()
-    """What reports show in place of names."""
+    """Titles in reports in place of names."""
     evidence: Evidence = Evidence()
     """Published values beside which the report sets the results."""
     sound_power: SoundPowerSettings | None = None
     map: MapSettings | None = None
     directivity: DirectivitySettings | None = None
     structure_borne: StructureBorne | None = None
-    """Plate under the feet whose sound is computed beside that by air."""
+    """Plate under the feet whose structure-borne sound is computed."""
     room: StudyRoom | None = None
     """Room into which the machine is put, with listeners."""
     rating: Rating | None = None
@@ -66,31 +66,31 @@ class StudyTables(Parameters):
     base_frame: BaseFrame | None = None
     """Frame on which they all stand; the floor where there is none."""
     sources: dict[str, AnySource] = Field(default_factory=dict)
-    """Who drives the machine beside its moving parts."""
+    """Sources that drive the machine beside its moving parts."""
     uncertainty: Uncertainty = Uncertainty()
     shell_modes: MeasuredModes | None = None
     """Measured modes of the shell, in place of the computed ones."""
     ranges: tuple[Range, ...] = ()
-    """Of the machine's values that are sampled at random."""
+    """Ranges of the machine's values that are sampled at random."""
     held_ranges: tuple[HeldRange, ...] = ()
-    """Of those that are not, with the reason."""
+    """Ranges of the values that are not sampled, with the reason."""
     design: Design | None = None
-    """What a sweep or a search varies; a run takes the options as they are given."""
+    """Variables of a sweep or a search; a run takes the nominal options."""
     measured: MeasuredSound | None = None
-    """What was measured of the machine's sound, in place of its overall noise."""
+    """Measured sound of the machine, in place of its published level."""
     records: tuple[ParameterRecord, ...] = ()
     coarsened: tuple[str, ...] = ()
-    """What was made coarser for a first look, and the error that is expected."""
+    """Settings that were made coarser for a first look, and the error that is expected."""
     left_out: tuple[str, ...] = Field(default=(), exclude=True)
     """A line on what runs without: what failed when the study was read, sources not wanted."""
     source_file: str = ""
 
     @field_validator("options", "receivers", "machines", "common_receivers")
     @classmethod
-    def _named(cls, given: dict[str, Any]) -> dict[str, Any]:
-        if not all(name.strip() for name in given):
+    def _named(cls, names: dict[str, Any]) -> dict[str, Any]:
+        if not all(name.strip() for name in names):
             raise ValueError("a name is blank")
-        return given
+        return names
 
     @field_validator("options")
     @classmethod

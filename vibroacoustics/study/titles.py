@@ -14,6 +14,6 @@ class Titles(Parameters):
     """Titles that a study gives; names stay in CSV files and results."""
 
     machine: str = ""
-    """In place of the machine's name; empty for that."""
+    """Title in place of the machine's name; empty for that."""
     options: dict[str, str] = Field(default={})
-    """By the option's name."""
+    """Titles by the option's name."""

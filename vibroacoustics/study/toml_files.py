@@ -29,11 +29,11 @@ _BRACKET: Final = re.compile(r"[\[\]{}]")
 
 
 class Written(NamedTuple):
-    """What a study's file says, with that of the study it extends.
+    """Content of a study's file, with that of the study it extends.
 
     Attributes
     ----------
-    path : of the file
+    path : path of the file
     content : its tables
     origin : file that each value comes from, by its keys
     """
@@ -69,7 +69,7 @@ def _deeper_than(content: Mapping[str, Any], depth: int) -> bool:
 
 
 def read_with_base(path: Path) -> Written:
-    """Merge a study over the one it extends, and so on; also tell the file of each value.
+    """Merge a study over the one it extends, and so on; also give the file of each value.
 
     Raises
     ------
@@ -102,21 +102,21 @@ def beside(file: Path, name: str) -> Path:
     return Path(os.path.normpath(file.parent / name))
 
 
-def merge(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
+def merge(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return tables in which the values of others replace those of the base; false removes a table.
 
     Parameters
     ----------
     base : content of the extended file
-    over : content of the extending file
+    changes : content of the extending file
     """
-    given = {si_key(key)[0] for key, value in over.items() if not is_table(value)}
+    stated = {si_key(key)[0] for key, value in changes.items() if not is_table(value)}
     merged = {  # a value in another unit of the same quantity is replaced too
         key: value
         for key, value in base.items()
-        if key in over or is_table(value) or si_key(key)[0] not in given
+        if key in changes or is_table(value) or si_key(key)[0] not in stated
     }
-    for key, value in over.items():
+    for key, value in changes.items():
         if value is False and is_table(merged.get(key)):
             del merged[key]
             continue

@@ -1,4 +1,4 @@
-"""What is not known: ranges of values, and how many sets of values are sampled from them."""
+"""Uncertainty: ranges of values, and how many sets of values are sampled from them."""
 
 from pydantic import Field
 
@@ -52,6 +52,7 @@ class MeasuredModes(Parameters):
     """Modes of the shell from a universal file (dataset 55), in place of the computed ones."""
 
     file: str = Field(min_length=1)
-    """In a study relative to the study's folder; places are about the centre of mass, z up."""
+    """File, in a study relative to the study's folder; positions are about the centre of mass, z
+    up."""
     file_unit_m: float | None = Field(default=None, gt=0.0, le=1.0)
-    """Length of the unit of the places; none where the file itself tells it (dataset 164)."""
+    """Length of the unit of the places; none where the file itself states it (dataset 164)."""

@@ -18,13 +18,13 @@ MOST_LINES: Final = 40
 
 
 class FileKeys(Protocol):
-    """What the wording needs to know of the file that was read."""
+    """Content of the file that was read, as far as the wording needs it."""
 
     file_keys: dict[tuple[str, ...], tuple[str, Any]]
     """Key and value as written, by the path of the SI field."""
 
     problems: list[str]
-    """What the reader refuses."""
+    """Problems that the reader refuses."""
 
     def file_and_key(self, keys: tuple[str, ...]) -> str:
         """File and dotted key, as written, of a path of keys."""
@@ -39,7 +39,7 @@ def validated(
     ----------
     model : class of the parameters
     content : values in SI by field
-    reader : of the file
+    reader : reader of the file
     table : keys of the table in the file that holds the content
 
     Raises
@@ -60,7 +60,7 @@ def validated(
 def checked(
     model: type[Model], content: dict[str, Any], reader: FileKeys, table: tuple[str, ...] = ()
 ) -> Model:
-    """As `validated`, without the problems of the reader."""
+    """Return what `validated` does, without the problems of the reader."""
     try:
         return model.model_validate(content)
     except ValidationError as error:
@@ -115,8 +115,10 @@ def _meant(
     """The field that a misspelt key means: one that is missing, or else an optional one."""
     key = reader.file_keys.get((*table, *inner), (inner[-1], None))[0]
     lacking = [other[-1] for other in missing if other[:-1] == inner[:-1]]
-    known = [field for at in _models_at(model, inner[:-1]) for field in at.model_fields]
-    field = meant_field(key, lacking) or meant_field(key, known)
+    fields = [
+        field for inner_model in _models_at(model, inner[:-1]) for field in inner_model.model_fields
+    ]
+    field = meant_field(key, lacking) or meant_field(key, fields)
     if field is None:
         return (), ""
     return (*inner[:-1], field), f", did you mean {meant_key(key, field)}"
@@ -150,7 +152,7 @@ def _is_table(model: type[BaseModel], inner: tuple[str, ...]) -> bool:
 
 
 def _apart(details: ErrorDetails) -> list[ErrorDetails]:
-    """Of a refusal with several arguments one for each."""
+    """Split a refusal with several arguments into one for each."""
     problems = details["ctx"]["error"].args if details["type"] == "value_error" else ()
     if len(problems) < 2:
         return [details]
@@ -199,9 +201,9 @@ _LIMITS: Final = {"greater_than", "greater_than_equal", "less_than", "less_than_
 
 def _without_tags(location: tuple[str, ...]) -> tuple[str, ...]:
     """Location without what pydantic adds: the kind of a body, and a key's mark."""
-    at = location.index("body") + 1 if "body" in location else 0
-    if 0 < at < len(location) and location[at] in _BODIES:
-        location = (*location[:at], *location[at + 1 :])
+    number = location.index("body") + 1 if "body" in location else 0
+    if 0 < number < len(location) and location[number] in _BODIES:
+        location = (*location[:number], *location[number + 1 :])
     return tuple(part for part in location if part != "[key]")
 
 

@@ -1,4 +1,4 @@
-"""From forces on the housing to its velocity and to the forces in its feet."""
+"""Transfer from forces on the housing to its velocity and to the forces in its feet."""
 
 from .machine import MachineOnMounts, on_mounts
 

@@ -73,7 +73,7 @@ class MachinesOnFrame:
 
         Parameters
         ----------
-        name : of the machine
+        name : name of the machine
         loads : complex peaks by port along its axes, shape (6, line); those in a shell are omitted
         frequency_hz : shape (line,)
 
@@ -95,7 +95,7 @@ class MachinesOnFrame:
 
         Parameters
         ----------
-        motion : of `motion`, shape (line, body, 6)
+        motion : result of `motion`, shape (line, body, 6)
         frequency_hz : shape (line,)
         """
         velocity = 2j * np.pi * frequency_hz[:, None, None] * motion
@@ -109,7 +109,7 @@ class MachinesOnFrame:
 
         Parameters
         ----------
-        motion : of `motion`, shape (line, body, 6)
+        motion : result of `motion`, shape (line, body, 6)
         frequency_hz : shape (line,)
         """
         force = self.isolation.bushing_force(motion, frequency_hz)

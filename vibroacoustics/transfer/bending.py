@@ -45,9 +45,9 @@ class BendingShell:
     Attributes
     ----------
     path : modes and joints
-    loss_factor_ratio : of the shell
+    loss_factor_ratio : loss factor of the shell
     variation : how the real shell differs
-    frame : what the parts do to the shell; none where they hand their loads on as they are
+    frame : forces of the parts on the shell; none where they hand their loads on unchanged
     gas : spaces of gas in the shell, by the name of their table
     yoke : the stator's, as a ring in the shell; none where the machine has none
     """
@@ -71,7 +71,7 @@ class BendingShell:
         observers : with the modes
         port : in the shell
         frequency_hz : shape (frequency,); parts and gas share what is solved at these
-        lines : indices of the loaded ones
+        lines : indices of the loaded ones, shape (line,)
 
         Raises
         ------
@@ -125,7 +125,7 @@ class BendingShell:
         observers : with the modes
         forces : at the lines, shape (mode, load, line or 1)
         frequency_hz : shape (frequency,)
-        lines : indices of the loaded ones
+        lines : indices of the loaded ones, shape (line,)
         frame : that answers the forces
         """
         if frame is not None:
@@ -141,20 +141,20 @@ class BendingShell:
         )
 
     def _of_all_parts(self, observers: Observers, frequency_hz: Array) -> ComplexArray:
-        """Per load on the parts, shape (observer, part times component, frequency)."""
+        """Response per load on the parts, shape (observer, part times component, frequency)."""
         if self.frame is None:
             forces, every = self.path.forces_of_parts(), np.arange(frequency_hz.size)
             return self.of_modal_forces(observers, forces, frequency_hz, every, None)
         names = np.round(frequency_hz, _SAME_DECIMALS).tolist()
-        keys, known = [(observers, name) for name in names], self._of_parts
-        new = [number for number, key in enumerate(keys) if key not in known]
+        keys, responses = [(observers, name) for name in names], self._of_parts
+        new = [number for number, key in enumerate(keys) if key not in responses]
         if 2 * len(new) > len(keys):  # all, as gas that acts at them asks for
             new = list(range(len(keys)))
         if new:  # noise shares its frequencies with lines
             of_loads = self._through(self.frame, observers, frequency_hz[new]).of_loads
             each = np.moveaxis(of_loads, -1, 0)
-            known.update(zip((keys[n] for n in new), each, strict=True))
-        return np.stack([known[key] for key in keys], axis=-1)
+            responses.update(zip((keys[n] for n in new), each, strict=True))
+        return np.stack([responses[key] for key in keys], axis=-1)
 
     def _through(
         self, frame: FrameOnShell, observers: Observers, frequency_hz: Array
@@ -163,8 +163,8 @@ class BendingShell:
 
         def sound() -> SoundPerForce:
             gain = amplitude_of_level(self.variation.mobility_change_db)
-            at = observers.of_modes(frequency_hz), observers.rigid(frequency_hz)
-            return frame.sound(*at, frequency_hz, gain)
+            shell_motions = observers.of_modes(frequency_hz), observers.rigid(frequency_hz)
+            return frame.sound(*shell_motions, frequency_hz, gain)
 
         return self._known(("frame", observers, frequency_hz.tobytes()), sound)
 
@@ -189,15 +189,16 @@ def pressure_over_time(
 ) -> Array:
     """Pressure of loads in the shell by Fourier transform of the event, Pa, (receiver, times).
 
-    As `transient` does for the rigid machine: the event counts as one period, ends with rest that
-    lasts until the shell has rung out, and has no lines above the highest frequency.
+    The rigid machine is treated so by `transient`: the event counts as one period, ends with rest
+    that lasts until the vibration of the shell has decayed, and has no lines above the highest
+    frequency.
 
     Parameters
     ----------
     shell : with one set of values
     observers : microphones
     loads : by port, shape (component, times); the number of times is a multiple of LOAD_SAMPLES
-    load_rate_hz : as of `transient`
+    load_rate_hz : see `transient`
     """
     times = next(iter(loads.values())).shape[-1]
     highest_hz = load_rate_hz / (LOAD_SAMPLES * RESULT_SAMPLES)
@@ -206,14 +207,16 @@ def pressure_over_time(
     spectra = {port: fft.rfft(load)[:, : frequency.size] for port, load in loads.items()}
 
     def pressure(first: int) -> ComplexArray:
-        at = slice(first, first + LINES)
-        some = frequency[at]
+        block = slice(first, first + LINES)
+        some = frequency[block]
         every = np.arange(some.size)
         parts = [
-            np.einsum("rcf,cf->rf", shell.response(observers, port, some, every), spectrum[:, at])
+            np.einsum(
+                "rcf,cf->rf", shell.response(observers, port, some, every), spectrum[:, block]
+            )
             for port, spectrum in spectra.items()
         ]
         return np.asarray(sum(parts))
 
-    lines = np.concatenate([pressure(at) for at in range(0, frequency.size, LINES)], axis=1)
+    lines = np.concatenate([pressure(first) for first in range(0, frequency.size, LINES)], axis=1)
     return np.asarray(fft.irfft(lines, times // LOAD_SAMPLES) / LOAD_SAMPLES)

@@ -88,7 +88,7 @@ def contributions(
         (per_force, part)
         for source, load in loads.items()
         for part in load.noise
-        if part.density.any()  # keys that strike
+        if part.density.any()  # key impacts
         and (per_force := _per_force(path, microphones, part, source))
     ]
     for per_force, _ in noise:
@@ -131,16 +131,18 @@ def _of_source(
         loaded = np.flatnonzero(load.any(axis=0))
         if not loaded.size:
             continue
-        for way, rows, response in _ways(path, microphones, port, lines.frequency_hz, loaded):
-            name = PathName(source, *way)
-            at = paths.setdefault(
+        for path_name, rows, response in _paths(
+            path, microphones, port, lines.frequency_hz, loaded
+        ):
+            name = PathName(source, *path_name)
+            pressures = paths.setdefault(
                 name, np.zeros((len(response), lines.frequency_hz.size), dtype=complex)
             )
-            at[:, loaded] += np.einsum("rcf,cf->rf", response, load[rows][:, loaded])
+            pressures[:, loaded] += np.einsum("rcf,cf->rf", response, load[rows][:, loaded])
     return paths
 
 
-def _ways(
+def _paths(
     path: LoadPath, microphones: Observers, port: Port, frequency_hz: Array, lines: IndexArray
 ) -> Iterator[tuple[tuple[str, str], IndexArray, ComplexArray]]:
     """Port and direction of each path, components that take it, pressure per load on these.
@@ -165,10 +167,10 @@ def _per_force(path: LoadPath, microphones: Observers, noise: Noise, source: str
     per_force: Paths = {}
     every = np.arange(noise.frequency_hz.size)
     for port, load in noise.loads.items():
-        for way, rows, response in _ways(path, microphones, port, noise.frequency_hz, every):
+        for path_name, rows, response in _paths(path, microphones, port, noise.frequency_hz, every):
             if load[rows].any():
                 name, values = (
-                    PathName(source, *way),
+                    PathName(source, *path_name),
                     np.einsum("rcf,ci->rif", response, load[rows]),
                 )
                 per_force[name] = per_force[name] + values if name in per_force else values

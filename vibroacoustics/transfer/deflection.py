@@ -104,8 +104,8 @@ def amplitudes(path: LoadPath, loads: PortLoads, frequency_hz: float) -> Complex
 
     Parameters
     ----------
-    path : of the case
-    loads : of all sources together, shape (component, 1)
+    path : path of the case
+    loads : loads of all sources together, shape (component, 1)
     frequency_hz : above zero
     """
     count = 0 if path.shell is None else len(path.shell.path.modes)
@@ -118,8 +118,8 @@ def displacement(path: LoadPath, moving: ComplexArray, points: Array) -> Complex
 
     Parameters
     ----------
-    path : of the case
-    moving : of `amplitudes`
+    path : path of the case
+    moving : see `amplitudes`
     points : about the centre of mass, shape (..., 3), m
     """
     total = moving[-6:-3] + np.cross(moving[-3:], points)

@@ -15,15 +15,15 @@ from ..mechanics.bushings import Bushing
 
 @dataclass(frozen=True)
 class Stand:
-    """What a machine stands on.
+    """Mounts and floor under a machine.
 
     Attributes
     ----------
     mounts : stiffness of one mount, pitch of the square, loss factor
-    height_m : of the mounts, but of feet that give their own, from the centre of mass
+    height_m : height of the mounts from the centre of mass, except of feet that give their own
     feet : anywhere; four in a square where there are none
     stiffness : over frequency, of every mount without one of its own
-    floor : that gives way; rigid where there is none
+    floor : compliant floor; rigid where there is none
     """
 
     mounts: Mounts
@@ -34,12 +34,12 @@ class Stand:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the feet, in their order."""
+        """Names of the feet, in their order."""
         return FOOT_NAMES if self.feet is None else tuple(self.feet.by_name)
 
     @property
     def position(self) -> Array:
-        """Of the feet, shape (foot, 3), m from the centre of mass."""
+        """Position of the feet, shape (foot, 3), m from the centre of mass."""
         if self.feet is None:
             return corners(self.mounts.pitch_m, self.height_m)
         return np.array([self._position(foot) for foot in self.feet.by_name.values()])
@@ -61,7 +61,7 @@ class Stand:
         lateral = mounts.lateral_stiffness_n_per_m
         vertical, loss = mounts.vertical_stiffness_n_per_m, mounts.loss_factor_ratio
         if table is not None:
-            lateral, _, vertical = table.at(np.array(0.0)).real.tolist()
+            lateral, _, vertical = table.dynamic_stiffness(np.array(0.0)).real.tolist()
             loss = 0.0
         elif foot is not None:
             lateral = _or(foot.lateral_stiffness_n_per_m, lateral)
@@ -71,7 +71,7 @@ class Stand:
         floor = self.floor if with_floor else None
         over_frequency = None
         if table is not None or floor is not None:
-            mount = _constant(constant, loss) if table is None else table.at
+            mount = _constant(constant, loss) if table is None else table.dynamic_stiffness
             over_frequency = mount if floor is None else _in_series(mount, floor, name)
         return Bushing(
             f"foot_{name}".replace("foot_foot", "foot"), body, None, point, _matrix(constant),
@@ -101,8 +101,8 @@ def corners(pitch_m: float, height_m: float) -> Array:
     )
 
 
-def _or(given: float | None, default: float) -> float:
-    return default if given is None else given
+def _or(value: float | None, default: float) -> float:
+    return default if value is None else value
 
 
 def _matrix(stiffness: Array) -> Array:
@@ -110,22 +110,22 @@ def _matrix(stiffness: Array) -> Array:
 
 
 def _constant(stiffness: Array, loss: float) -> Callable[[Array], ComplexArray]:
-    """Of frequencies to a stiffness that is the same at all of them, lossless at zero."""
+    """Function of frequencies to a stiffness that is the same at all of them, lossless at zero."""
 
-    def at(frequency_hz: Array) -> ComplexArray:
+    def stiffness_at(frequency_hz: Array) -> ComplexArray:
         moving = np.asarray(frequency_hz, dtype=float)[..., None] > 0.0
         return np.asarray(stiffness * (1.0 + 1j * loss * moving))
 
-    return at
+    return stiffness_at
 
 
 def _in_series(
     mount: Callable[[Array], ComplexArray], floor: Floor | FloorMobility, foot: str
 ) -> Callable[[Array], ComplexArray]:
-    """A mount on a floor that gives way: 1/(1/k + receptance of the floor)."""
+    """Stiffness of a mount on a compliant floor: 1/(1/k + receptance of the floor)."""
 
-    def at(frequency_hz: Array) -> ComplexArray:
+    def stiffness_at(frequency_hz: Array) -> ComplexArray:
         stiffness = mount(frequency_hz)
         return np.asarray(stiffness / (1.0 + stiffness * floor.receptance(foot, frequency_hz)))
 
-    return at
+    return stiffness_at

@@ -55,7 +55,7 @@ def force_at_lines(
     """Force of each foot on the floor at the lines, all sources, shape (line, foot, axis), N."""
     orders = sum(name.startswith("order ") for name in names)
     lines = lines_of(loads, case.shaft_frequency_hz, orders - 1, wrenches)
-    known = foot_force(on_mounts(case.machine), summed(lines.loads.values()), lines.frequency_hz)
-    force = np.zeros((len(names), *known.shape[1:]), dtype=complex)
-    force[[names.index(name) for name in lines.names]] = known
+    foot_n = foot_force(on_mounts(case.machine), summed(lines.loads.values()), lines.frequency_hz)
+    force = np.zeros((len(names), *foot_n.shape[1:]), dtype=complex)
+    force[[names.index(name) for name in lines.names]] = foot_n
     return force

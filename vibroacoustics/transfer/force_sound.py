@@ -11,7 +11,8 @@ from ..mechanics.ports import HOUSING
 from .machine import MachineOnMounts
 
 PressurePerVelocity = Callable[[Array], ComplexArray]
-"""Of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa s/m."""
+"""Function of frequencies in Hz, shape (frequency,), to shape (receiver, motion, frequency), Pa
+s/m."""
 
 
 @runtime_checkable
@@ -19,19 +20,19 @@ class OfReceivers(Protocol):
     """Pressure per velocity that is computed for some receivers alone."""
 
     def to(self, rows: Sequence[int]) -> PressurePerVelocity:
-        """To these receivers."""
+        """Return the pressure at these receivers."""
 
 
 @dataclass(frozen=True)
 class ForceSound:
     """Measured pressure of forces on the machine, or of forces of its feet on the floor.
 
-    Called as pressure per velocity of the body on the feet, it is that of the machine as given;
+    Called as pressure per velocity of the body on the feet, it is that of the nominal machine;
     of another machine it is `of`, so that the pressure of a force stays the measured one.
 
     Attributes
     ----------
-    body : the machine as given
+    body : the nominal machine
     frequency_hz : rising, shape (frequency,)
     per_wrench : pressure per force and moment on the machine about its centre of mass, shape
         (receiver, 6, frequency); none where feet were measured
@@ -45,7 +46,7 @@ class ForceSound:
     per_foot: ComplexArray | None
 
     def __call__(self, frequency_hz: Array) -> ComplexArray:
-        """As `of` the machine as given."""
+        """Return `of` the nominal machine."""
         return self.of(self.body)(frequency_hz)
 
     def of(self, body: MachineOnMounts) -> PressurePerVelocity:
@@ -74,7 +75,7 @@ class ForceSound:
         return per_velocity
 
     def to(self, rows: Sequence[int] | slice) -> "ForceSound":
-        """To some of the receivers alone."""
+        """Return the sound at some of the receivers alone."""
         chosen = rows if isinstance(rows, slice) else list(rows)
         return replace(
             self,
@@ -83,10 +84,10 @@ class ForceSound:
         )
 
     def _at(self, values: ComplexArray, frequency_hz: Array) -> ComplexArray:
-        """At some frequencies, on straight lines between those that were measured."""
+        """Values at some frequencies, on straight lines between those that were measured."""
         flat = values.reshape(-1, values.shape[-1])
-        at = [np.interp(frequency_hz, self.frequency_hz, row) for row in flat]
-        return np.array(at).reshape(*values.shape[:-1], frequency_hz.size)
+        interpolated = [np.interp(frequency_hz, self.frequency_hz, row) for row in flat]
+        return np.array(interpolated).reshape(*values.shape[:-1], frequency_hz.size)
 
 
 def of_body(rigid: PressurePerVelocity, body: MachineOnMounts) -> PressurePerVelocity:

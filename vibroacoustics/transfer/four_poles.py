@@ -16,8 +16,8 @@ def pipe(
 
     Parameters
     ----------
-    length_m, area_m2 : of the pipe
-    density, sound_speed : of the gas, kg/m³ and m/s
+    length_m, area_m2 : length and area of the pipe
+    density, sound_speed : density and speed of sound of the gas, kg/m³ and m/s
     frequency_hz : shape (frequency,)
     """
     angle = 2.0 * np.pi * frequency_hz * length_m / sound_speed
@@ -45,7 +45,7 @@ def transmission_loss_db(poles: ComplexArray, impedance: float) -> Array:
 
     Parameters
     ----------
-    poles : of what lies between them, shape (frequency, 2, 2)
+    poles : four poles of what lies between them, shape (frequency, 2, 2)
     impedance : Z = ρc/S of the pipes, Pa s/m³
     """
     (a, b), (c, d) = np.moveaxis(poles, 0, 2)

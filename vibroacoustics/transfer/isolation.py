@@ -17,7 +17,7 @@ class Isolation:
 
     The motion of a body is (tx, ty, tz, rx, ry, rz) of its centre of mass, m and rad; its load is
     force and moment about it, N and N m. Small motion: rotations add linearly; the stiffness that
-    gravity adds is left out.
+    gravity adds is neglected.
 
     Attributes
     ----------
@@ -152,7 +152,7 @@ class Isolation:
 
         Parameters
         ----------
-        displacement : of each body, shape (..., body, 6), m and rad, complex peak
+        displacement : displacement of each body, shape (..., body, 6), m and rad, complex peak
         frequency_hz : at least zero, broadcasts against displacement[..., 0, 0]
         """
         omega = 2.0 * np.pi * np.asarray(frequency_hz, dtype=float)[..., None, None]

@@ -56,7 +56,10 @@ def housing_variables(study: Study, results: xr.Dataset) -> xr.Dataset:
     arrays |= _of_mounts(reference) | _with_bodies(machines)
     return check(
         xr.Dataset(
-            {name: stamp(name, values, at) for name, (values, at) in arrays.items()},
+            {
+                name: stamp(name, values, coordinates)
+                for name, (values, coordinates) in arrays.items()
+            },
             coords={"foot_position": (("foot", "axis"), reference.foot_position)},
         )
     )
@@ -84,7 +87,7 @@ def _at_springs(
 
 
 def _responses(machines: list[MachineOnMounts], results: xr.Dataset) -> list[Response]:
-    """Of each option's machine, shapes (speed, source, order, ...).
+    """Responses of each option's machine, shapes (speed, source, order, ...).
 
     Options on equal mounts are solved at once.
     """
@@ -167,10 +170,10 @@ def spring_displacement(
 
     Parameters
     ----------
-    suspension : of the block
+    suspension : suspension of the block
     shell, block : velocity of the centre of mass, complex peaks from order 0, shape (speed, order,
         6), m/s and rad/s
-    frequency_hz : of the orders, shape (speed, order)
+    frequency_hz : frequency of the orders, shape (speed, order)
     """
     low = suspension.springs_height_m
     motion = [

@@ -1,4 +1,4 @@
-"""From the loads of all sources in one case to what is observed of the machine."""
+"""Load path from the loads of all sources in one case to what is observed of the machine."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -40,7 +40,7 @@ class LoadPath:
 
         Parameters
         ----------
-        observers : of the machine
+        observers : observers of the machine
         ports : where it is loaded
         frequency_hz : shape (frequency,)
         lines : indices of frequencies that are loaded; all where they are not given
@@ -50,8 +50,8 @@ class LoadPath:
         ParameterError
             The machine has no such port.
         """
-        at = np.arange(frequency_hz.size) if lines is None else lines
-        each = [self._of_port(observers, port, frequency_hz, at) for port in ports]
+        columns = np.arange(frequency_hz.size) if lines is None else lines
+        each = [self._of_port(observers, port, frequency_hz, columns) for port in ports]
         return np.concatenate(each, axis=1)
 
     def _of_port(
@@ -88,7 +88,7 @@ class LoadPath:
 
         Parameters
         ----------
-        observers : of the machine
+        observers : observers of the machine
         loads : by port, shape (component, line)
         frequency_hz : shape (line,)
         """

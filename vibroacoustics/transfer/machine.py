@@ -27,21 +27,22 @@ from .tube import tube_stiffness
 MACHINE, SHELL = "machine", "shell"
 """Names of the body on the feet, without and with a block on springs in it."""
 HIGHEST_MODE_HZ: Final = 1e5
-"""Above every natural frequency on the mounts alone."""
+"""Frequency above every natural frequency on the mounts alone."""
 KEPT_MACHINES: Final = 64
 """Machines whose bushings are kept assembled: cases of a study share their mounts."""
 
 
 @dataclass(frozen=True)
 class Response:
-    """What a load on a body does, complex peaks.
+    """Response of a body to a load, complex peaks.
 
     Attributes
     ----------
-    velocity : of the centre of mass of the body on the feet, which radiates; shape (..., 6), m/s
-        and rad/s
-    block_velocity : of the body with the mechanism, as `velocity`; the same without a suspension
-    foot_force : of the machine on the floor at each foot, shape (..., foot, axis), N
+    velocity : velocity of the centre of mass of the body on the feet, which radiates; shape (...,
+        6), m/s and rad/s
+    block_velocity : velocity of the body with the mechanism, shape of `velocity`; equal without a
+        suspension
+    foot_force : force of the machine on the floor at each foot, shape (..., foot, axis), N
     """
 
     velocity: ComplexArray
@@ -49,7 +50,7 @@ class Response:
     foot_force: ComplexArray
 
     def unstacked(self) -> "list[Response]":
-        """Of each of the loads along the first axis."""
+        """Return the response to each of the loads along the first axis."""
         parts = (self.velocity, self.block_velocity, self.foot_force)
         return [Response(*each) for each in zip(*parts, strict=True)]
 
@@ -68,8 +69,8 @@ class MachineOnMounts:
     foot_height_m : height of the mounts relative to that body's centre of mass
     suspension : block, springs and tube
     feet : anywhere, in place of four in a square
-    mount_stiffness : of the mounts over frequency
-    floor : that gives way under the feet; rigid where there is none
+    mount_stiffness : stiffness of the mounts over frequency
+    floor : compliant floor under the feet; rigid where there is none
     attached : further bodies, of an option
     """
 
@@ -117,7 +118,7 @@ class MachineOnMounts:
 
     @property
     def mechanism_port(self) -> BodyPort:
-        """As of `Machine`."""
+        """Port of the mechanism, see `Machine`."""
         return HOUSING if self.suspension is None else BLOCK
 
     def row(self, port: BodyPort) -> int:
@@ -134,7 +135,8 @@ class MachineOnMounts:
         return names.index(port.name)
 
     def natural_modes(self) -> tuple[Array, Array]:
-        """As `Isolation.natural_modes`, on a rigid floor, with the mounts' stiffness there."""
+        """Natural modes on a rigid floor, with the mounts' stiffness there, see
+        `Isolation.natural_modes`."""
         if not self.stand.is_over_frequency:
             return self.isolation.natural_modes()
         isolation = self._isolation(with_floor=False)
@@ -145,7 +147,7 @@ class MachineOnMounts:
 
     @property
     def _highest_mode_hz(self) -> float:
-        """Above every natural frequency, also of bodies on stiff bushings."""
+        """Frequency above every natural frequency, also of bodies on stiff bushings."""
         return max(HIGHEST_MODE_HZ, 2.0 * float(self.isolation.natural_modes()[0][-1]))
 
     def response(
@@ -160,7 +162,7 @@ class MachineOnMounts:
         ----------
         load : force and moment about the body's centre of mass, shape (..., 6), N and N m
         frequency_hz : at least zero, broadcasts against load[..., 0]
-        port : of the body; that with the mechanism where none is given
+        port : port of the body; that with the mechanism where none is given
         """
         isolation, mechanism = self.isolation, self.mechanism_port
         loads = np.zeros((*np.shape(load)[:-1], len(isolation.bodies), 6), dtype=complex)
@@ -241,7 +243,7 @@ def modes_over_frequency(
     Parameters
     ----------
     stiffness : real part at a frequency in Hz, symmetric
-    mass : symmetric, positive definite
+    mass : mass matrix, symmetric, positive definite, shape (n, n)
     stiffest_hz : frequency that no natural frequency exceeds
     """
 

@@ -19,7 +19,7 @@ from .frame.on_shell import FrameOnShell
 from .path import ShellPath
 
 _FREE_HZ: Final = 1.0
-"""Below it parts and shell move without strain."""
+"""Frequency below which parts and shell move without strain."""
 Named = dict[str, float]
 
 
@@ -30,10 +30,10 @@ def natural_variables(
 
     Parameters
     ----------
-    machine : as given
+    machine : nominal machine
     path : modes of its shell
-    loads : of all sources in one case; their ports say how fast sound is in the spaces of gas
-    highest_hz : of the sound
+    loads : loads of all sources in one case; their ports say how fast sound is in the spaces of gas
+    highest_hz : highest frequency of the sound
     """
     named = {
         "shell": shell_frequencies(machine, path),
@@ -49,23 +49,28 @@ def natural_variables(
 
 
 def shell_frequencies(machine: Machine, path: ShellPath) -> Named:
-    """Of the shell, with the parts in it where the machine has a frame, by name, Hz, rising."""
+    """Frequencies of the shell, with the parts in it where the machine has a frame, by name, Hz,
+    rising."""
     shell = path.with_structure(machine.table(ShellStructure))
     frame = frame_on_shell(machine, shell)
     if frame is not None:
         hertz = framed_hz(frame)
-        return {f"with_parts_{number:03d}": float(one) for number, one in enumerate(hertz, 1)}
+        return {
+            f"with_parts_{number:03d}": float(frequency_hz)
+            for number, frequency_hz in enumerate(hertz, 1)
+        }
     factor = machine.table(ShellVariation).frequency_factor_ratio
     named = zip((mode.name for mode in shell.modes), factor * shell.natural_hz, strict=True)
-    return {name: float(hertz) for name, hertz in sorted(named, key=lambda one: one[1])}
+    return {name: float(hertz) for name, hertz in sorted(named, key=lambda entry: entry[1])}
 
 
 def framed_hz(frame: FrameOnShell) -> Array:
-    """Of shell and parts joined at their contacts, without loss, free in space, Hz, rising.
+    """Frequencies of shell and parts joined at their contacts, without loss, free in space, Hz,
+    rising.
 
-    Coordinates are the shell's modes, its six rigid motions and the freedoms of the parts; the
-    gaps at the contacts are held by their springs in series with what the modes leave out, those
-    at the bearings by the metal: above the shaft's speed a film is many times as stiff.
+    Coordinates are the shell's modes, its six rigid motions and the degrees of freedom of the
+    parts; the gaps at the contacts are held by their springs in series with what the modes lack,
+    those at the bearings by the metal: above the shaft's speed a film is many times as stiff.
     """
     inner = frame.inner
     squares = (2.0 * np.pi * frame.natural_hz) ** 2
@@ -86,12 +91,12 @@ def framed_hz(frame: FrameOnShell) -> Array:
 
 
 def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str, float]) -> Named:
-    """Of the spaces of gas in rigid walls that a source feeds, by name, Hz, rising.
+    """Frequencies of the gas in rigid walls that a source feeds, by name, Hz, rising.
 
     Parameters
     ----------
     machine : its tables of spaces
-    path : modes of the wall as given
+    path : modes of the nominal wall
     sound_speed : by the name of a space's table, m/s
     """
     named = {}
@@ -99,12 +104,12 @@ def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str,
         for gas in space.orders if name in sound_speed else ():
             numbers = np.sqrt(gas.modes[0])
             hertz = sound_speed[name] * numbers[numbers > 0.0] / (2.0 * np.pi)
-            for number, one in enumerate(hertz[hertz > _FREE_HZ], 1):
-                named[f"{name}_n{gas.order}_{number}"] = float(one)
-    return dict(sorted(named.items(), key=lambda one: one[1]))
+            for number, frequency_hz in enumerate(hertz[hertz > _FREE_HZ], 1):
+                named[f"{name}_n{gas.order}_{number}"] = float(frequency_hz)
+    return dict(sorted(named.items(), key=lambda entry: entry[1]))
 
 
 def sound_speeds(loads: Mapping[str, Loads]) -> dict[str, float]:
-    """Of the spaces of gas that the loads feed, by the name of their table, m/s."""
+    """Speeds of sound in the spaces of gas that the loads feed, by the name of their table, m/s."""
     ports = (port for load in loads.values() for port in load.ports)
     return {port.name: port.sound_speed_m_per_s for port in ports if isinstance(port, GasPort)}

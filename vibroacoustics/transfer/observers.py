@@ -1,4 +1,4 @@
-"""What is observed of a machine: microphones, feet, motions, points of its wall."""
+"""Observers of a machine: microphones, feet, motions, points of its wall."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

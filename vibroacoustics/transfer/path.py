@@ -32,12 +32,12 @@ class ShellPath:
     ----------
     modes : computed or measured
     structure : its joints and, where the modes are computed, its wall
-    wall : all modes as given, for walls that differ; none where they are measured
-    radius_m : of the wall
+    wall : all nominal modes, for walls that differ; none where they are measured
+    radius_m : radius of the wall
     rows : the path's modes among those of the wall, shape (mode,)
-    frequency_factor : natural frequencies over those of the modes as given, shape (mode,) or ()
-    mass_factor : the same of the modal masses
-    gas : spaces of gas in the shell with the modes as given, by their shape, as they are asked for
+    frequency_factor : natural frequencies over those of the nominal modes, shape (mode,) or ()
+    mass_factor : modal mass relative to that of the nominal modes, shape (mode,) or ()
+    gas : spaces of gas in the shell with the nominal modes, by their shape, as they are needed
     """
 
     modes: tuple[ShellMode, ...] | tuple[SampledMode, ...]
@@ -95,7 +95,7 @@ class ShellPath:
     def with_structure(self, structure: ShellStructure) -> "ShellPath":
         """The path with sampled values of joints and wall.
 
-        Joints are exact; another wall changes frequencies and masses of the modes as given, by
+        Joints are exact; another wall changes frequencies and masses of the nominal modes, by
         `ProjectedModes`, not their shapes. Measured modes stay.
         """
         path = replace(self, structure=structure)
@@ -121,7 +121,7 @@ def computed_path(
     ----------
     shell : its shape
     structure : wall, material and joints
-    maximum_frequency_hz : of the sound
+    maximum_frequency_hz : highest frequency of the sound
     least_factor : smallest factor on the natural frequencies that any sample may have
     walls : that differ in one value each, at the ends of the ranges
     """
@@ -161,9 +161,10 @@ def pressure_per_load(
     Parameters
     ----------
     path : modes and joints
-    pressure_per_velocity : of the modes, shape (receiver, mode, frequency), Pa s/m
+    pressure_per_velocity : pressure per velocity of the modes, shape (receiver, mode, frequency),
+        Pa s/m
     frequency_hz : shape (frequency,)
-    loss_factor_ratio : of the shell
+    loss_factor_ratio : loss factor of the shell
     variation : how the real shell differs
     forces : generalised, per load, shape (mode, load, frequency or 1)
     """

@@ -1,4 +1,4 @@
-"""From the loads of every case to its sound at the receivers."""
+"""Received sound from the loads of every case."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -23,7 +23,7 @@ from .path import ShellPath
 
 @dataclass(frozen=True)
 class Transmission:
-    """What turns loads into sound, whatever values are sampled.
+    """Transmission of loads to sound, whatever values are sampled.
 
     Attributes
     ----------
@@ -38,28 +38,28 @@ class Transmission:
     shell: ShellPath | None
 
     def to(self, receivers: Sequence[int]) -> "Transmission":
-        """To some of the receivers alone, the dimension kept."""
+        """Return the transmission to some of the receivers alone, the dimension kept."""
         return replace(self, microphones=self.microphones.to(list(receivers)))
 
     def received(self, cases: Cases) -> dict[CaseKey, ReceivedSound]:
         """Compute the sound of every case behind its option's insertion loss."""
-        known, sound = Shared(), {}
+        shared, sound = Shared(), {}
         for key, case in cases.cases.items():
-            path = self.path(known, case.machine, cases.loads[key])
+            path = self.path(shared, case.machine, cases.loads[key])
             received = self._of_case(self.lines(key, cases), cases.loads[key], path)
             sound[key] = received.behind(self.study.option_of(key).insertion_loss())
         return sound
 
     def contributions(self, cases: Cases) -> Iterator[tuple[CaseKey, Contributions]]:
         """Compute the sound by path behind the option's insertion loss, one case at a time."""
-        known = Shared()
+        shared = Shared()
         for key, case in cases.cases.items():
-            path = self.path(known, case.machine, cases.loads[key])
+            path = self.path(shared, case.machine, cases.loads[key])
             lines = self.lines(key, cases)
             split = contributions(path, self.microphones, lines, cases.loads[key])
             yield key, split.behind(self.study.option_of(key).insertion_loss())
 
-    def path(self, known: Shared, machine: Machine, loads: Mapping[str, Loads]) -> LoadPath:
+    def path(self, shared: Shared, machine: Machine, loads: Mapping[str, Loads]) -> LoadPath:
         """Return the path of a machine, shared by those that differ in no table its ports read."""
         read = dict.fromkeys(
             table for load in loads.values() for port in load.ports for table in port.tables
@@ -68,8 +68,8 @@ class Transmission:
         body = on_mounts(machine)
         shell = None
         if self.shell is not None:
-            shell = known(tables, partial(bending_shell, machine, self.shell))
-        return known((body, tables), lambda: LoadPath(body, shell))
+            shell = shared(tables, partial(bending_shell, machine, self.shell))
+        return shared((body, tables), lambda: LoadPath(body, shell))
 
     def _of_case(self, lines: Lines, loads: Mapping[str, Loads], path: LoadPath) -> ReceivedSound:
         receivers = len(self.microphones.rigid(lines.frequency_hz[:1]))

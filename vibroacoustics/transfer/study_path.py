@@ -11,7 +11,7 @@ from .shell_modes.projection import projection_error
 from .shell_modes.sampled import SampledMode
 
 _FACTOR: Final = "frequency_factor_ratio"
-"""Of the shell's variation: how natural frequencies differ in a sample."""
+"""Factor of the shell's variation: how natural frequencies differ in a sample."""
 
 
 def computed_shell_path(study: Study) -> ShellPath:
@@ -31,13 +31,15 @@ def projection_errors(
     """Largest relative error of a natural frequency by projection, by name of the sampled value.
 
     Over the modes up to the highest frequency, at both ends of the value's range, the other values
-    as given. Only values that change the shapes of modes are in it.
+    nominal. Only values that change the shapes of modes are in it.
     """
     if path.wall is None:
         return {}
     highest, shell = study.radiation.maximum_frequency_hz, study.machine.shell
     every = _ends(study, path.structure).items()
-    shaping = [one for one in every if one[0].rpartition(".")[2] in path.structure.changes_shapes]
+    shaping = [
+        entry for entry in every if entry[0].rpartition(".")[2] in path.structure.changes_shapes
+    ]
     errors: dict[str, float] = {}
     for name, ends in shaping:
         progress("errors of projection", len(errors), len(shaping))
@@ -66,7 +68,7 @@ def measured_shell_path(
     Parameters
     ----------
     study : with the shell's joints
-    frequency_hz, modal_mass_kg : of the modes, shape (mode,)
+    frequency_hz, modal_mass_kg : frequency and modal mass of the modes, shape (mode,)
     nodes_m : about the centre of mass, shape (node, 3)
     shape : displacements, shape (mode, node, 3)
     """

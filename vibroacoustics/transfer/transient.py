@@ -19,7 +19,7 @@ within 0.3 % at a tenth of it, where a stop sounds."""
 
 @dataclass(frozen=True)
 class Transient:
-    """What a load does, from its first sample on.
+    """Response to a load, from its first sample on.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ def transient(
     The event counts as one period: it has to end with rest that lasts until the mounts' ringing
     has died out. Their structural loss (the same at every frequency above zero) has no causal
     counterpart in time (Crandall 1970, J. Sound Vib. 11:3): a kick of the load has a forerunner of
-    about the loss factor times its size. What lies above the highest frequency is left out.
+    about the loss factor times its size. Sound above the highest frequency is omitted.
 
     Parameters
     ----------
@@ -51,7 +51,8 @@ def transient(
         times is a multiple of LOAD_SAMPLES
     load_rate_hz : LOAD_SAMPLES times that of the result; RESULT_SAMPLES times the highest
         frequency are the result's
-    pressure_per_velocity : of frequencies up to the highest to shape (receiver, dof, frequency)
+    pressure_per_velocity : function of frequencies up to the highest to shape (receiver, dof,
+        frequency)
     """
     times = load.shape[-1]
     highest_hz = load_rate_hz / (LOAD_SAMPLES * RESULT_SAMPLES)

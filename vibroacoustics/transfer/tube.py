@@ -25,7 +25,7 @@ def tube_stiffness(
     Parameters
     ----------
     path_m : points of the centre line, from one body to the other, shape (points, 3), points >= 2
-    outer_diameter_m, inner_diameter_m : of the tube; inner zero for a rod
+    outer_diameter_m, inner_diameter_m : diameters of the tube; inner zero for a rod
     youngs_modulus_pa : Young's modulus
     poisson_ratio : Poisson's ratio
 
@@ -82,8 +82,8 @@ def _piece_flexibility(
     middle = np.zeros((6, 6))
     middle[:3, :3] = length / axial * along + length**3 / (12.0 * bending) * across
     middle[3:, 3:] = length / bending * ((1.0 + poisson_ratio) * along + across)
-    moved = motion_at(reference, 0.5 * (start + end))
-    return np.asarray(moved @ middle @ moved.T)
+    displacement = motion_at(reference, 0.5 * (start + end))
+    return np.asarray(displacement @ middle @ displacement.T)
 
 
 def tube_end_reactions(
@@ -95,7 +95,7 @@ def tube_end_reactions(
     youngs_modulus_pa: float,
     poisson_ratio: float,
 ) -> tuple[ComplexArray, ComplexArray]:
-    """What forces at the points of a clamped tube without mass do to its two ends.
+    """Return the reactions at both ends of a clamped tube without mass to forces at its points.
 
     The far end, freed, would move by the flexibility of the pieces up to each loaded point; its
     clamp takes the force that this motion needs, the near end the rest.
@@ -104,8 +104,8 @@ def tube_end_reactions(
     ----------
     path_m : points of the centre line, shape (points, 3)
     force_n : at each point, shape (points, 3, line)
-    stiffness : of the far end, of `tube_stiffness`
-    outer_diameter_m, inner_diameter_m, youngs_modulus_pa, poisson_ratio : as there
+    stiffness : stiffness of the far end, see `tube_stiffness`
+    outer_diameter_m, inner_diameter_m, youngs_modulus_pa, poisson_ratio : see `tube_stiffness`
 
     Returns
     -------

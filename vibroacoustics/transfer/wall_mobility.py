@@ -25,7 +25,7 @@ def wall_points(angle_rad: Array, height_m: Array, radius_m: float) -> tuple[Arr
     ----------
     angle_rad : from x towards y, shape (point,)
     height_m : shape (point,)
-    radius_m : of the wall
+    radius_m : radius of the wall
     """
     normal = np.stack([np.cos(angle_rad), np.sin(angle_rad), np.zeros_like(angle_rad)], axis=1)
     return radius_m * normal + np.outer(height_m, [0.0, 0.0, 1.0]), normal
@@ -33,7 +33,7 @@ def wall_points(angle_rad: Array, height_m: Array, radius_m: float) -> tuple[Arr
 
 @dataclass(frozen=True)
 class ShellMobilities:
-    """What was measured, each mobility once, repeats averaged.
+    """Measured mobilities, each once, repeats averaged.
 
     Attributes
     ----------
@@ -83,7 +83,7 @@ def wall_mobility(
     """Outward velocity of points per force, m/(N s), shape (point, reference, frequency).
 
     By the modes of the shell, with its frame where it has one, as the sources drive them. A force
-    on the wall drives the elastic modes alone: what the rigid machine does of it is left out.
+    on the wall drives the elastic modes alone: the part of the rigid machine is omitted.
 
     Parameters
     ----------

@@ -48,7 +48,7 @@ class YokeOnWall:
     ----------
     yoke : ring
     path : modes of the shell, the band of the stator
-    frequency_factor : of the shell's modes beside that of the path
+    frequency_factor : frequency factor of the shell's modes, beside that of the path
     """
 
     yoke: StatorYoke
@@ -106,14 +106,14 @@ class YokeOnWall:
         return float((np.pi if order else 2.0 * np.pi) * self.yoke.mean_radius_m)
 
     def _residual(self, order: int, rows: list[int]) -> float:
-        """Steady flexibility of the band that the modes leave out, m/N."""
-        given = self._wall.shell
+        """Steady flexibility of the band that the modes lack, m/N."""
+        shell = self._wall.shell
         modes = [self._modes[row] for row in rows]
         stiffness = np.array([m.modal_mass_kg * (2.0 * np.pi * m.frequency_hz) ** 2 for m in modes])
         steady = self._wall.flexibility.of_band(self.path.structure.stator, order)
-        left = steady - float(np.sum(self._outwards[rows] ** 2 / stiffness))
-        factor = local_flexibility_factor(given.structure, self.path.structure)
-        return left * factor / self.frequency_factor**2
+        residual = steady - float(np.sum(self._outwards[rows] ** 2 / stiffness))
+        factor = local_flexibility_factor(shell.structure, self.path.structure)
+        return residual * factor / self.frequency_factor**2
 
     @property
     def _wall(self) -> ProjectedModes:

@@ -16,7 +16,7 @@ from ..levels.by_source import gain_band_number
 from ..levels.nominal import NominalSound, Sound
 from ..levels.published import Published, published_of
 from ..levels.remainder import (
-    REMAINDER_MIDDLE_HZ,
+    UNMODELLED_MIDDLE_HZ,
     in_spectrum,
     over_published,
     unmodelled_bands,
@@ -146,11 +146,11 @@ class Evidence:
     def unmodelled_pa2(self, pairs: Pairs, machine: Machine) -> Array:
         """Return the unmodelled noise of pairs, A-weighted, (pair, band), Pa²; 0 without data.
 
-        The bands are `REMAINDER_BANDS`.
+        The bands are `UNMODELLED_BANDS`.
         """
         level = self.published.level_dba + pairs.unmodelled_db
         square = REFERENCE_PRESSURE_PA**2 * power_of_level(level) * bool(self.published.data)
-        factor = pairs.discrepancy.unmodelled[:, gain_band_number(REMAINDER_MIDDLE_HZ)]
+        factor = pairs.discrepancy.unmodelled[:, gain_band_number(UNMODELLED_MIDDLE_HZ)]
         return np.asarray(factor * square[:, None] * in_spectrum(machine, 1.0))
 
     def pairs(self, log_weights: Array, number: int) -> Pairs:

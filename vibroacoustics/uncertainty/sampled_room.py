@@ -42,7 +42,7 @@ def sampled_room_level(air: AirInRoom, results: xr.Dataset, receiver: str) -> xr
     silent = noise <= 0.0
     of_model = sampled / np.where(nominal > 0.0, nominal, 1.0)
     of_rest = np.where(silent, 0.0, noises / np.where(silent, 1.0, noise))
-    square = air.modelled * of_model[..., None] + air.rest * of_rest[..., None]
+    square = air.modelled * of_model[..., None] + air.unmodelled * of_rest[..., None]
     ends = weighted_quantiles(level(square), total.weight, list(_SHARES.values()))
     values = {f"room_level{end}": level_db for end, level_db in zip(_SHARES, ends, strict=True)}
     values[f"room_level{SUFFIXES[NOMINAL]}"] = level(air.total)

@@ -13,14 +13,14 @@ from vibroacoustics.levels.agreement import (
     priors_of,
 )
 from vibroacoustics.levels.by_source import GAIN_BANDS
-from vibroacoustics.machine.remainder import OverallNoise, Remainder, SpectralShare
+from vibroacoustics.machine.remainder import OverallNoise, SpectralShare, UnmodelledNoise
 
 DEVIATION_DB = 2.0
 NOISE = OverallNoise(level_dba=56.0, speed_rpm=2900.0, distance_m=1.0, deviation_db=DEVIATION_DB)
 WITH_SHARE = NOISE.model_copy(
     update={"spectral_share": SpectralShare(below_hz=900.0, share_ratio=0.3, deviation_ratio=0.15)}
 )
-PRIORS = priors_of(Remainder())
+PRIORS = priors_of(UnmodelledNoise())
 FLAT, NEAR = PRIORS
 SQUARE = 4e-10 * 10.0**5.6
 """Of 56 dB(A), Pa²."""
@@ -88,7 +88,7 @@ def test_the_share_moves_energy_from_the_sample_to_unmodelled_noise():
 
 def test_priors_are_settings_of_the_machine():
     """Their words and densities follow; limits that are no range are refused in one line."""
-    given = Remainder(flat_lowest_db=-10.0, flat_highest_db=0.0, near_level_db=1.0)
+    given = UnmodelledNoise(flat_lowest_db=-10.0, flat_highest_db=0.0, near_level_db=1.0)
     flat, near = priors_of(given)
     assert flat.words == "anywhere from 10 dB below to 0 dB above the published level"
     assert near.words == "1 dB above the published level, give or take 3 dB"
@@ -97,7 +97,7 @@ def test_priors_are_settings_of_the_machine():
     assert near.density(level).argmax() == 2
     assert np.exp(flat.log_density).sum() == pytest.approx(1.0)
     with pytest.raises(ValueError, match=r"flat_lowest_db = 3\.5 dB: must be at least 1 dB below"):
-        Remainder(flat_lowest_db=3.5)
+        UnmodelledNoise(flat_lowest_db=3.5)
 
 
 def test_a_loud_sample_counts_less_and_one_without_solution_not_at_all():

@@ -7,7 +7,7 @@ import xarray as xr
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.levels import a_weighting
 from vibroacoustics.levels.in_room import (
-    RoomWays,
+    RoomPaths,
     blended_gains,
     power_of_hemisphere,
     room_sound,
@@ -26,8 +26,8 @@ AREA_M2 = 2.0 * np.pi * RADIUS_M**2
 PER_POWER = np.array([[100.0], [50.0]])
 
 
-def ways(share):
-    return RoomWays(2, RADIUS_M, share, lambda hertz: PER_POWER * np.ones(hertz.size))
+def paths(share):
+    return RoomPaths(2, RADIUS_M, share, lambda hertz: PER_POWER * np.ones(hertz.size))
 
 
 def step(hertz):
@@ -46,7 +46,7 @@ def test_waves_below_and_power_above():
     pressure[0, :2] = [[9.0, 0.2, 7.0], [9.0, 0.4, 7.0]]
     pressure[0, 2:] = 0.3
     pressure[1] = -0.5 * pressure[0]
-    sound = room_sound(received(pressure, hertz), ways(step))
+    sound = room_sound(received(pressure, hertz), paths(step))
     weight = 10.0 ** (a_weighting(hertz[1:]) / 10.0)
     power = 0.5 * 0.3**2 * AREA_M2 / RHO_C
     alone = 0.5 * np.array([0.2, 0.4]) ** 2 * weight[0] + power * PER_POWER[:, 0] * weight[1]
@@ -66,7 +66,7 @@ def test_lines_keep_the_phase_of_the_waves_and_the_energy_of_both():
     pressure[:, :2] = [[[9.0, 0.2j, 0.3 + 0.4j, 0.0]], [[9.0, 0.1, 0.0, 0.0]]]
     pressure[0, 2:] = 0.3
     pressure[0, 2] = 0.3j
-    sound = room_sound(received(pressure, hertz), ways(step))
+    sound = room_sound(received(pressure, hertz), paths(step))
     assert sound.line == ("order 0", "order 1", "order 2", "order 3")
     np.testing.assert_allclose(sound.pressure[:, :2], [[0.0, 0.1 + 0.2j]] * 2, atol=1e-15)
     size = 0.3 * np.sqrt(AREA_M2 / RHO_C * PER_POWER[:, 0])
@@ -82,7 +82,7 @@ def test_noise_adds_as_energy():
     pressure = np.zeros((2, 22, 1), dtype=complex)
     power = np.ones((22, 2)) * [[0.1, 0.2]]
     quiet = received(pressure, np.array([50.0]), [NoisePower(1, hertz, power)])
-    sound = room_sound(quiet, ways(step))
+    sound = room_sound(quiet, paths(step))
     weight = 10.0 ** (a_weighting(hertz) / 10.0)
     expected = 0.1 * weight[0] + 0.2 * AREA_M2 / RHO_C * PER_POWER[:, 0] * weight[1]
     np.testing.assert_allclose(sound.total, expected, rtol=1e-12)
@@ -92,7 +92,7 @@ def test_noise_adds_as_energy():
 
 
 def test_between_the_methods_energies_are_shared():
-    half = ways(lambda hertz: 0.25 * np.ones(hertz.size))
+    half = paths(lambda hertz: 0.25 * np.ones(hertz.size))
     square = np.ones((22, 1))
     expected = 0.25 + 0.75 * AREA_M2 / RHO_C * PER_POWER
     np.testing.assert_allclose(half.at_listeners(square, np.array([500.0])), expected, rtol=1e-12)
@@ -108,14 +108,14 @@ def test_gains_are_those_of_translations_with_equal_powers():
         values[:2, 3:] = 99.0
         return values
 
-    gains = wave_gains(pressure, ways(step), 450.0)
+    gains = wave_gains(pressure, paths(step), 450.0)
     one = RHO_C / AREA_M2
     middle = np.array([band.middle_hz for band in BASELINE_BANDS])
     low = middle < 455.0
     np.testing.assert_allclose(gains[0, low], one * (1.0 + 4.0 + 1.0) / 3.0, rtol=1e-12)
     np.testing.assert_allclose(gains[1, low], one, rtol=1e-12)
     assert not gains[:, ~low].any()
-    both, diffuse = blended_gains(gains, ways(step))
+    both, diffuse = blended_gains(gains, paths(step))
     np.testing.assert_allclose(both[1, middle < 400.0], one, rtol=1e-12)
     np.testing.assert_allclose(both[:, middle > 600.0], diffuse[:, middle > 600.0], rtol=1e-12)
 
@@ -163,7 +163,7 @@ def test_samples_change_model_and_rest_as_at_the_microphone():
 
 def test_the_last_third_of_round_frequencies_has_waves():
     """250 Hz is 251.2 Hz: the half of it below the end of the waves stands for it."""
-    gains = wave_gains(lambda hertz: np.ones((22, 6, hertz.size), complex), ways(step), 250.0)
+    gains = wave_gains(lambda hertz: np.ones((22, 6, hertz.size), complex), paths(step), 250.0)
     names = [band.nominal_hz for band in BASELINE_BANDS]
     assert gains[0, names.index(250.0)] > 0.0
     assert gains[0, names.index(315.0)] == 0.0

@@ -9,7 +9,7 @@ from vibroacoustics.base.vocabulary import VARIABLES, WEIGHTINGS
 from vibroacoustics.base.weighting import WEIGHTING
 from vibroacoustics.levels.axes import LevelAxes
 from vibroacoustics.levels.by_source import GAIN_BANDS, sound_by_source
-from vibroacoustics.levels.measured_points import BASELINE_BANDS, REMAINDER_BANDS
+from vibroacoustics.levels.measured_points import BASELINE_BANDS, UNMODELLED_BANDS
 from vibroacoustics.levels.sample_levels import (
     Deviating,
     sample_levels,
@@ -81,7 +81,7 @@ def sample(axes):
     growth = SimpleNamespace(
         speed_factor=lambda rpm, published: (rpm / published) ** 3, spectrum=spectrum
     )
-    middle_hz = np.array([band.middle_hz for band in REMAINDER_BANDS])
+    middle_hz = np.array([band.middle_hz for band in UNMODELLED_BANDS])
     unmodelled = UNMODELLED[:, None] * spectrum(middle_hz)
     return Deviating(received, gain, sounds, SimpleNamespace(remainder=growth), unmodelled)
 
@@ -137,7 +137,7 @@ def noise_by_loops(of_case, gain, receiver):
 
 def remaining(k, speed, option):
     """A-weighted, by band of unmodelled noise."""
-    middle = np.array([band.middle_hz for band in REMAINDER_BANDS])
+    middle = np.array([band.middle_hz for band in UNMODELLED_BANDS])
     factor = HOOD if option == "hood" else 1.0
     return UNMODELLED[k] * (speed / PUBLISHED_RPM) ** 3 * factor * spectrum(middle)
 
@@ -165,7 +165,7 @@ def test_modelled_levels_by_all_weightings(levels, sample):
 
 
 def test_third_octaves_of_noise_unmodelled_noise_and_all(levels, sample):
-    middle = np.array([band.middle_hz for band in REMAINDER_BANDS])
+    middle = np.array([band.middle_hz for band in UNMODELLED_BANDS])
     for (k, s, o, r), (speed, option) in every_case():
         of_case, gain = sample.received[speed, option], sample.gain[speed, option][k]
         lines = list(lines_by_loops(of_case, gain, r))

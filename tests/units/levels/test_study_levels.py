@@ -14,11 +14,11 @@ from vibroacoustics.levels.lines import line_pressure
 from vibroacoustics.levels.remainder import (
     in_spectrum,
     over_published,
-    remainder,
     remaining,
     unmodelled_bands,
+    unmodelled_square,
 )
-from vibroacoustics.machine.remainder import OverallNoise, Remainder
+from vibroacoustics.machine.remainder import OverallNoise, UnmodelledNoise
 from vibroacoustics.mechanics.added import InsertionLoss
 from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import ReceivedSound
@@ -35,7 +35,7 @@ STUDY = SimpleNamespace(
         overall_noise=OverallNoise(
             level_dba=94.0, speed_rpm=3000.0, distance_m=1.0, deviation_db=2.0
         ),
-        remainder=Remainder(),
+        remainder=UnmodelledNoise(),
     ),
     measured=None,
     baseline=None,
@@ -86,15 +86,15 @@ def sound(square):
 
 def test_remainder_fills_up_to_the_published_level():
     published = 4e-10 * 10.0**9.4
-    assert remainder(STUDY, AXES, sound(0.25), False) == pytest.approx(published - 0.25)
-    assert remainder(STUDY, AXES, sound(2.0), True) == 0.0
+    assert unmodelled_square(STUDY, AXES, sound(0.25), False) == pytest.approx(published - 0.25)
+    assert unmodelled_square(STUDY, AXES, sound(2.0), True) == 0.0
     with pytest.raises(ParameterError, match=r"= 94 dB\(A\): the model alone gives 97.0 dB\(A\)"):
-        remainder(STUDY, AXES, sound(2.0), False)
+        unmodelled_square(STUDY, AXES, sound(2.0), False)
 
 
 def test_unmodelled_noise_grows_with_speed_and_passes_a_hood_band_by_band():
     """30 dB for ten times the speed; an even spectrum."""
-    machine = SimpleNamespace(remainder=Remainder(speed_growth_db=30.0, slope_db=0.0))
+    machine = SimpleNamespace(remainder=UnmodelledNoise(speed_growth_db=30.0, slope_db=0.0))
     axes = LevelAxes([3000.0, 1500.0], ["none", "hood"], ["keys"], ["front"], ())
     study = SimpleNamespace(**{**vars(STUDY), "options": HOODED})
     left = remaining(study, axes, machine, in_spectrum(machine, 0.81)).sum(axis=3)[:, :, 0]
@@ -105,7 +105,7 @@ def test_unmodelled_noise_grows_with_speed_and_passes_a_hood_band_by_band():
 
 def test_unmodelled_noise_has_the_shape_and_level_that_its_machine_gives():
     peak_hz, slope_db = 2000.0, 5.0
-    given = Remainder(peak_frequency_hz=peak_hz, slope_db=slope_db)
+    given = UnmodelledNoise(peak_frequency_hz=peak_hz, slope_db=slope_db)
     bands = unmodelled_bands(STUDY, SimpleNamespace(remainder=given))
     assert bands.sum() == pytest.approx(4e-10 * 10.0**9.4)
     columns = [gain_band_number(np.array(hertz)) for hertz in (500.0, 1000.0, 8000.0)]

@@ -116,7 +116,7 @@ def test_orders_of_a_coarse_spectrum_do_not_count_twice(tmp_path, study, resolut
     point = measured_points(found, ["front_1m"], [RPM])["front_1m", RPM]
     for middle, truth in ((31.5, 2e-4 + 1e-4 / 512.0 * 7.3), (200.0, 1e-4 / 512.0 * 46.0)):
         band = [each.nominal_hz for each in BASELINE_BANDS].index(middle)
-        square = point.rest[point.band == band].item()
+        square = point.unmodelled[point.band == band].item()
         if middle < 100.0:
             square += 0.5 * abs(point.peak[1]) ** 2
         assert 10.0 * np.log10(square / truth) == pytest.approx(0.0, abs=0.2)
@@ -213,7 +213,7 @@ WRONG = [
     ({"a.csv": HEAD + "front_1m,930,1,60"}, {"microphones": {"side_1m": {"node": 1}}},
      "microphone side_1m: the files hold nothing of it"),
     ({"a.csv": "frequency [Hz],5 real [Pa],5 imaginary [Pa]\n1,1,1\n2,1,1\n3,1,1"}, {},
-     "measured.baseline.microphones.front_1m = { node = 1 }; there are spectrum 5"),
+     "measured.baseline.microphones.front_1m = { node = 1 }; the file has spectrum 5"),
     ({"a.csv": "frequency [Hz],5 real [Pa]\n1,1\n2,1\n3,1"},
      {"microphones": {"front_1m": {"node": 5}}}, "states no speed: recorded_speed_rpm is missing"),
     ({"a.csv": "microphone,speed_rpm,frequency_hz,level_db\nfront_1m,930,1,6\nfront_1m,930,2,6\n"

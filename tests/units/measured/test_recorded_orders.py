@@ -484,7 +484,7 @@ def test_levels_say_what_they_leave_out_and_how_bands_come_about():
         for method in ("sums", "filters")
     )
     assert sums.attrs["levels_left_out_s"] == pytest.approx(0.1)
-    assert "A and C leave out the first and last 0.1 s" in to_text(orders_tables(sums)[1])
+    assert "A and C omit the first and last 0.1 s" in to_text(orders_tables(sums)[1])
     assert "third octaves in levels.csv by band sums" in to_text(orders_tables(sums)[1])
     assert "third octaves in levels.csv by IEC 61260-1 filters" in to_text(
         orders_tables(filters)[1]

@@ -30,7 +30,7 @@ from vibroacoustics.mechanisms.hermetic.gas import (
     fill,
     gas_force_n,
     piston_area_m2,
-    piston_place_m,
+    piston_position_m,
     valve_angles,
 )
 from vibroacoustics.mechanisms.hermetic.journal_bearing import film_coordinates, short_bearing_force
@@ -316,7 +316,7 @@ def test_tangent_meets_differences(cycles, case):
     equations, solution = cycles[case]
     angle, state = solution.mesh[40:42], solution.states[40:42]
     _, tangent = equations.slopes_and_tangents(angle, state)
-    freedoms = equations.shaft.freedoms
+    freedoms = equations.shaft.dof_count
     steps = np.concatenate((np.full(freedoms, 1e-10), np.full(freedoms, 1e-6), [1e-2]))
     for column, step in enumerate(steps):
         move = step * np.eye(state.shape[-1])[column]
@@ -404,7 +404,7 @@ def offset_cycle(offset_machine):
 def test_dead_centres_of_an_offset_cylinder(offset_machine):
     """Farthest and nearest place of the piston, found by a search."""
     angle = np.linspace(0.0, 2.0 * np.pi, 200_001)
-    place = piston_place_m(offset_machine, angle)
+    place = piston_position_m(offset_machine, angle)
     top, bottom = dead_centres(offset_machine)
     found = np.array([angle[np.argmax(place)] - 2.0 * np.pi, angle[np.argmin(place)]])
     assert [top, bottom] == pytest.approx(found, abs=2.0 * np.pi / 200_000)

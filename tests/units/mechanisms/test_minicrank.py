@@ -60,8 +60,8 @@ def links(crank_um=0.0, scroll_um=0.0, minicrank_um=0.0, bracket_um=0.0) -> Link
 def test_ideal_mechanism_needs_the_load_torque_only():
     """Equations (7) and (18)."""
     cycle = steady_minicrank_cycle(changed(MACHINE, four_bar={"crank_error_m": 0.0}), 1500.0)
-    assert not cycle.moved.scroll_angle.any()
-    np.testing.assert_array_equal(cycle.moved.minicrank_angle[0], cycle.moved.crank_angle)
+    assert not cycle.motion.scroll_angle.any()
+    np.testing.assert_array_equal(cycle.motion.minicrank_angle[0], cycle.motion.crank_angle)
     total = np.sum(list(cycle.input_torque_n_m.values()), axis=0)
     np.testing.assert_allclose(total, cycle.load.tangential_force_n * 4.5e-3, rtol=1e-14)
 
@@ -190,10 +190,10 @@ def at_constant_speed(machine: MiniCrankMachine, speed_rpm: float):
 def test_virtual_work_equals_newton_and_euler(machine):
     """Input torque against the moment of the force that the scroll passes on to the crank pin."""
     cycle = at_constant_speed(machine, 1500.0)
-    given = (cycle.links, cycle.moved, machine.masses, cycle.load, cycle.rotation)
+    given = (cycle.links, cycle.motion, machine.masses, cycle.load, cycle.rotation)
     x, y = crank_pin_force(*given)
     y = y + G * machine.masses.scroll_mass_kg  # held by the counterweights
-    angle = cycle.moved.crank_angle
+    angle = cycle.motion.crank_angle
     euler = -cycle.links.crank_m * (np.cos(angle) * y - np.sin(angle) * x)
     torque = cycle.input_torque_n_m
     total = np.sum(list(torque.values()), axis=0)
@@ -215,7 +215,7 @@ def test_inertia_and_weight_do_no_work_over_a_revolution(source, heavy):
 def test_energy_balance(machine):
     """Motor against the work at crank pin and scroll; in between the kinetic energy follows."""
     cycle = steady_minicrank_cycle(machine, 1500.0)
-    moved = cycle.moved
+    moved = cycle.motion
     supplied = 2.0 * np.pi * np.mean(cycle.rotation.motor_torque_n_m)
     pin_work = 2.0 * np.pi * 2000.0 * cycle.links.crank_m  # the ripple has no mean
     turned = np.diff(moved.scroll_angle[0], append=moved.scroll_angle[0][0])
@@ -244,7 +244,7 @@ def in_the_plane(machine: MiniCrankMachine, cycle) -> tuple[np.ndarray, np.ndarr
 
 def test_forces_at_the_bearings_are_the_resultant_on_the_housing(heavy):
     """Crankshaft bearing, mini-crank axis, stator and fixed scroll, less the weights."""
-    masses, moved, form, rotation = HEAVY.masses, heavy.moved, heavy.links, heavy.rotation
+    masses, moved, form, rotation = HEAVY.masses, heavy.motion, heavy.links, heavy.rotation
     given = (form, moved, masses, heavy.load, rotation)
     third, turn = moved.minicrank_angle, np.exp(1j * moved.crank_angle)
     # Acceleration of the mini-crank's pin by differences of its place in time.
@@ -298,11 +298,11 @@ def test_momentum_change_is_the_resultant(machine):
     weights = [moment / r for moment, r in zip(counterweight_moments(machine), radii, strict=True)]
     turning = [(orbiting, cycle.links.crank_m), *zip(weights, radii, strict=True)]
     parts = [
-        point(machine, mass, radius * np.exp(1j * cycle.moved.crank_angle), height)
+        point(machine, mass, radius * np.exp(1j * cycle.motion.crank_angle), height)
         for (mass, radius), height in zip(turning, heights, strict=True)
     ]
     count, form = machine.four_bar.minicranks, cycle.links
-    pin = form.minicrank_m * np.exp(1j * cycle.moved.minicrank_angle[0])
+    pin = form.minicrank_m * np.exp(1j * cycle.motion.minicrank_angle[0])
     axes = form.bracket_m * np.exp(2j * np.pi * np.arange(count) / 3.0)
     parts += [point(machine, masses.minicrank_mass_kg, axis + pin, 0.0) for axis in axes]
     force, moment = wrench(parts, rotation)
@@ -311,8 +311,8 @@ def test_momentum_change_is_the_resultant(machine):
     own = masses.minicrank_inertia_kg_m2 - masses.minicrank_mass_kg * form.minicrank_m**2
     for inertia, (_, first, second) in (
         (masses.rotor_inertia_kg_m2 - sum(mass * r**2 for mass, r in turning), crankshaft),
-        (masses.scroll_inertia_kg_m2, cycle.moved.scroll_angle),
-        (count * own, cycle.moved.minicrank_angle),
+        (masses.scroll_inertia_kg_m2, cycle.motion.scroll_angle),
+        (count * own, cycle.motion.minicrank_angle),
     ):
         spin = second * rotation.speed_rad_per_s**2 + first * rotation.acceleration_rad_per_s2
         moment = moment - inertia * spin * np.array(machine.plane(0.0).shaft)[:, None]
@@ -350,10 +350,10 @@ def multipliers(
 
 
 def test_lagrange_multipliers_give_the_same_motion_and_force(heavy):
-    pin = minicrank_pin_force(heavy.links, heavy.moved, HEAVY.masses, heavy.load, heavy.rotation)
+    pin = minicrank_pin_force(heavy.links, heavy.motion, HEAVY.masses, heavy.load, heavy.rotation)
     for index in [*range(0, 14400, 800), 109, 7100]:
-        angles = np.array([heavy.moved.crank_angle[index], heavy.moved.scroll_angle[0, index],
-                           heavy.moved.minicrank_angle[0, index]])  # fmt: skip
+        angles = np.array([heavy.motion.crank_angle[index], heavy.motion.scroll_angle[0, index],
+                           heavy.motion.minicrank_angle[0, index]])  # fmt: skip
         _, solved = multipliers(
             heavy,
             HEAVY,
@@ -385,7 +385,7 @@ def test_integration_in_time_repeats_the_cycle(heavy):
         rates, solved = multipliers(heavy, HEAVY, angles, speed, motor, tangential, moment)
         return [*rates, solved[0]]
 
-    start = [0.0, heavy.moved.scroll_angle[0, 0], heavy.moved.minicrank_angle[0, 0], speeds[0]]
+    start = [0.0, heavy.motion.scroll_angle[0, 0], heavy.motion.minicrank_angle[0, 0], speeds[0]]
     marks = [*heavy.rotation.time_s[[200, 3600, 7300, 12000]], 0.04]
     found = solve_ivp(
         slope, (0.0, 0.04), start, rtol=1e-9, atol=1e-10, t_eval=marks, method="DOP853"
@@ -550,7 +550,7 @@ def test_one_minicrank_cannot_hold_a_parallelogram():
     machine = changed(MACHINE, four_bar={"crank_error_m": 0.0})
     cycle = steady_minicrank_cycle(machine, 1500.0)
     with pytest.raises(ParameterError, match="a parallelogram with one mini-crank"):
-        minicrank_pin_force(cycle.links, cycle.moved, machine.masses, cycle.load, cycle.rotation)
+        minicrank_pin_force(cycle.links, cycle.motion, machine.masses, cycle.load, cycle.rotation)
 
 
 @pytest.mark.parametrize("speed_rpm", [0.0, -1.0, float("nan"), float("inf")])

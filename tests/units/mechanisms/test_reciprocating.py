@@ -47,7 +47,7 @@ def shaking_of(cycle):
     """On the housing in the cylinder's plane, about the shaft's axis, by source."""
     spin = -MACHINE.crankshaft.inertia_kg_m2 * cycle.rotation.acceleration_rad_per_s2
     shaft = planar(np.zeros((2, spin.size)), spin)
-    return {**housing_wrenches(cycle.crank, cycle.moved, cycle.rotation), "crankshaft": shaft}
+    return {**housing_wrenches(cycle.crank, cycle.kinematics, cycle.rotation), "crankshaft": shaft}
 
 
 @pytest.fixture(scope="module", params=[MACHINE, OFFSET], ids=["in line", "offset"])
@@ -68,7 +68,7 @@ def test_energy_balance(bore_m, slope, offset_m):
         piston_and_rod={"crank_offset_m": offset_m},
     )
     run = steady_cycle(machine, bore_m, 1000.0)
-    pairs, moved, forces = machine.sliding_pairs, run.moved, run.forces
+    pairs, moved, forces = machine.sliding_pairs, run.kinematics, run.forces
     rod = moved.rod_angle[1]
     losses = [
         pairs.wall_friction * np.abs(forces.piston_pin_n[1] * moved.piston_m[1]),
@@ -92,7 +92,7 @@ def test_energy_balance(bore_m, slope, offset_m):
 def test_virtual_work_equals_newton_and_euler(cycle):
     """The crank's own equation of motion closes with the joint force of the rod."""
     crank, (x, y) = cycle.crank, cycle.forces.crank_pin_n
-    angle = cycle.moved.crank_angle
+    angle = cycle.kinematics.crank_angle
     rod_torque = crank.crank_radius_m * (np.cos(angle) * y - np.sin(angle) * x)
     friction = cycle.friction.crank_pin_n_m + cycle.friction.journal_n_m
     euler = cycle.rotation.motor_torque_n_m - friction + rod_torque
@@ -104,7 +104,7 @@ def test_virtual_work_equals_newton_and_euler(cycle):
 def test_equation_1_with_modified_masses():
     """I_0' θ̈ - m_p' ẍ_p x_p tan φ + α cos θ/cos φ I_c' φ̈ with two masses in the rod's eyes."""
     cycle = steady_cycle(MACHINE, BORE_M, 1000.0)
-    crank, moved, turn = cycle.crank, cycle.moved, cycle.rotation
+    crank, moved, turn = cycle.crank, cycle.kinematics, cycle.rotation
     a, b, length = crank.small_end_to_centre_m, crank.big_end_to_centre_m, crank.rod_length_m
     mass = crank.rod_mass_kg
     speed, acceleration = turn.speed_rad_per_s, turn.acceleration_rad_per_s2
@@ -121,7 +121,7 @@ def test_equation_1_with_modified_masses():
 
 def test_momentum_change_is_the_resultant_on_the_housing(cycle):
     """Bearings, wall, gas on the head, stator: all that touches the housing."""
-    forces, friction, moved = cycle.forces, cycle.friction, cycle.moved
+    forces, friction, moved = cycle.forces, cycle.friction, cycle.kinematics
     touching = forces.journal_n - np.stack(
         [friction.wall_n + cycle.gas_force_n, forces.piston_pin_n[1]]
     )
@@ -233,7 +233,7 @@ def pressure_at(run, angle: float) -> float:
 def test_lagrange_multipliers_give_the_same_forces(cycle):
     per_speed = cycle.rotation.motor_torque_n_m[0] / cycle.rotation.speed_rad_per_s[0]
     for index in range(37, 3600, 200):
-        angle, speed = cycle.moved.crank_angle[index], cycle.rotation.speed_rad_per_s[index]
+        angle, speed = cycle.kinematics.crank_angle[index], cycle.rotation.speed_rad_per_s[index]
         acceleration, pin, crank_pin = lagrange(
             cycle, angle, speed, per_speed, cycle.pressure_pa[index]
         )
@@ -283,14 +283,14 @@ def test_wrench_of_moving_parts_at_constant_speed():
     )
     run = steady_cycle(machine, BORE_M, 1000.0)
     force, moment = wrench(
-        slider_crank_parts(run.crank, run.moved),
-        constant_rotation(1000.0, run.moved.crank_angle.size),
+        slider_crank_parts(run.crank, run.kinematics),
+        constant_rotation(1000.0, run.kinematics.crank_angle.size),
     )
-    shaking = housing_wrenches(run.crank, run.moved, run.rotation)
+    shaking = housing_wrenches(run.crank, run.kinematics, run.rotation)
     # Fourier derivative: eps |r| times 1800² orders; the speed swings by W/(I Ω²) = 1e-11.
     total = np.sum([own.force_n[:2] for own in shaking.values()], axis=0)
     np.testing.assert_allclose(total, force[:2], atol=3e-9 * np.max(np.abs(force)))
-    spin = inertia * np.max(np.abs(run.moved.rod_angle[2])) * (1000.0 / 30.0 * np.pi) ** 2
+    spin = inertia * np.max(np.abs(run.kinematics.rod_angle[2])) * (1000.0 / 30.0 * np.pi) ** 2
     turned = np.sum([own.moment_n_m[2] for own in shaking.values()], axis=0)
     assert np.max(np.abs(turned)) < 1e-9 * spin
     assert np.max(np.abs(moment)) < 1e-7 * spin

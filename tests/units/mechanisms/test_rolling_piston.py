@@ -320,9 +320,9 @@ def test_landing_vane_is_in_the_wrench_and_reported() -> None:
     assert revolution.figures["vane_jump_speed_rpm"] < 3600.0
     assert revolution.figures["largest_landing_speed_m_per_s"] > 0.0
     cycle = steady_cycle(machine, 3600.0, 1440)
-    courses = machine.require(RollingPiston).courses(3600.0, 1440)
+    histories = machine.require(RollingPiston).histories(3600.0, 1440)
     impulse = cycle.contacts[0].impacts.impulse_n_s
-    lasted = -courses.landing_n * 2.0 * np.pi / 1440 / courses.speed_rad_per_s
+    lasted = -histories.landing_n * 2.0 * np.pi / 1440 / histories.speed_rad_per_s
     assert np.sum(lasted) == pytest.approx(np.sum(impulse), rel=1e-12)
 
 

@@ -159,14 +159,14 @@ def forces_of(folder: Path, text: str, forces: str = ""):
 
 def test_one_speed_reaches_others_only_as_inertia(tmp_path):
     fixed = forces_of(tmp_path, ANGLES + small_table())
-    np.testing.assert_allclose(fixed.at(3000.0)[0, 0, 1], 1.0, rtol=1e-6)
+    np.testing.assert_allclose(fixed.orders_at(3000.0)[0, 0, 1], 1.0, rtol=1e-6)
     with pytest.raises(ParameterError, match=r"has 3000 rpm alone; scaling = .inertia. lets"):
-        fixed.at(3600.0)
+        fixed.orders_at(3600.0)
     grown = forces_of(tmp_path, ANGLES + small_table(), 'scaling = "inertia"\n')
-    np.testing.assert_allclose(grown.at(3600.0), 1.44 * fixed.at(3000.0), rtol=1e-12)
+    np.testing.assert_allclose(grown.orders_at(3600.0), 1.44 * fixed.orders_at(3000.0), rtol=1e-12)
     two = forces_of(tmp_path, ANGLES + small_table() + small_table(3500.0))
     with pytest.raises(ParameterError, match=r"f.csv: speed_rpm = 3600 rpm: .* has 3000 to 3500"):
-        two.at(3600.0)
+        two.orders_at(3600.0)
     again = type(two).model_validate_json(two.model_dump_json())
     assert again == two
     assert two.file == "f.csv"
@@ -176,7 +176,7 @@ def test_columns_in_other_units_and_a_closing_row(tmp_path):
     head = ANGLES.replace("fx_n", "fx_kn").replace("source,", "")
     text = small_table().replace(",crank", "") + "3000,360,1.000000,0,0,0,0,1\n"
     forces = forces_of(tmp_path, f"# a remark\n{head}{text}")
-    np.testing.assert_allclose(forces.at(3000.0)[0, 0, 1], 1000.0, rtol=1e-6)
+    np.testing.assert_allclose(forces.orders_at(3000.0)[0, 0, 1], 1000.0, rtol=1e-6)
     assert forces.sources == ("table",)
 
 
@@ -199,7 +199,7 @@ def test_universal_file_over_time(tmp_path):
     file = table_machine(tmp_path, "f.uff", forces="recorded_speed_rpm = 3000.0\n")
     text = file.read_text().replace("3000.0\n", '{ value = 3000.0, source = "tacho" }\n', 1)
     file.write_text(text)
-    orders = load_machine(file).forces.at(3000.0)
+    orders = load_machine(file).forces.orders_at(3000.0)
     np.testing.assert_allclose(orders[0, 0, 1], 3.0 * np.exp(0.4j), rtol=1e-6)
     np.testing.assert_allclose(orders[0, 4, 1], 0.3 * np.exp(0.4j), rtol=1e-6)
     np.testing.assert_allclose(np.delete(orders[0, 0], 1), 0.0, atol=1e-6)
@@ -223,7 +223,7 @@ def test_spectra_of_a_universal_file_are_orders_of_their_nodes(tmp_path):
     file.write_text(text)
     table = load_machine(file).forces
     assert table.sources == ("7", "8")
-    orders = table.at(3000.0)
+    orders = table.orders_at(3000.0)
     np.testing.assert_allclose(orders[0, 2], [0.0, *-force])
     np.testing.assert_allclose(orders[0, 3], [0.0, *moment])
     np.testing.assert_allclose(orders[1, 0], [0.0, *force])
@@ -317,7 +317,7 @@ def test_example_is_the_machine_that_it_was_made_from(speed_rpm, bound):
             np.concatenate([wrench.force_n, wrench.moment_n_m]),
             revolution.rotation.speed_rad_per_s, 20,
         )  # fmt: skip
-        found = table.forces.at(speed_rpm)[at]
+        found = table.forces.orders_at(speed_rpm)[at]
         assert np.abs(found - expected).max() < bound * np.abs(expected).max()
 
 

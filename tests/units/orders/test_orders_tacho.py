@@ -478,7 +478,7 @@ def test_teeth_left_out_are_counted_and_noted():
     result = tacho_motion(pulses[np.arange(pulses.size) % 60 < 58], 60)
     assert result.faults == ()
     (note,) = result.notes
-    assert note.startswith("2 of 60 pulses are left out regularly, as on a wheel of 60 - 2 teeth")
+    assert note.startswith("2 of 60 pulses are missing regularly, as on a wheel of 60 - 2 teeth")
     assert np.abs(shaft.speed_error(result.motion, 0.5)).max() < 1e-3
 
 

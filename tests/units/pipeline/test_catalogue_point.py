@@ -4,7 +4,7 @@ import pytest
 from sources_study import SOURCES_STUDY, run_made_up
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.report.sections.assumptions import remainder_sentence
+from vibroacoustics.report.sections.assumptions import unmodelled_sentence
 from vibroacoustics.report.sections.sources.words import samples_sentence
 from vibroacoustics.study.loading import load_study
 
@@ -46,15 +46,15 @@ def test_remainder_is_that_of_the_point_of_the_published_level(study, at_ari):
     off = results["level_modelled"].values - at_ari["level_modelled"].values
     assert abs(off).max() > 1.0
     assert list(results["option"].values) == ["none"]
-    said = "rpm at the operating point ari; the machine runs at the values of its file. What"
-    assert said in remainder_sentence(results)
+    said = "rpm at the operating point ari; the machine runs at the values of its file. Unmodelled"
+    assert said in unmodelled_sentence(results)
     assert "by the likelihood of the published level at the operating point ari: " in (
         samples_sentence(results)
     )
 
 
 def test_a_report_at_the_point_itself_names_it_once(at_ari):
-    assert "2900 rpm at the operating point ari. What the model" in remainder_sentence(at_ari)
+    assert "2900 rpm at the operating point ari. Unmodelled noise" in unmodelled_sentence(at_ari)
     assert "by the likelihood of the published level: " in samples_sentence(at_ari)
 
 

@@ -153,7 +153,7 @@ def test_what_is_wrong_is_one_line(tmp_path, values, words):
 @pytest.mark.filterwarnings("ignore:.*usual is")
 @pytest.mark.parametrize(
     ("values", "words"),
-    [({"operation.stopping": True}, "leave out operation.stopping"),
+    [({"operation.stopping": True}, "remove operation.stopping"),
      ({"options.softer": SOFTER}, "options.softer: stands otherwise than the machine that was"),
      ({"operation.speed_rpm": [540.0]}, "begins at 10 Hz, above the first order, 9 Hz")],
 )  # fmt: skip

@@ -11,7 +11,7 @@ from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
 from vibroacoustics.commands import outputs
 from vibroacoustics.commands.listening import impulse_analysis
 from vibroacoustics.radiation.rooms import of_study as rooms
-from vibroacoustics.sound.room_ways import ways_of
+from vibroacoustics.sound.room_paths import paths_of
 from vibroacoustics.stages import room
 
 
@@ -47,13 +47,13 @@ def test_they_are_the_vectors_below_the_seam_and_the_levels_above(study, vectors
     relative = written[..., low] / (0.01 / (2.0 * np.pi)) ** 2
     np.testing.assert_allclose(relative, 1.0, atol=0.04)
     np.testing.assert_allclose(relative.mean(axis=-1), 1.0, atol=0.002)
-    pressure = rooms.pressure_at_places(vectors)
-    ways = ways_of(study.room, study.machine.shell, vectors, pressure).ways
+    pressure = rooms.pressure_at_positions(vectors)
+    paths = paths_of(study.room, study.machine.shell, vectors, pressure).paths
     for middle in (1000.0, 1258.9):
         within = (hertz > middle * 10.0**-0.05) & (hertz < middle * 10.0**0.05)
         at = hertz[within]
         square = np.full((22, at.size), (0.01 / (2.0 * np.pi)) ** 2)
-        wanted = ways.at_listeners(square, at).mean(axis=-1)
+        wanted = paths.at_listeners(square, at).mean(axis=-1)
         off_db = 10.0 * np.log10(written[..., within].mean(axis=-1) / wanted[:, None])
         assert np.abs(off_db).max() < 0.1
 

@@ -78,7 +78,7 @@ def test_samples_count_alike(sampled, study):
 def test_the_report_says_so(rigid, sampled):
     plain, of_samples = text_of(rigid), text_of(sampled)
     for text in (plain, of_samples):
-        assert "gives no published level: there is no remainder" in text
+        assert "gives no published level: there is no unmodelled noise" in text
         assert "What is not modelled" in text
         assert "whole machine is assumed" not in text
     assert "(no published level)" in plain

@@ -11,7 +11,11 @@ from vibroacoustics.mechanics.loads import Loads, Tone
 from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.report.blocks import Part
 from vibroacoustics.report.sections import SECTIONS
-from vibroacoustics.report.sections.structure_borne import carrier, way_sentence, ways_table
+from vibroacoustics.report.sections.structure_borne import (
+    both_paths_table,
+    carrier,
+    dominant_path_sentence,
+)
 from vibroacoustics.sources.cases import cases_of
 from vibroacoustics.study.selection import at_speeds
 from vibroacoustics.transfer import on_mounts
@@ -127,17 +131,17 @@ def _quiet(*_):
 
 
 def test_report_says_which_way_carries(panel):
-    sentence = way_sentence(panel, "front_1m")
-    assert "the plate carries it" in sentence or "not sure" in sentence
-    assert "counterweight-half leaves least of it" in sentence
-    table = ways_table(panel, "front_1m")
+    sentence = dominant_path_sentence(panel, "front_1m")
+    assert "structure-borne sound dominates" in sentence or "it is uncertain" in sentence
+    assert "The lowest structure-borne 1× is that of counterweight-half" in sentence
+    table = both_paths_table(panel, "front_1m")
     assert [row[0] for row in table.rows] == ["none", "counterweight-half"]
     section = SECTIONS["structure-borne"]
     assert section.applies(panel)
     page = page_of(Part("s", section.title, tuple(section.blocks(panel))))
     assert b"Structure-borne sound" in page.html()
     assert [carrier(*ends) for ends in ((1, 2, 3), (4, 2, 3), (2, 1, 3))] == [
-        "the plate", "the air", "not sure",
+        "structure-borne sound", "airborne sound", "uncertain",
     ]  # fmt: skip
 
 

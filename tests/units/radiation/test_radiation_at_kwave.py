@@ -83,7 +83,7 @@ def test_seam_and_difference_are_within_a_tenth_of_a_decibel(both):
     assert 1e-6 < np.abs(difference).max() < 0.1
     sentence = kwave_sentence(vectors)
     assert "k-Wave computed the room at side from 100 to 600 Hz" in sentence
-    assert sentence.endswith("dB at the seam of 600 Hz.")
+    assert sentence.endswith("dB at the limit of 600 Hz.")
     assert kwave_to_hz(vectors) == {"side": SEAM_HZ}
 
 

@@ -11,7 +11,7 @@ from vibroacoustics.radiation.rooms import (
     Material,
     Room,
     blend,
-    gain_at_place_db,
+    gain_at_position_db,
     line_of_sight,
     mean_square_per_power,
 )
@@ -108,5 +108,5 @@ def test_the_seam_goes_from_waves_to_the_diffuse_field():
 def test_the_place_gains_the_mean_ratio():
     diffuse = np.array([[1.0, 2.0, 0.0], [4.0, 1.0, 1.0]])
     waves = np.array([[3.0, 2.0, 5.0], [4.0, 3.0, 2.0]])
-    assert gain_at_place_db(waves, diffuse) == pytest.approx(10.0 * np.log10(2.0))
-    assert gain_at_place_db(np.zeros((2, 3)), diffuse) == 0.0
+    assert gain_at_position_db(waves, diffuse) == pytest.approx(10.0 * np.log10(2.0))
+    assert gain_at_position_db(np.zeros((2, 3)), diffuse) == 0.0

@@ -123,6 +123,6 @@ def test_tones_of_a_sound_file(tmp_path, results):
     factor = ("--unit", "channel 1=Pa", "--calibration", "channel 1=20")
     outcome = command_here("tones", path, *factor)
     assert outcome.returncode == 0, outcome.stderr
-    assert "channel 1: no tone stands above the noise of its critical band" in outcome.stdout
+    assert "channel 1: no tone exceeds the noise of its critical band" in outcome.stdout
     assert_refused(command_here("tones", path, *factor, "--to", 1), "tones need at least 3 s")
     assert_refused(command_here("tones", path, "--unit", "channel 1=V"), "none is in Pa")

@@ -9,9 +9,9 @@ from scipy.signal import fftconvolve
 from vibroacoustics.base.constants import AIR_IMPEDANCE_PA_S_PER_M as IMPEDANCE
 from vibroacoustics.base.constants import SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.levels.bands import bands_between
-from vibroacoustics.levels.in_room import RoomWays
+from vibroacoustics.levels.in_room import RoomPaths
 from vibroacoustics.radiation.rooms.of_study import wave_share
-from vibroacoustics.sound.room_responses import WaysOfRoom, room_responses
+from vibroacoustics.sound.room_responses import PathsOfRoom, room_responses
 
 RATE = 48000
 HIGHEST_HZ, RECORD_S, DECAY_S, RADIUS_M = 3000.0, 0.6, 0.5, 1.2
@@ -45,9 +45,9 @@ def room_to(highest_hz):
     """The room with waves to a frequency."""
     direct = IMPEDANCE / (2.0 * np.pi * DISTANCE_M[:, None] ** 2) * [[1.0], [0.0]]  # one in sight
     per_power = lambda hertz: (direct + IMPEDANCE * 0.3) * np.ones(hertz.size)  # noqa: E731
-    return WaysOfRoom(
+    return PathsOfRoom(
         pressure=pressure,
-        ways=RoomWays(2, RADIUS_M, wave_share(highest_hz), per_power),
+        paths=RoomPaths(2, RADIUS_M, wave_share(highest_hz), per_power),
         direct_per_power=lambda hertz: direct * np.ones(hertz.size),
         distance_m=DISTANCE_M,
         nearest_m=RADIUS_M,
@@ -75,7 +75,7 @@ def test_third_octaves_have_the_mean_squares_of_the_levels(room, responses):
         within = (hertz >= band.lower_hz) & (hertz < band.upper_hz)
         at = hertz[within]
         square = np.moveaxis(np.abs(pressure(at) / (2.0 * np.pi * at)) ** 2, 1, 0)
-        wanted = room.ways.at_listeners(square, at).mean(axis=-1)[:5].T
+        wanted = room.paths.at_listeners(square, at).mean(axis=-1)[:5].T
         off_db = 10.0 * np.log10(written[:, :5, within].mean(axis=-1) / wanted)
         bound_db = 0.014 if 90.0 < band.upper_hz < 400.0 else 0.1
         assert np.abs(off_db).max() < bound_db, band.nominal_hz

@@ -195,8 +195,8 @@ def test_a_level_that_swings():
     """By a sine of 4 dB to either side: 10 to 90 % of the time are 2 · 4 · sin 72° dB apart."""
     seconds, swing_db = 24.0, 4.0
     tone = recorded([1000.0], [80.0], 0.0, seconds)
-    course_db = swing_db * np.sin(2.0 * np.pi * np.arange(tone.size) / tone.size)
-    (found, *_) = tones(recorded_spectrum(narrow_bands(tone * 10.0 ** (course_db / 20.0), RATE)))
+    history_db = swing_db * np.sin(2.0 * np.pi * np.arange(tone.size) / tone.size)
+    (found, *_) = tones(recorded_spectrum(narrow_bands(tone * 10.0 ** (history_db / 20.0), RATE)))
     assert found.swing_db == pytest.approx(2.0 * swing_db * np.sin(np.radians(72.0)), abs=0.8)
 
 

@@ -37,7 +37,7 @@ def opened(leakage=None, filling=None):
 
 
 @pytest.fixture(scope="module")
-def courses():
+def histories():
     return {name: opened(*tables) for name, tables in CASES.items()}
 
 
@@ -48,9 +48,9 @@ def test_gaps_of_no_height_change_nothing():
     np.testing.assert_array_equal(one.tangential_force_n, other.tangential_force_n)
 
 
-def test_the_mass_that_is_not_lost_leaves_through_the_port(courses):
+def test_the_mass_that_is_not_lost_leaves_through_the_port(histories):
     """Mass at closing, less the leak of a new pocket's contacts over their first turn."""
-    gas = courses["leaks"]
+    gas = histories["leaks"]
     trapped, omega = gas.trapped, TURN * SPEED_RPM / 60.0
     constants = opening_constants(WRAPS, GAS, OPENING, SPEED_RPM)
     opens = np.asarray(WRAPS.opening_angle_rad)
@@ -69,9 +69,9 @@ def test_the_mass_that_is_not_lost_leaves_through_the_port(courses):
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_work_on_the_shaft_is_that_on_the_gas(courses, name):
+def test_work_on_the_shaft_is_that_on_the_gas(histories, name):
     """-∮ p dV of a pair from the beginning of its pockets to the end of its gas."""
-    gas = courses[name]
+    gas = histories[name]
     cycle = scroll_gas_cycle(WRAPS, GAS, ANGLE, gas)
     life = np.linspace(-TURN, WRAPS.opening_angle_rad, 40001)
     volume = np.where(
@@ -92,9 +92,9 @@ def test_work_on_the_shaft_is_that_on_the_gas(courses, name):
     assert TURN * cycle.torque_n_m.mean() == pytest.approx(work, rel=1e-4)
 
 
-def test_leaks_converge_with_the_step(courses, monkeypatch):
+def test_leaks_converge_with_the_step(histories, monkeypatch):
     monkeypatch.setattr(leakage_module, "STEPS", 2048)
-    fine, taken = opened(GAPS), courses["leaks"]
+    fine, taken = opened(GAPS), histories["leaks"]
     assert np.abs(fine.pair_pa / taken.pair_pa - 1.0).max() < 1e-5
 
 
@@ -149,15 +149,15 @@ def test_suction_pockets_press_flanks_and_plates(wraps, since):
     assert float(axial - inside) == pytest.approx(pockets + tips, rel=1e-9)
 
 
-def test_suction_pockets_begin_and_close_without_a_step(courses):
-    cycle = scroll_gas_cycle(WRAPS, GAS, ANGLE, courses["both"])
+def test_suction_pockets_begin_and_close_without_a_step(histories):
+    cycle = scroll_gas_cycle(WRAPS, GAS, ANGLE, histories["both"])
     for force in (cycle.tangential_force_n, cycle.radial_force_n, cycle.axial_force_n):
         assert np.abs(np.diff(force, append=force[0])).max() < 0.01 * force.max()
 
 
-def test_a_pocket_closes_with_the_pressure_that_it_filled_to(courses):
+def test_a_pocket_closes_with_the_pressure_that_it_filled_to(histories):
     """Some 3 % over suction, and compressed from there."""
-    gas = courses["fills"]
+    gas = histories["fills"]
     before, after, later = pocket_pressure(WRAPS, GAS, np.array([-1e-9, 1e-9, 3.0]), gas)
     assert before == pytest.approx(after, rel=1e-6)
     assert after / GAS.suction_pressure_pa == pytest.approx(1.03, abs=0.005)

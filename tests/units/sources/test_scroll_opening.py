@@ -184,5 +184,5 @@ def test_a_gas_without_its_state_is_refused(name):
 
 
 def test_a_course_that_breaks_down_is_refused():
-    with pytest.raises(SolverError, match="do not come to a course that repeats"):
+    with pytest.raises(SolverError, match="do not come to a periodic solution"):
         steady_opening(WRAPS, GAS, OPENING, SPEED_RPM, steps=16)

@@ -216,8 +216,8 @@ def test_little_drag_changes_little(gentle):
     time = gentle["stopping_time"]
     soon = (time >= 0.0) & (time < 0.04)
     for name in ("stopping_force", "stopping_shaft_speed"):
-        course = np.abs(gentle[name].isel(speed=0))
-        before, after = (course.where(each).max().item() for each in (time < 0.0, soon))
+        history = np.abs(gentle[name].isel(speed=0))
+        before, after = (history.where(each).max().item() for each in (time < 0.0, soon))
         assert after == pytest.approx(before, rel=2.0 * slowed), name
     # Over the speed A-weighting rises by 24 dB an octave here, the velocity and the vectors by 6
     # each; a Fast level follows 27 % of it in 0.04 s.

@@ -68,7 +68,7 @@ def test_a_mass_beside_a_table_of_other_forces(tmp_path, factor, is_doubted):
     lines = doubts(va.load_machine, file)
     assert bool(lines) == is_doubted
     if lines:
-        first = machine.forces.at(1200.0).sum(axis=0)[2, 1]
+        first = machine.forces.orders_at(1200.0).sum(axis=0)[2, 1]
         inertia = mass * AMPLITUDE_M * (40.0 * math.pi) ** 2
         assert lines[0].startswith(f"{file}: forces.file = reciprocating_forces.csv: order 1 along")
         for words in (f"{abs(first):.3g} N at 1200 rpm", f"sliding_mass.mass_kg = {mass:g} kg",

@@ -22,7 +22,7 @@ from vibroacoustics.transfer.path import computed_path
 from vibroacoustics.transfer.shell_modes.elements import (
     AXIAL,
     CIRCUMFERENTIAL,
-    NODE_FREEDOMS,
+    NODE_DOFS,
     RADIAL,
 )
 from vibroacoustics.transfer.shell_modes.modes import Around
@@ -141,15 +141,15 @@ def path():
 def rigid_motion(meridian, order):
     """Along z for order 0, along x and about y for order 1, as amplitudes; see `Harmonic`."""
     radius, height = meridian.nodes.T
-    total = NODE_FREEDOMS * radius.size + 4 * meridian.elements
+    total = NODE_DOFS * radius.size + 4 * meridian.elements
     motions = np.zeros((total, 1 + order))
-    nodes = motions[: NODE_FREEDOMS * radius.size]
+    nodes = motions[: NODE_DOFS * radius.size]
     if order == 0:
-        nodes[AXIAL::NODE_FREEDOMS, 0] = 1.0
+        nodes[AXIAL::NODE_DOFS, 0] = 1.0
         return motions
-    nodes[RADIAL::NODE_FREEDOMS] = np.stack([np.ones_like(height), height], axis=1)
-    nodes[CIRCUMFERENTIAL::NODE_FREEDOMS] = -nodes[RADIAL::NODE_FREEDOMS]
-    nodes[AXIAL::NODE_FREEDOMS, 1] = -radius
+    nodes[RADIAL::NODE_DOFS] = np.stack([np.ones_like(height), height], axis=1)
+    nodes[CIRCUMFERENTIAL::NODE_DOFS] = -nodes[RADIAL::NODE_DOFS]
+    nodes[AXIAL::NODE_DOFS, 1] = -radius
     return motions
 
 

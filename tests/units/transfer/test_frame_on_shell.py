@@ -277,7 +277,7 @@ def test_flexibility_at_a_weld():
     weld = MACHINE.structure.bearing_housing.model_copy(update={"band_m": 0.012})
     dome = MACHINE.shell.model_copy(update={"dome_height_m": 0.04})
     wall = WallFlexibility(elastic_shell(dome, MACHINE.structure, 1000.0))
-    outwards, up, _ = 1e-6 / np.diag(wall.at([weld]))[:3]
+    outwards, up, _ = 1e-6 / np.diag(wall.at_joints([weld]))[:3]
     assert outwards == pytest.approx(18.5, rel=0.15)
     assert up == pytest.approx(660.0, rel=0.1)
 
@@ -286,7 +286,7 @@ def test_what_the_modes_leave_out_only_softens(path, on_shell):
     assert np.linalg.eigvalsh(on_shell.residual)[0] > -1e-9 * abs(on_shell.residual).max()
     stiffness = on_shell.modal_mass_kg * (2.0 * np.pi * on_shell.natural_hz) ** 2
     modes = on_shell.modal_forces.T @ (on_shell.modal_forces / stiffness[:, None])
-    total = path.wall.flexibility.at(on_shell.contacts.joints)
+    total = path.wall.flexibility.at_joints(on_shell.contacts.joints)
     assert modes + on_shell.residual == pytest.approx(total, abs=1e-12 * abs(total).max())
     assert np.trace(on_shell.residual) > 0.1 * np.trace(total)
 
@@ -297,7 +297,8 @@ def test_flexibility_of_another_wall():
     thick = wall.model_copy(update={"thickness_m": 0.004, "youngs_modulus_pa": 2.12e11})
     weld = Joint(height_m=0.0, band_m=0.012, welds=3, spread_rad=0.14)
     each = [
-        WallFlexibility(elastic_shell(MACHINE.shell, w, 800.0)).at([weld]) for w in (wall, thick)
+        WallFlexibility(elastic_shell(MACHINE.shell, w, 800.0)).at_joints([weld])
+        for w in (wall, thick)
     ]
     outwards = each[1][0, 0] / each[0][0, 0]
     assert outwards == pytest.approx(local_flexibility_factor(wall, thick), rel=0.2)

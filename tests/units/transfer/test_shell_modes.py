@@ -31,7 +31,7 @@ from vibroacoustics.machine.shell_structure import Joint, ShellStructure
 from vibroacoustics.radiation.bodies import turned
 from vibroacoustics.radiation.patterns import Pattern
 from vibroacoustics.transfer.shell_modes.elements import (
-    NODE_FREEDOMS,
+    NODE_DOFS,
     matrices,
     strains,
 )
@@ -168,7 +168,7 @@ def between_diaphragms(order, elements, span=0.38):
     heights = np.linspace(0.0, span, elements + 1)
     meridian = Meridian(np.stack([np.full(elements + 1, RADIUS), heights], axis=1))
     stiffness, mass = dense(matrices(meridian, STEEL, order))
-    last = NODE_FREEDOMS * elements
+    last = NODE_DOFS * elements
     kept = np.setdiff1d(np.arange(len(mass)), [0, 2, last, last + 2])
     at = np.ix_(kept, kept)
     return np.sqrt(np.abs(eigh(stiffness[at], mass[at], eigvals_only=True))) / (2.0 * np.pi)
@@ -241,7 +241,7 @@ def test_clamped_disc(order):
     radius = np.linspace(0.0, 0.08, 25)
     harmonic = Harmonic(Meridian(np.stack([radius, np.zeros(25)], axis=1)), STEEL, order)
     stiffness, mass = dense(harmonic.free_matrices)
-    edge = 24 * NODE_FREEDOMS + np.arange(NODE_FREEDOMS)
+    edge = 24 * NODE_DOFS + np.arange(NODE_DOFS)
     kept = np.flatnonzero(~np.isin(harmonic.kept, edge))
     at = np.ix_(kept, kept)
     found = np.sqrt(eigh(stiffness[at], mass[at], eigvals_only=True)) / (2.0 * np.pi)
@@ -305,7 +305,7 @@ def test_mass_of_the_flat_capped_shell(flat):
         _, mass_matrix = dense(matrices(flat.meridian, STEEL, harmonic.order))
         motion = np.zeros(len(mass_matrix))
         for freedom, value in freedoms.items():
-            motion[freedom : NODE_FREEDOMS * (flat.meridian.elements + 1) : NODE_FREEDOMS] = value
+            motion[freedom : NODE_DOFS * (flat.meridian.elements + 1) : NODE_DOFS] = value
         assert motion @ mass_matrix @ motion == pytest.approx(mass, rel=1e-12)
 
 
@@ -617,7 +617,7 @@ def test_strain_energy_of_a_mode_is_its_kinetic_energy(domed):
     meridian = domed.meridian
     element = np.repeat(np.arange(meridian.elements), 12)
     place, weight = np.tile(place, meridian.elements), np.tile(weight, meridian.elements)
-    amplitudes = mode.shape[_freedoms(meridian)[element]]
+    amplitudes = mode.shape[_dofs(meridian)[element]]
     strain = np.einsum(
         "pai,pi->pa", strains(meridian, element, place, mode.around.order), amplitudes
     )
@@ -634,10 +634,10 @@ def test_strain_energy_of_a_mode_is_its_kinetic_energy(domed):
     )
 
 
-def _freedoms(meridian):
+def _dofs(meridian):
     first = np.arange(meridian.elements)[:, None]
-    inner = NODE_FREEDOMS * (meridian.elements + 1) + 4 * first + np.arange(4)
-    return np.concatenate([NODE_FREEDOMS * first + np.arange(8), inner], axis=1)
+    inner = NODE_DOFS * (meridian.elements + 1) + 4 * first + np.arange(4)
+    return np.concatenate([NODE_DOFS * first + np.arange(8), inner], axis=1)
 
 
 # --- modes known at nodes ------------------------------------------------------------------------

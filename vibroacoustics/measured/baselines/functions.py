@@ -42,26 +42,30 @@ def read_spectra(file: BaselineFile) -> BaselineContent:
     except StorageError as error:
         raise ParameterError(*error.args) from None
     used = [
-        one
-        for one in functions
-        if one.kind in ("spectrum", "auto spectrum")
-        and one.response_unit == "Pa"
-        and one.response.number in nodes
+        function
+        for function in functions
+        if function.kind in ("spectrum", "auto spectrum")
+        and function.response_unit == "Pa"
+        and function.response.number in nodes
     ]
     if not used:
-        there = ", ".join(map(str, functions))
+        nodes_in_file = ", ".join(map(str, functions))
         raise ParameterError(
             f"{file.path}: holds no spectrum in Pa of a microphone's node: name it, as in "
-            f"measured.baseline.microphones.{file.receivers[0]} = {{ node = 1 }}; there are {there}"
+            f"measured.baseline.microphones.{file.receivers[0]} = {{ node = 1 }}; the file has "
+            f"{nodes_in_file}"
         )
     speed = file.stated_speed()
     factor = 0.5 if file.settings.spectra == "peak" else 1.0
     try:
         spectra = [
             NarrowSpectrum(
-                nodes[one.response.number], speed, one.frequency_hz, _square(one, factor)
+                nodes[function.response.number],
+                speed,
+                function.frequency_hz,
+                _square(function, factor),
             )
-            for one in used
+            for function in used
         ]
         return of_spectra(spectra, file.settings.window)
     except ParameterError as error:

@@ -17,9 +17,9 @@ from ..narrow_spectra import NarrowSpectrum, of_spectra
 from ..recorded_rows import band_row, order_row
 
 SPEED_STEP_RPM: Final = 100.0
-"""Of the operating points of a map, as `orders` has them."""
+"""Step of the operating points of a map, as `orders` has them."""
 _WINDOW: Final = "hann"
-"""Of every analysis of this package."""
+"""Window of every analysis of this package."""
 
 
 def read(file: BaselineFile) -> BaselineContent:
@@ -58,14 +58,14 @@ def _channels(file: BaselineFile, results: xr.Dataset) -> dict[str, str]:
     channels: dict[str, str] = {}
     for receiver in file.receivers:
         named = file.settings.microphones.get(receiver)
-        asked = None if named is None else named.channel
-        if asked is not None and units.get(asked) != "Pa":
+        channel = None if named is None else named.channel
+        if channel is not None and units.get(channel) != "Pa":
             raise ParameterError(
-                f"{file.path}: channel {asked}: is no channel in Pa; there are "
+                f"{file.path}: channel {channel}: is no channel in Pa; there are "
                 f"{', '.join(f'{name} [{unit}]' for name, unit in units.items())}"
             )
-        known = [asked] if asked is not None else [receiver, f"pressure {receiver}"]
-        in_pascal = [name for name in known if units.get(name) == "Pa"]
+        candidates = [channel] if channel is not None else [receiver, f"pressure {receiver}"]
+        in_pascal = [name for name in candidates if units.get(name) == "Pa"]
         if in_pascal:
             channels[receiver] = in_pascal[0]
     if not channels:
@@ -102,24 +102,25 @@ def _of_orders(results: xr.Dataset, channels: dict[str, str]) -> BaselineContent
     orders = [float(order) for order in results["order"].values if order > 0.0]
     spectra = _spectra(results, channels)
     content = of_spectra(spectra, _WINDOW, orders) if spectra else BaselineContent()
-    apart = {(one["microphone"], one["speed_rpm"]): one for one in content.orders}
+    apart = {(row["microphone"], row["speed_rpm"]): row for row in content.orders}
     measured = [
         order_row(results, channel, key, apart.get(key))
         for receiver, channel in channels.items()
         for key in product([receiver], results["speed"].values.tolist())
     ]
-    of_key = {(one["microphone"], one["speed_rpm"]): one for one in measured}
+    of_key = {(row["microphone"], row["speed_rpm"]): row for row in measured}
     bands = []
-    for one in content.third_octaves:
-        key = (one["microphone"], one["speed_rpm"])
+    for row in content.third_octaves:
+        key = (row["microphone"], row["speed_rpm"])
         levels = results["band_level"].sel(channel=channels[key[0]], weighting="Z")
         steady = levels if results.sizes["speed"] == 1 else None
-        bands.append(band_row(one, of_key[key], apart.get(key), steady))
+        bands.append(band_row(row, of_key[key], apart.get(key), steady))
     return BaselineContent(bands, measured)
 
 
 def _spectra(results: xr.Dataset, channels: dict[str, str]) -> list[NarrowSpectrum]:
-    """Of the blocks of a map, or the mean at a steady speed; none of a run-up without a map."""
+    """Spectra of the blocks of a map, or the mean at a steady speed; none of a run-up without a
+    map."""
     if "map_order" not in results:  # mean of several recordings
         return []
     speeds, order = results["speed"].values, results["map_order"].values

@@ -44,11 +44,13 @@ def read(file: BaselineFile) -> BaselineContent:
     name = next(each for each in ("band_hz", "order", "frequency_hz") if each in columns.numbers)
     groups = _groups(columns, name)
     if name == "band_hz":
-        return BaselineContent(third_octaves=[_row(key, at, name) for key, at in groups.items()])
+        return BaselineContent(
+            third_octaves=[_row(key, group, name) for key, group in groups.items()]
+        )
     if name == "order":
-        return BaselineContent(orders=[_row(key, at, name) for key, at in groups.items()])
+        return BaselineContent(orders=[_row(key, group, name) for key, group in groups.items()])
     try:
-        spectra = [_spectrum(key, at) for key, at in groups.items()]
+        spectra = [_spectrum(key, group) for key, group in groups.items()]
         return of_spectra(spectra, file.settings.window)
     except ParameterError as error:
         raise ParameterError(f"{file.path}: {error}") from None
@@ -61,12 +63,12 @@ def _groups(columns: Columns, name: str) -> _Groups:
     values = (numbers["speed_rpm"], numbers[name], numbers["level_db"])
     phases = numbers.get("phase_rad", missing)
     rows = zip(columns.texts["microphone"], *values, phases, strict=True)
-    for row, (microphone, speed, at, level, phase) in enumerate(rows):
+    for row, (microphone, speed, number, level, phase) in enumerate(rows):
         group = groups.setdefault((microphone, float(speed)), {})
-        if at in group:
+        if number in group:
             what, _, unit = name.partition("_")
-            raise columns.refusal(row, f"{what} {at:g}{' Hz' if unit else ''} is there twice")
-        group[float(at)] = (float(level), None if np.isnan(phase) else float(phase))
+            raise columns.refusal(row, f"{what} {number:g}{' Hz' if unit else ''} is there twice")
+        group[float(number)] = (float(level), None if np.isnan(phase) else float(phase))
     return groups
 
 
@@ -79,7 +81,7 @@ def _row(
         "microphone": key[0],
         "speed_rpm": key[1],
         name: tuple(rising),
-        "level_db": tuple(group[at][0] for at in rising),
+        "level_db": tuple(group[number][0] for number in rising),
     }
     return row | ({"phase_rad": tuple(group[a][1] for a in rising)} if name == "order" else {})
 
@@ -88,7 +90,7 @@ def _spectrum(
     key: tuple[str, float], group: dict[float, tuple[float, float | None]]
 ) -> NarrowSpectrum:
     frequency = np.array(sorted(group))
-    level = np.array([group[at][0] for at in frequency.tolist()])
+    level = np.array([group[hertz][0] for hertz in frequency.tolist()])
     square = REFERENCE_PRESSURE_PA**2 * power_of_level(level)
     return NarrowSpectrum(*key, frequency, square)
 

@@ -29,8 +29,8 @@ class Solved(NamedTuple):
 
     Attributes
     ----------
-    words : what it is
-    equations : of its shaft
+    words : description of the curve
+    equations : equations of its shaft
     angle, states : rad, shape (STEPS,), and shape (STEPS, 2n + 1)
     """
 
@@ -167,12 +167,12 @@ def _campbell(machine: HermeticTables, bending: Solved, speed_rpm: float) -> Cur
     """Frequencies on films linearised about the cycle's mean loads."""
     rotor = with_disc(rotor_matrices(machine), 0, machine.crank.mass_kg, 0.0, 0.0)
     loads = [float(np.linalg.norm(bearing.force_n, axis=-1).mean()) for bearing in bending.bearings]
-    journals = crankshaft(bending.equations.machine).bearing_freedoms
+    journals = crankshaft(bending.equations.machine).bearing_dofs
 
     def frequencies(spin: float) -> Array:
         films = {
-            at: linear_film(machine.bearing, load, spin)
-            for at, load in zip(journals, loads, strict=True)
+            dof: linear_film(machine.bearing, load, spin)
+            for dof, load in zip(journals, loads, strict=True)
         }
         return damped_modes(rotor, films, spin)[0]
 

@@ -23,7 +23,7 @@ SUPPLIES: Final = 10
 THICKER_OILS: Final = (8.0, 4.0, 2.0, 1.4)
 """Viscosities over the machine's, on the way to it where it is not reached at once."""
 SPEED_TOLERANCE: Final = 1e-6
-"""Of the mean speed, relative."""
+"""Tolerance of the mean speed, relative."""
 KEPT_CYCLES: Final = 16
 """A search asks for those of a design twice, at each speed: for its forces and its criteria."""
 
@@ -118,7 +118,7 @@ def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Arr
 
     Parameters
     ----------
-    solution : of `steady_cycle` with the same number of steps
+    solution : result of `steady_cycle` with the same number of steps
     steps : samples per revolution
 
     Returns
@@ -139,9 +139,9 @@ def uniform_samples(solution: PeriodicSolution, steps: int = STEPS) -> tuple[Arr
 
 def _guess(machine: HermeticTables, shaft: Crankshaft) -> Array:
     """Journals a little out of the middle, at the synchronous speed."""
-    state = np.zeros(2 * shaft.freedoms + 1)
-    for at in shaft.bearing_freedoms:
-        state[at] = -START_ECCENTRICITY * machine.bearing.clearance_m
+    state = np.zeros(2 * shaft.dof_count + 1)
+    for dof in shaft.bearing_dofs:
+        state[dof] = -START_ECCENTRICITY * machine.bearing.clearance_m
     state[-1] = machine.motor.synchronous_speed_rad_per_s
     return state
 
@@ -150,7 +150,7 @@ def _size(machine: HermeticTables, shaft: Crankshaft) -> Array:
     """Magnitude of each state: the clearance, the clearance per radian, the speed."""
     speed, clearance = machine.motor.synchronous_speed_rad_per_s, machine.bearing.clearance_m
     tilt = clearance / machine.shaft.bearing_distance_m
-    displacement = np.resize([clearance, clearance, tilt, tilt], shaft.freedoms)
+    displacement = np.resize([clearance, clearance, tilt, tilt], shaft.dof_count)
     return np.concatenate((displacement, speed * displacement, [speed]))
 
 
@@ -159,16 +159,16 @@ def _clearance_kept(machine: HermeticTables, shaft: Crankshaft) -> Callable[[Arr
     clearance = machine.bearing.clearance_m
 
     def fraction(stages: Array, step: Array) -> float:
-        film, move = _films_and_moves(stages, step, shaft.bearing_freedoms, clearance)
+        film, move = _films_and_moves(stages, step, shaft.bearing_dofs, clearance)
         return float(min(1.0, 0.8 * np.min(film / np.maximum(move, 1e-300), initial=np.inf)))
 
     return fraction
 
 
 def _films_and_moves(
-    stages: Array, step: Array, freedoms: Sequence[int], clearance_m: float
+    stages: Array, step: Array, dofs: Sequence[int], clearance_m: float
 ) -> tuple[Array, Array]:
     """Thinnest film and length of the step of each journal at each point."""
-    journal_freedoms = np.array([(at, at + 1) for at in freedoms], dtype=int).reshape(-1, 2)
-    film = clearance_m - np.linalg.norm(stages[..., journal_freedoms], axis=-1)
-    return film, np.linalg.norm(step[..., journal_freedoms], axis=-1)
+    journal_dofs = np.array([(dof, dof + 1) for dof in dofs], dtype=int).reshape(-1, 2)
+    film = clearance_m - np.linalg.norm(stages[..., journal_dofs], axis=-1)
+    return film, np.linalg.norm(step[..., journal_dofs], axis=-1)

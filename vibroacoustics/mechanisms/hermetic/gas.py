@@ -25,7 +25,7 @@ def dead_centres(machine: HermeticTables) -> tuple[float, float]:
     return float(np.arcsin(offset / longest)), float(np.pi + np.arcsin(offset / shortest))
 
 
-def piston_place_m(machine: HermeticTables, crank_angle: Array) -> Array:
+def piston_position_m(machine: HermeticTables, crank_angle: Array) -> Array:
     """x_B of a crank that turns about a fixed axis."""
     radius, offset = machine.crank.radius_m, machine.piston.cylinder_offset_m
     across = radius * np.sin(crank_angle) - offset
@@ -34,8 +34,8 @@ def piston_place_m(machine: HermeticTables, crank_angle: Array) -> Array:
 
 def fill(machine: HermeticTables, crank_angle: Array) -> Array:
     """Cylinder volume over displaced volume."""
-    top, bottom = piston_place_m(machine, np.array(dead_centres(machine)))
-    lift = (top - piston_place_m(machine, crank_angle)) / (top - bottom)
+    top, bottom = piston_position_m(machine, np.array(dead_centres(machine)))
+    lift = (top - piston_position_m(machine, crank_angle)) / (top - bottom)
     return np.asarray(machine.gas.clearance_ratio + lift)
 
 
@@ -47,7 +47,7 @@ def gas_force_n(machine: HermeticTables, crank_angle: Array) -> Array:
     Parameters
     ----------
     machine : pressures in Pa, polytropic exponent
-    crank_angle : θ, rad
+    crank_angle : θ, shape (...), rad
     """
     pressure = machine.gas.valve_cycle.pressure_pa(
         fill(machine, crank_angle), _outwards(machine, crank_angle)
@@ -57,7 +57,7 @@ def gas_force_n(machine: HermeticTables, crank_angle: Array) -> Array:
 
 def valved_cylinder(machine: HermeticTables) -> ValvedCylinder:
     """The cylinder as sources of sound take it: the crank turns about a fixed axis."""
-    top, bottom = piston_place_m(machine, np.array(dead_centres(machine)))
+    top, bottom = piston_position_m(machine, np.array(dead_centres(machine)))
     displaced = piston_area_m2(machine) * float(top - bottom)
     return ValvedCylinder(displaced, machine.gas.valve_cycle, lambda angle: fill(machine, angle))
 
@@ -73,7 +73,7 @@ def valve_angles(machine: HermeticTables) -> tuple[float, float]:
 
 
 def _outwards(machine: HermeticTables, crank_angle: Array) -> NDArray[np.bool_]:
-    """Where the piston moves away from the head."""
+    """Samples at which the piston moves away from the head."""
     top, bottom = dead_centres(machine)
     since_top = np.mod(crank_angle - top, 2.0 * np.pi)
     return np.asarray((since_top > 0.0) & (since_top < bottom - top))

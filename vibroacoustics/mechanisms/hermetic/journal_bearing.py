@@ -34,9 +34,9 @@ def short_bearing_force(
     Parameters
     ----------
     bearing : radius, width and clearance in m, viscosity in Pa s
-    eccentricity : ε, over the clearance
-    rate : dε/dt, 1/s
-    slip : u = Ω - 2 dϕ/dt, rad/s
+    eccentricity : ε over the clearance, shape (...)
+    rate : dε/dt, shape (...), 1/s
+    slip : u = Ω - 2 dϕ/dt, shape (...), rad/s
 
     Returns
     -------
@@ -63,9 +63,9 @@ def short_bearing_pressure(
     ----------
     bearing : radius, width and clearance in m, viscosity in Pa s
     angle : φ, rad
-    eccentricity : ε, over the clearance
-    rate : dε/dt, 1/s
-    slip : u = Ω - 2 dϕ/dt, rad/s
+    eccentricity : ε over the clearance, shape (...)
+    rate : dε/dt, shape (...), 1/s
+    slip : u = Ω - 2 dϕ/dt, shape (...), rad/s
 
     Returns
     -------
@@ -147,7 +147,7 @@ def positive_film_force(
     ----------
     bearing : radius, width and clearance in m, viscosity in Pa s
     displacement_m : journal centre from the bearing's, shape (..., 2)
-    velocity : of the journal centre, m/s, shape (..., 2)
+    velocity : velocity of the journal centre, m/s, shape (..., 2)
     spin : Ω, rad/s
 
     Returns
@@ -216,12 +216,12 @@ def damped_modes(
     frequencies in Hz and damping ratios of the oscillating modes
     """
     damping, stiffness = spin_rad_per_s * rotor.gyroscopic, rotor.stiffness.copy()
-    for at, film in films.items():
-        stiffness[at : at + 2, at : at + 2] += film.stiffness
-        damping[at : at + 2, at : at + 2] += film.damping
-    zero, one = np.zeros_like(stiffness), np.eye(len(stiffness))
+    for dof, film in films.items():
+        stiffness[dof : dof + 2, dof : dof + 2] += film.stiffness
+        damping[dof : dof + 2, dof : dof + 2] += film.damping
+    zero, identity = np.zeros_like(stiffness), np.eye(len(stiffness))
     lower = -np.linalg.solve(rotor.mass, np.hstack((stiffness, damping)))
-    values = np.linalg.eigvals(np.vstack((np.hstack((zero, one)), lower)))
+    values = np.linalg.eigvals(np.vstack((np.hstack((zero, identity)), lower)))
     values = values[values.imag > 1.0]
     values = values[np.argsort(values.imag)]
     return values.imag / (2.0 * np.pi), -values.real / np.abs(values)

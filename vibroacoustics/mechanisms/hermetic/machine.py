@@ -51,7 +51,7 @@ class HermeticCompressor(HermeticTables):
         return hermetic_curves(self, speed_rpm)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What the model leaves out."""
+        """Effects that the model neglects."""
         return *_LEAVES_OUT, GAS_PATH_PARTLY if inner_sources else _GAS_PATH
 
 
@@ -59,7 +59,7 @@ _GAS_PATH: Final = (
     "The gas in the shell, which carries sound from the block to the shell, is not modelled."
 )
 _LEAVES_OUT: Final = (
-    "Friction of the piston and drag of the oil films are left out, as in the paper: the shaft "
+    "Friction of the piston and drag of the oil films are neglected, as in the paper: the shaft "
     "power is that of the gas and of the films that are squeezed.",
     "The springs of the block are linear and meet no stops; the weight of the block, start and "
     "stop are not modelled. The tube has no mass, hence no resonance of its own.",

@@ -29,7 +29,7 @@ class Piston(Parameters):
     diameter_m: float = LENGTH
     mass_kg: float = MASS
     cylinder_offset_m: float = Field(ge=-0.1, le=0.1)
-    """Of the cylinder's axis from the shaft's, towards the crank pin at a quarter turn."""
+    """Offset of the cylinder's axis from the shaft's, towards the crank pin at a quarter turn."""
 
 
 class Rod(Parameters):
@@ -38,9 +38,9 @@ class Rod(Parameters):
     length_m: float = LENGTH
     mass_kg: float = MASS
     centre_of_mass_m: float = Field(ge=0.0, le=2.0)
-    """From the piston pin."""
+    """Position of the centre of mass from the piston pin."""
     inertia_kg_m2: float = INERTIA
-    """About the axis of the crankshaft's direction through the centre of mass."""
+    """Inertia about the axis of the crankshaft's direction through the centre of mass."""
 
     @property
     def piston_pin_inertia_kg_m2(self) -> float:
@@ -83,7 +83,7 @@ class Rotor(Parameters):
 
 class Shaft(Parameters):
     """Uniform shaft from the crank's centre, where the upper bearing is, past the lower bearing
-    to the middle of the motor rotor."""
+    to the centre of the motor rotor."""
 
     diameter_m: float = LENGTH
     bearing_distance_m: float = LENGTH
@@ -98,9 +98,9 @@ class HermeticTables(Machine):
 
     case: Case
     crank_height_m: float = HEIGHT
-    """Of the crank's centre, where the upper bearing is, from the centre of mass at rest."""
+    """Height of the crank's centre, where the upper bearing is, from the centre of mass at rest."""
     counterweights: BalancePlanes
-    """Where weights can sit on the shaft; heights from the crank's centre."""
+    """Planes for weights on the shaft; heights from the crank's centre."""
     piston: Piston
     rod: Rod
     crank: Crank

@@ -30,7 +30,7 @@ NEWTON_STEPS: Final = 80
 STEP_TOLERANCE: Final = 1e-10
 """Last Newton step over the size of each state; the convergence is quadratic before it."""
 ROUNDING: Final = 1e-8
-"""Below this a step that is no longer a tenth of the one before is made of rounding errors: stiff
+"""Size below which a step that is no longer a tenth of the one before is rounding error: stiff
 shafts in thin films have a floor of a few 1e-10."""
 
 
@@ -78,7 +78,7 @@ def periodic_solution(
     Parameters
     ----------
     slope : f and its tangent
-    mesh : ascending angles of one period; kinks of f must be mesh points
+    mesh : ascending angles of one period, shape (steps + 1,); kinks of f must be mesh points
     guess : states at the collocation points, shape (steps, 3, states)
     size : typical magnitude of each state, for the test of convergence, shape (states,)
     allowed : largest fraction of a step that keeps the states where f is defined
@@ -139,7 +139,7 @@ def _compose(particular: Array, transfer: Array) -> tuple[Array, Array]:
 def _propagated(particular: Array, transfer: Array, first: Array) -> Array:
     """Newton steps of all stages from that of the first state."""
     step = np.empty_like(particular)
-    for at, (change, matrix) in enumerate(zip(particular, transfer, strict=True)):
-        step[at] = change + matrix @ first
-        first = step[at, -1]
+    for step_number, (change, matrix) in enumerate(zip(particular, transfer, strict=True)):
+        step[step_number] = change + matrix @ first
+        first = step[step_number, -1]
     return step

@@ -62,10 +62,10 @@ def crank_point(
     p, q = radius_m * np.cos(theta), radius_m * np.sin(theta)
     across, w = cg * p - sg * offset_m, sg * p + cg * offset_m
     up, along = cb * q + sb * w, sb * q - cb * w
-    zero, one = np.zeros_like(p), np.ones_like(p)
+    zero, ones = np.zeros_like(p), np.ones_like(p)
     jacobian = [
-        [one, zero, zero, -w, -cg * q],
-        [zero, one, -along, sb * across, cb * p - sb * sg * q],
+        [ones, zero, zero, -w, -cg * q],
+        [zero, ones, -along, sb * across, cb * p - sb * sg * q],
         [zero, zero, up, -cb * across, sb * p + cb * sg * q],
     ]
     squares = rate_beta**2, rate_gamma**2, rate_theta**2
@@ -96,7 +96,7 @@ class RodMotion:
 
     Attributes
     ----------
-    sine, cosine : of the rod's angle α to the cylinder axis
+    sine, cosine : sine and cosine of the rod's angle α to the cylinder axis
     piston_position_m : x_B
     piston_velocity : ẋ_B, m/s
     angular_velocity : α̇, rad/s
@@ -196,7 +196,7 @@ def joint_forces(machine: HermeticTables, motion: RodMotion, gas_force_n: Values
     Parameters
     ----------
     machine : masses in kg, lengths in m
-    motion : of rod and piston
+    motion : motion of rod and piston
     gas_force_n : towards the crankshaft, N
     """
     rod, piston = machine.rod, machine.piston
@@ -212,11 +212,11 @@ def joint_forces(machine: HermeticTables, motion: RodMotion, gas_force_n: Values
     piston_y = pin_y + rod.mass_kg * across
     crank_share = rod.centre_of_mass_m / rod.length_m * rod.mass_kg * GRAVITY
     piston_share = rod.mass_kg * GRAVITY - crank_share
-    one = np.ones_like(pin_x)
+    ones = np.ones_like(pin_x)
     return JointForces(
-        np.stack((piston_x, piston_y, piston_share * one), axis=-1),
-        np.stack((pin_x, pin_y, -crank_share * one), axis=-1),
-        np.stack((0.0 * one, piston_y, (piston_share + piston.mass_kg * GRAVITY) * one), axis=-1),
+        np.stack((piston_x, piston_y, piston_share * ones), axis=-1),
+        np.stack((pin_x, pin_y, -crank_share * ones), axis=-1),
+        np.stack((0.0 * ones, piston_y, (piston_share + piston.mass_kg * GRAVITY) * ones), axis=-1),
     )
 
 
@@ -227,7 +227,7 @@ def mechanism_motion(
     second_rates: Values,
     gas_force_n: Values,
 ) -> MechanismMotion:
-    """What rod and piston, the crank's eccentric mass and its weight do to the crank.
+    """Return the effects of rod and piston, the crank's eccentric mass and its weight on the crank.
 
     Eq. 16 of the paper gives the crank's mass the acceleration of its centre and so leaves the
     unbalance out; here it has that of its centre of mass.

@@ -1,4 +1,4 @@
-"""What a steady cycle of the hermetic compressor is made of: motion, joint forces, energy."""
+"""Results of a steady cycle of the hermetic compressor: motion, joint forces, energy."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -21,9 +21,9 @@ class BearingCycle:
     Attributes
     ----------
     orbit_m : journal centre from the bearing's, shape (angles, 2)
-    force_n : of the film on the journal, shape (angles, 2)
+    force_n : force of the film on the journal, shape (angles, 2)
     thinnest_film_m : shape (angles,)
-    highest_pressure_pa : of the short film, shape (angles,)
+    highest_pressure_pa : highest pressure of the short film, shape (angles,)
     """
 
     orbit_m: Array
@@ -37,8 +37,8 @@ def bearing_cycles(equations: ShaftEquations, states: Array) -> tuple[BearingCyc
     displacement, velocity, speed = equations.split(states)
     bearing, forces = equations.machine.bearing, equations.film_forces(states)
     cycles = []
-    for at, force in zip(equations.shaft.bearing_freedoms, np.moveaxis(forces, -2, 0), strict=True):
-        orbit, moving = displacement[..., at : at + 2], velocity[..., at : at + 2]
+    for dof, force in zip(equations.shaft.bearing_dofs, np.moveaxis(forces, -2, 0), strict=True):
+        orbit, moving = displacement[..., dof : dof + 2], velocity[..., dof : dof + 2]
         eccentricity, _, _ = film_coordinates(bearing, orbit, moving, speed)
         cycles.append(
             BearingCycle(
@@ -56,13 +56,13 @@ def motion_of(equations: ShaftEquations, angle: Array, states: Array) -> Mechani
     coordinates, rates = equations.crank_coordinates(angle, states)
     second = np.zeros_like(coordinates)
     accelerations = equations.accelerations(angle, states)
-    second[..., list(equations.shaft.free)] = accelerations[..., equations.shaft.crank_places]
+    second[..., list(equations.shaft.free)] = accelerations[..., equations.shaft.crank_indices]
     gas = gas_force_n(equations.machine, angle)
     return mechanism_motion(equations.machine, coordinates, rates, second, gas)
 
 
 def support_reaction(equations: ShaftEquations, angle: Array, states: Array) -> Array:
-    """What holds x, y, β and Γ of the crank where the case holds them (Estupiñan fig. 7).
+    """Return the reaction that holds x, y, β and Γ of the crank where fixed (Estupiñan fig. 7).
 
     Returns
     -------
@@ -84,8 +84,8 @@ def works_per_cycle_j(equations: ShaftEquations, solution: PeriodicSolution) -> 
     _, rates = equations.crank_coordinates(angle, states)
     films = np.moveaxis(equations.film_forces(states), -2, 0)
     film_power = np.zeros_like(speed)
-    for at, force in zip(equations.shaft.bearing_freedoms, films, strict=True):
-        film_power += np.sum(force * velocity[..., at : at + 2], axis=-1)
+    for dof, force in zip(equations.shaft.bearing_dofs, films, strict=True):
+        film_power += np.sum(force * velocity[..., dof : dof + 2], axis=-1)
     weight = -machine.crank.mass_kg * STANDARD_GRAVITY_M_PER_S2
     powers = {
         "gas": -gas_force_n(machine, angle) * motion.rod.piston_velocity,

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...base.arrays import Array
-from ...mechanics.beam_rotor import NODE_FREEDOMS
+from ...mechanics.beam_rotor import NODE_DOFS
 from ...mechanics.crankshaft import every
 from ...mechanics.moving_parts import Revolution, Wrench, path
 from ...mechanics.rotation import Rotation
@@ -88,9 +88,9 @@ def housing_wrenches(equations: ShaftEquations, angle: Array, states: Array) -> 
 
     Parameters
     ----------
-    equations : of the case
+    equations : equations of the case
     angle : crank angle, rad, shape (angles,)
-    states : of the periodic solution there, shape (angles, 2n + 1)
+    states : states of the periodic solution there, shape (angles, 2n + 1)
 
     Returns
     -------
@@ -133,7 +133,7 @@ def _rotor_wrench(equations: ShaftEquations, states: Array, accelerations: Array
     """
     matrices, (_, velocity, speed) = equations.shaft.matrices, equations.split(states)
     spin_moment = _axial(-equations.machine.rotor.axial_inertia_kg_m2 * accelerations[..., -1])
-    if equations.shaft.freedoms < NODE_FREEDOMS:  # no rotor in the lateral equations
+    if equations.shaft.dof_count < NODE_DOFS:  # no rotor in the lateral equations
         return Wrench(np.zeros_like(spin_moment), spin_moment)
     change = accelerations[..., :-1] @ matrices.mass
     change += speed[..., np.newaxis] * (velocity @ matrices.gyroscopic.T)
@@ -143,7 +143,7 @@ def _rotor_wrench(equations: ShaftEquations, states: Array, accelerations: Array
 
 def _rigid_motions(equations: ShaftEquations) -> Array:
     """Displacements of all nodes for unit x, y, θx, θy about the crank's centre."""
-    motions = [np.eye(NODE_FREEDOMS) for _ in node_positions_m(equations.machine)]
+    motions = [np.eye(NODE_DOFS) for _ in node_positions_m(equations.machine)]
     for motion, height in zip(motions, node_positions_m(equations.machine), strict=True):
         motion[0, 3], motion[1, 2] = height, -height
     return np.concatenate(motions)

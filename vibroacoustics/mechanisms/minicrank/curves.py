@@ -25,7 +25,7 @@ SOURCE: Final = "Zhao et al. 2013, "
 CRANK_ANGLES: Final = 3600
 """Samples: errors of 10 µm make a peak some 1° wide."""
 ERRORS_M: Final = (0.0, -10e-6, -50e-6, -100e-6)
-"""Of the crank, beside which figure 8 shows no numbers."""
+"""Errors of the crank, beside which figure 8 shows no numbers."""
 TORQUES: Final = {
     "load": "gas and friction",
     "scroll_inertia": "inertia of the scroll",
@@ -43,7 +43,7 @@ def minicrank_curves(machine: MiniCrankTables, speed_rpm: float) -> Iterator[Cur
     speed_rpm : mean over time
     """
     cycle = steady_minicrank_cycle(machine, speed_rpm, CRANK_ANGLES)
-    angle = angle_axis(cycle.moved.crank_angle)
+    angle = angle_axis(cycle.motion.crank_angle)
     speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
     yield from _loads(machine, cycle, speed, angle)
     ideal = _torque_n_m(machine, _ideal(machine), speed)
@@ -122,9 +122,9 @@ def _torque_n_m(
 ) -> Mapping[str, Array]:
     """Input torque of the machine's masses and load on rigid links with one mini-crank."""
     crank_angle = uniform_crank_angle(CRANK_ANGLES)
-    moved = four_bar_motion(links, crank_angle, machine.four_bar.branch)
+    motion = four_bar_motion(links, crank_angle, machine.four_bar.branch)
     load = scroll_load(machine.loads, links, crank_angle)
-    return input_torque(links, moved, machine.masses.of_all(1), load, speed_rad_per_s)
+    return input_torque(links, motion, machine.masses.of_all(1), load, speed_rad_per_s)
 
 
 def _sum(torques: Mapping[str, Array]) -> Array:
@@ -133,8 +133,8 @@ def _sum(torques: Mapping[str, Array]) -> Array:
 
 def _pins(cycle: MiniCrankCycle, angle: CurveAxis) -> Curve:
     """Figure 3: forces that rigid pins take."""
-    given = (cycle.links, cycle.moved, cycle.masses, cycle.load, cycle.rotation)
-    forces = [np.hypot(*crank_pin_force(*given)), np.hypot(*minicrank_pin_force(*given))]
+    arguments = (cycle.links, cycle.motion, cycle.masses, cycle.load, cycle.rotation)
+    forces = [np.hypot(*crank_pin_force(*arguments)), np.hypot(*minicrank_pin_force(*arguments))]
     return Curve(
         "pin_force", "Forces at rigid pins", np.array(forces),
         (CurveAxis("pin", ["crank pin", "mini-crank pin"]), angle), "n",

@@ -79,7 +79,7 @@ def scroll_load(loads: ScrollLoads, links: Links, crank_angle: Array) -> ScrollL
 
 
 def input_torque(
-    links: Links, moved: FourBarMotion, masses: Masses, load: ScrollLoad, speed_rad_per_s: float
+    links: Links, motion: FourBarMotion, masses: Masses, load: ScrollLoad, speed_rad_per_s: float
 ) -> dict[str, Array]:
     """Torque that keeps the crankshaft at constant speed, by source, N m.
 
@@ -91,19 +91,19 @@ def input_torque(
     T_d of scroll and mini-crank, T_w of the mini-crank's weight, T_F of the load, each of shape
     (samples,)
     """
-    scroll, minicrank = moved.scroll_angle, moved.minicrank_angle
+    scroll, minicrank = motion.scroll_angle, motion.minicrank_angle
     square = speed_rad_per_s**2
     return {
         "scroll_inertia": masses.scroll_inertia_kg_m2 * square * scroll[2] * scroll[1],
         "minicrank_inertia": masses.minicrank_inertia_kg_m2 * square * minicrank[2] * minicrank[1],
-        "weight": weight_moment(links, moved, masses) * minicrank[1],
+        "weight": weight_moment(links, motion, masses) * minicrank[1],
         "load": load.tangential_force_n * links.crank_m - load.moment_n_m * scroll[1],
     }
 
 
-def weight_moment(links: Links, moved: FourBarMotion, masses: Masses) -> Array:
+def weight_moment(links: Links, motion: FourBarMotion, masses: Masses) -> Array:
     """Moment about the mini-crank's axis that holds its weight, y upwards, N m."""
-    lever = links.minicrank_m * np.cos(moved.minicrank_angle[0])
+    lever = links.minicrank_m * np.cos(motion.minicrank_angle[0])
     return np.asarray(masses.minicrank_mass_kg * STANDARD_GRAVITY_M_PER_S2 * lever)
 
 
@@ -114,15 +114,15 @@ class MiniCrankCycle:
     Attributes
     ----------
     links : lengths with their errors
-    moved : motion of scroll and mini-crank
+    motion : motion of scroll and mini-crank
     masses : with all mini-cranks as one
     load : on the scroll
     input_torque_n_m : at constant speed by source, equation (17)
-    rotation : of the crankshaft with its own inertia and motor
+    rotation : rotation of the crankshaft with its own inertia and motor
     """
 
     links: Links
-    moved: FourBarMotion
+    motion: FourBarMotion
     masses: Masses
     load: ScrollLoad
     input_torque_n_m: Mapping[str, Array]
@@ -143,13 +143,13 @@ def steady_minicrank_cycle(
         raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be positive and finite")
     links = machine.four_bar.links
     masses = machine.masses.of_all(machine.four_bar.minicranks)
-    moved = _motion(machine.four_bar, uniform_crank_angle(samples))
-    load = scroll_load(machine.loads, links, moved.crank_angle)
+    motion = _motion(machine.four_bar, uniform_crank_angle(samples))
+    load = scroll_load(machine.loads, links, motion.crank_angle)
     mean_speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
-    torque = input_torque(links, moved, masses, load, mean_speed)
+    torque = input_torque(links, motion, masses, load, mean_speed)
     turning = (
-        (masses.scroll_inertia_kg_m2, moved.scroll_angle),
-        (masses.minicrank_inertia_kg_m2, moved.minicrank_angle),
+        (masses.scroll_inertia_kg_m2, motion.scroll_angle),
+        (masses.minicrank_inertia_kg_m2, motion.minicrank_angle),
     )
     rotation = steady_rotation(
         *reduced_inertia(masses.rotor_inertia_kg_m2, turning),
@@ -157,7 +157,7 @@ def steady_minicrank_cycle(
         mean_speed,
         masses.motor_slope_ratio,
     )
-    return MiniCrankCycle(links, moved, masses, load, torque, rotation)
+    return MiniCrankCycle(links, motion, masses, load, torque, rotation)
 
 
 def _motion(four_bar: FourBar, crank_angle: Array) -> FourBarMotion:
@@ -167,7 +167,7 @@ def _motion(four_bar: FourBar, crank_angle: Array) -> FourBarMotion:
 
 
 def minicrank_pin_force(
-    links: Links, moved: FourBarMotion, masses: Masses, load: ScrollLoad, rotation: Rotation
+    links: Links, motion: FourBarMotion, masses: Masses, load: ScrollLoad, rotation: Rotation
 ) -> Array:
     """Force of the scroll on the mini-crank, x and y, shape (2, samples), N.
 
@@ -184,11 +184,11 @@ def minicrank_pin_force(
             "crank_error_um, scroll_error_um, minicrank_error_um, bracket_error_um = 0 µm: a "
             "parallelogram with one mini-crank takes no moment where its links are in line"
         )
-    second, third = moved.scroll_angle, moved.minicrank_angle
+    second, third = motion.scroll_angle, motion.minicrank_angle
     scroll_turn, minicrank_turn = (acceleration_of(angle, rotation) for angle in (second, third))
     on_scroll = load.moment_n_m - masses.scroll_inertia_kg_m2 * scroll_turn
     on_minicrank = masses.minicrank_inertia_kg_m2 * minicrank_turn
-    on_minicrank = on_minicrank + weight_moment(links, moved, masses)
+    on_minicrank = on_minicrank + weight_moment(links, motion, masses)
     along_third = on_scroll / links.scroll_m
     along_second = -on_minicrank / links.minicrank_m
     sine = np.sin(third[0] - second[0])
@@ -198,7 +198,7 @@ def minicrank_pin_force(
 
 
 def crank_pin_force(
-    links: Links, moved: FourBarMotion, masses: Masses, load: ScrollLoad, rotation: Rotation
+    links: Links, motion: FourBarMotion, masses: Masses, load: ScrollLoad, rotation: Rotation
 ) -> Array:
     """Force of the scroll on the crank pin, x and y, shape (2, samples), N.
 
@@ -208,13 +208,13 @@ def crank_pin_force(
     Raises
     ------
     ParameterError
-        As `minicrank_pin_force`.
+        See `minicrank_pin_force`.
     """
-    outward, forward = direction(moved.crank_angle), direction(moved.crank_angle + 0.5 * np.pi)
+    outward, forward = direction(motion.crank_angle), direction(motion.crank_angle + 0.5 * np.pi)
     gas = -load.tangential_force_n * forward - load.radial_force_n * outward
     weight = np.array([[0.0], [-masses.scroll_mass_kg * STANDARD_GRAVITY_M_PER_S2]])
-    inertia = turning_force(masses.scroll_mass_kg * links.crank_m, moved.crank_angle, rotation)
-    taken = minicrank_pin_force(links, moved, masses, load, rotation)
+    inertia = turning_force(masses.scroll_mass_kg * links.crank_m, motion.crank_angle, rotation)
+    taken = minicrank_pin_force(links, motion, masses, load, rotation)
     return np.asarray(gas + weight + inertia - taken)
 
 

@@ -13,10 +13,10 @@ LINK = Field(gt=0.0, le=10.0)
 ERROR = Field(default=0.0, ge=-1e-3, le=1e-3)
 
 SMALLEST_MARGIN_M: Final = 1e-9
-"""Below it a four-bar that is no parallelogram is at a change point to rounding: angular
+"""Margin below which a four-bar that is no parallelogram is at a change point to rounding: angular
 accelerations grow without bound and so do their rounding errors."""
 LARGEST_MISFIT: Final = 0.1
-"""Over the crank: three mini-cranks are taken to first order in the errors."""
+"""Misfit over the crank: three mini-cranks are taken to first order in the errors."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Links:
 
 
 def closing_margins(links: Links) -> tuple[float, float]:
-    """What the links have to spare in the two collinear positions of crank and bracket, m.
+    """Return the margins of the links in the two collinear positions of crank and bracket, m.
 
     Both must hold for the crank to turn: l1 + l2 ≤ l3 + l4 and l1 + l4 ≤ l3 + l2 (Zhao et al.
     2013, eq. 19 and 20; the paper's "or" is an error). A negative margin is the clearance that
@@ -69,7 +69,7 @@ def closing_margins(links: Links) -> tuple[float, float]:
 
 
 def why_open(links: Links) -> str | None:
-    """Why rigid links with one mini-crank let the crankshaft not turn; None where they do."""
+    """Say why rigid links with one mini-crank stop the crankshaft; None where they do not."""
     margin = min(*closing_margins(links), links.slack_m)
     if links.is_parallelogram or margin >= SMALLEST_MARGIN_M:
         return None
@@ -79,7 +79,7 @@ def why_open(links: Links) -> str | None:
 
 
 def why_misfit(links: Links) -> str | None:
-    """Why three mini-cranks cannot hold the scroll by small strains; None where they can."""
+    """Say why three mini-cranks cannot hold the scroll by small strains; None where they can."""
     misfit = abs(links.minicrank_m - links.crank_m) + abs(links.bracket_m - links.scroll_m)
     if misfit <= LARGEST_MISFIT * links.crank_m:
         return None
@@ -101,7 +101,7 @@ class FourBar(Parameters):
     minicrank_error_m: float = ERROR
     bracket_error_m: float = ERROR
     branch: Literal[1, -1]
-    """M of equation (5): which way the mechanism is assembled."""
+    """M of equation (5): branch in which the mechanism is assembled."""
     minicranks: Literal[1, 3]
     """1 is the paper's rigid four-bar; of 3, at 120° to each other and on elastic pins, the first
     has the errors."""
@@ -125,7 +125,7 @@ class FourBar(Parameters):
 
 
 def _spare_m(machine: Any) -> float:
-    """What the mini-crank is longer than the crank, less what closing needs; rigid links only."""
+    """Length of the mini-crank beyond the crank, less what closing needs; rigid links only."""
     bar: FourBar = machine.four_bar
     if bar.minicranks != 1:
         return inf

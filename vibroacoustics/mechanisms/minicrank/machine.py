@@ -40,7 +40,7 @@ class MiniCrankMachine(MiniCrankTables):
         return minicrank_curves(self, speed_rpm)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What the model leaves out."""
+        """Effects that the model neglects."""
         return _LEAVES_OUT
 
 
@@ -51,5 +51,5 @@ _LEAVES_OUT: Final = (
     "Three mini-cranks hold the scroll on equal elastic pins, quasi-statically and to first "
     "order in the errors; the first has the errors, the others fit the crank.",
     "The gas load has one harmonic; twice-line torque of the motor is not modelled. The weight "
-    "of what link errors leave unbalanced on the shaft is left out of its torque: some mN m.",
+    "of what link errors leave unbalanced on the shaft is neglected in its torque: some mN m.",
 )

@@ -24,17 +24,19 @@ class Masses(Parameters):
     minicrank_balance_ratio: float = Field(ge=0.0, le=2.0)
     """Share of m3 l3 that a counterweight on the mini-crank itself takes."""
     rotor_inertia_kg_m2: float = Field(gt=0.0, le=1e6)
-    """Of all that turns with the crankshaft, the scroll's mass at the crank pin included."""
+    """Inertia of all that turns with the crankshaft, the scroll's mass at the crank pin
+    included."""
     motor_slope_ratio: float = Field(ge=-3.0, le=1.0)
     """Relative change of the motor's torque per relative change of speed."""
 
     def of_all(self, minicranks: int) -> "Masses":
-        """With all mini-cranks as one, less what their own counterweights balance."""
-        left = 1.0 - self.minicrank_balance_ratio
+        """Return the masses of all mini-cranks as one, less what their own counterweights
+        balance."""
+        unbalanced_share = 1.0 - self.minicrank_balance_ratio
         return self.model_copy(
             update={
                 "minicrank_inertia_kg_m2": minicranks * self.minicrank_inertia_kg_m2,
-                "minicrank_mass_kg": minicranks * left * self.minicrank_mass_kg,
+                "minicrank_mass_kg": minicranks * unbalanced_share * self.minicrank_mass_kg,
                 "minicrank_balance_ratio": 0.0,
             }
         )
@@ -62,12 +64,12 @@ class MiniCrankTables(Machine):
     masses: Masses
     loads: ScrollLoads
     crankshaft_height_m: float = HEIGHT
-    """Of the shaft's axis from the centre of mass at rest."""
+    """Height of the shaft's axis from the centre of mass at rest."""
     links_offset_m: float = HEIGHT
-    """Of the links' plane along the shaft from the centre of mass at rest."""
+    """Offset of the links' plane along the shaft from the centre of mass at rest."""
     counterweights: BalancePlanes
-    """Of the crankshaft; heights along the shaft from the links' plane. Their mass moments follow
-    from (10)."""
+    """Counterweights of the crankshaft; heights along the shaft from the links' plane. Their mass
+    moments follow from (10)."""
 
     @property
     def crank_frame(self) -> CrankFrame:

@@ -42,19 +42,19 @@ def _facts(cycle: MiniCrankCycle) -> dict[str, float]:
         "speed_fluctuation_percent": 100.0 * rotation.fluctuation_ratio,
         "shaft_power_w": work / rotation.duration_s,
         "largest_input_torque_nm": float(np.max(np.abs(torque))),
-        "scroll_swing_deg": float(np.rad2deg(np.ptp(cycle.moved.scroll_angle[0]))),
+        "scroll_swing_deg": float(np.rad2deg(np.ptp(cycle.motion.scroll_angle[0]))),
     }
 
 
 def _facts_of_rocking(cycle: MiniCrankCycle) -> dict[str, float]:
     """Swing of a mini-crank that does not turn, and the forces that rigid pins would take."""
-    given = (cycle.links, cycle.moved, cycle.masses, cycle.load, cycle.rotation)
+    arguments = (cycle.links, cycle.motion, cycle.masses, cycle.load, cycle.rotation)
     forces = {
-        "minicrank_pin_force_n": minicrank_pin_force(*given),
-        "crank_pin_force_n": crank_pin_force(*given),
+        "minicrank_pin_force_n": minicrank_pin_force(*arguments),
+        "crank_pin_force_n": crank_pin_force(*arguments),
     }
     return {
-        "minicrank_swing_deg": float(np.rad2deg(np.ptp(cycle.moved.minicrank_angle[0]))),
+        "minicrank_swing_deg": float(np.rad2deg(np.ptp(cycle.motion.minicrank_angle[0]))),
         **{name: float(np.max(np.hypot(*force))) for name, force in forces.items()},
     }
 
@@ -86,7 +86,7 @@ def _crankshaft(machine: MiniCrankTables, cycle: MiniCrankCycle) -> dict[str, tu
     masses, planes, rotation = cycle.masses, machine.counterweights, cycle.rotation
     radius, still = cycle.links.crank_m, np.zeros_like(rotation.speed_rad_per_s)
     rotor = -masses.rotor_inertia_kg_m2 * rotation.acceleration_rad_per_s2
-    scroll = -masses.scroll_inertia_kg_m2 * acceleration_of(cycle.moved.scroll_angle, rotation)
+    scroll = -masses.scroll_inertia_kg_m2 * acceleration_of(cycle.motion.scroll_angle, rotation)
     upper, lower = counterweight_moments(machine)
     turning = {
         "orbiting_scroll": (0.0, masses.scroll_mass_kg * radius, scroll),
@@ -96,14 +96,14 @@ def _crankshaft(machine: MiniCrankTables, cycle: MiniCrankCycle) -> dict[str, tu
         "rotor": (0.0, 0.0, rotor),
     }
     return {
-        name: (height, planar(turning_force(moment, cycle.moved.crank_angle, rotation), roll))
+        name: (height, planar(turning_force(moment, cycle.motion.crank_angle, rotation), roll))
         for name, (height, moment, roll) in turning.items()
     }
 
 
 def _minicranks(machine: MiniCrankTables, cycle: MiniCrankCycle) -> Wrench:
     """All mini-cranks; the forces of three add up about the axis of the crankshaft."""
-    third, masses = cycle.moved.minicrank_angle, cycle.masses
+    third, masses = cycle.motion.minicrank_angle, cycle.masses
     turn = acceleration_of(third, cycle.rotation)
     inward, across = -direction(third[0]), direction(third[0] + 0.5 * np.pi)
     rate = third[1] * cycle.rotation.speed_rad_per_s

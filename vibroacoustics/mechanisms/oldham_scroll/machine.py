@@ -25,7 +25,7 @@ class OldhamScroll(OldhamScrollTables):
     axes: ClassVar[str] = "the Oldham stroke (x), across (y) and along the shaft (z)"
     orders: ClassVar[str] = (
         "The stroke of the ring is a pure cosine of the crank angle, so order 2 of the ring "
-        "alone is zero; higher orders come from what an option adds."
+        "alone is zero. Higher orders come from options."
     )
     derived: ClassVar[tuple[Derived, ...]] = (
         *ROUND_INERTIAS,
@@ -73,7 +73,7 @@ class OldhamScroll(OldhamScrollTables):
         return oldham_scroll_curves(self, speed_rpm)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What the model leaves out, without and with gas, keys and motor."""
+        """Effects that the model neglects, without and with gas, keys and motor."""
         return (*_LEAVES_OUT, *(_WITH_SOURCES if inner_sources else _WITHOUT_SOURCES))
 
 
@@ -88,6 +88,6 @@ _WITHOUT_SOURCES: Final = (
 )
 _WITH_SOURCES: Final = (
     "Forces of the moving parts and keys are those at constant speed; torque ripple and the "
-    "motor's torque act on stator and machine only. The ring's keys strike along a clearance and "
-    "its bodies are rigid; all four have the same clearance, friction and stiffness.",
+    "motor's torque act on stator and machine only. The ring's keys have impacts along a clearance "
+    "and its bodies are rigid; all four have the same clearance, friction and stiffness.",
 )

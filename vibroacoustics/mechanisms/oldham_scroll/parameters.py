@@ -26,7 +26,7 @@ from ...sources.scroll_gas.parameters import (
 from ...sources.synchronous_motor.parameters import SynchronousMotor
 
 MOST_INNER_SHARE: Final = 0.95
-"""Of the mass; wall, feet and oil are the rest."""
+"""Largest share of the mass that internal parts have; wall, feet and oil are the rest."""
 STROKES: Final = Held("may be printed or derived: two studies, no range")
 
 
@@ -63,22 +63,22 @@ class OldhamScrollTables(Machine):
     wraps: ScrollWraps | None = None
     gas: ScrollGas | None = None
     opening: ScrollOpening | None = None
-    """Where a pocket opens with inertia."""
+    """Opening of a pocket with inertia."""
     leakage: ScrollLeakage | None = None
-    """Between the pockets then; none where they are tight."""
+    """Leakage between the pockets then; none where they are tight."""
     suction_pockets: SuctionPockets | None = None
     """Whose pressure then acts on the scrolls; none where it is that of the suction."""
     keys: OldhamKeys | None = None
     motor: CapacitorMotor | None = None
-    """At its own line frequency; a study names those of its speeds."""
+    """Motor at its own line frequency; a study names those of its speeds."""
     synchronous_motor: SynchronousMotor | None = None
-    """In the other motor's place, on an inverter; a study names one of them."""
+    """Motor in the other motor's place, on an inverter; a study names one of them."""
     air_gap: AirGap | None = None
-    """Of either motor."""
+    """Air gap of either motor."""
     stator_yoke: StatorYoke | None = None
     rotor: TurningRotor | None = None
     structure: ShellStructure | None = None
-    """Of the shell, where it may bend."""
+    """Structure of the shell, where it may bend."""
     variation: ShellVariation | None = None
     stopping: Stopping | None = None
     discharge_dome: DischargeDome | None = None
@@ -86,9 +86,9 @@ class OldhamScrollTables(Machine):
     suction_annulus: SuctionAnnulus | None = None
     """Gas around the parts, out of which the pockets fill; none where it is silent."""
     discharge_muffler: DischargeMuffler | None = None
-    """In the discharge tube; its curves alone need it."""
+    """Muffler in the discharge tube; its curves alone need it."""
     turning_back: TurningBack | None = None
-    """After a stop, where a study asks for it."""
+    """Turning back after a stop, where a study asks for it."""
     check_valve: CheckValve | None = None
     shaft: ScrollShaft | None = None
     frame: Frame | None = None
@@ -98,7 +98,7 @@ class OldhamScrollTables(Machine):
         if self.frame is not None:
             yield from self._of_frame(self.frame)
         if self.turning_back is not None and self.brake is None:
-            yield "turning_back: needs the table brake; leave out both or none"
+            yield "turning_back: needs the table brake; give both or none"
         for name, table in (
             ("discharge_dome", self.discharge_dome),
             ("suction_annulus", self.suction_annulus),

@@ -16,7 +16,7 @@ from .slider_crank import design_at_bore, rates_of_momentum
 BORE_RATIOS: Final = np.arange(10.0, 18.5) / 13.0
 """Bores over the machine's: 100 to 180 mm of 130 mm, as in the paper."""
 LINES: Final = (0, 3, 6, 8)
-"""Of these bores those whose curves over the crank angle are shown, the machine's among them."""
+"""Numbers of the bores whose curves over the crank angle are shown, the machine's among them."""
 SPEED_RATIOS: Final = np.array([0.8, 1.0, 1.2])
 """Speeds over the one asked for: 800, 1000 and 1200 rpm in the paper."""
 PAIRS: Final = {
@@ -81,10 +81,14 @@ def _over_crank_angle(cycles: list[Cycle], designs: CurveAxis) -> Iterator[Curve
 
 def _inertia_torques_n_m(cycle: Cycle) -> tuple[Array, Array]:
     """Torque at the crankshaft that piston and connecting rod take up."""
-    moved = cycle.moved
-    piston, rod_x, rod_y, turn = rates_of_momentum(cycle.crank, moved, cycle.rotation)
-    rod = rod_x * moved.rod_x_m[1] + rod_y * moved.rod_y_m[1] + turn * moved.rod_angle[1]
-    return piston * moved.piston_m[1], rod
+    kinematics = cycle.kinematics
+    piston, rod_x, rod_y, turn = rates_of_momentum(cycle.crank, kinematics, cycle.rotation)
+    rod = (
+        rod_x * kinematics.rod_x_m[1]
+        + rod_y * kinematics.rod_y_m[1]
+        + turn * kinematics.rod_angle[1]
+    )
+    return piston * kinematics.piston_m[1], rod
 
 
 def _friction(cycles: list[Cycle], designs: CurveAxis) -> Iterator[Curve]:

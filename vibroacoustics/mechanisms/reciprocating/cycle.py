@@ -46,13 +46,13 @@ class Charge:
     Attributes
     ----------
     cylinder : where it stands
-    moved : its motion, from its own top dead centre
+    kinematics : its motion, from its own top dead centre
     pressure_pa : in the cylinder, shape (samples,)
     gas_force_n : P, along its axis on the piston, shape (samples,)
     """
 
     cylinder: Cylinder
-    moved: Motion
+    kinematics: Motion
     pressure_pa: Array
     gas_force_n: Array
 
@@ -79,28 +79,28 @@ class Cycle:
     load_torque_n_m: Mapping[str, Array]
 
     @property
-    def moved(self) -> Motion:
+    def kinematics(self) -> Motion:
         """Motion of the first cylinder."""
-        return self.charges[0].moved
+        return self.charges[0].kinematics
 
     @property
     def pressure_pa(self) -> Array:
-        """In the first cylinder."""
+        """Pressure in the first cylinder."""
         return self.charges[0].pressure_pa
 
     @property
     def gas_force_n(self) -> Array:
-        """On the first piston."""
+        """Force on the first piston."""
         return self.charges[0].gas_force_n
 
     @property
     def friction(self) -> Friction:
-        """In the first cylinder's pairs."""
+        """Friction in the first cylinder's pairs."""
         return self.frictions[0]
 
     @property
     def forces(self) -> ConstraintForces:
-        """In the first cylinder's joints."""
+        """Forces in the first cylinder's joints."""
         return self.joints[0]
 
     @property
@@ -129,7 +129,7 @@ def steady_cycle(
 ) -> Cycle:
     """Solve the crankshaft's equation of motion (1) with Coulomb friction (4) by iteration.
 
-    As in the paper, the first solution is without friction; the friction of each solution goes
+    The first solution is without friction, which the paper does too; the friction of each goes
     into the next until it repeats. With several cylinders the sums of (1) go over all of them.
 
     Raises
@@ -143,7 +143,7 @@ def steady_cycle(
         raise ParameterError(f"speed_rpm = {speed_rpm:g} rpm: must be positive and finite")
     crank = design_at_bore(machine.piston_and_rod, bore_m)
     charges = [_charge(crank, item, machine.gas, samples) for item in machine.banks.cylinders]
-    moving = [mass for charge in charges for mass in moving_masses(crank, charge.moved)]
+    moving = [mass for charge in charges for mass in moving_masses(crank, charge.kinematics)]
     inertia = reduced_inertia(machine.crankshaft.inertia_kg_m2, moving)
     mean_speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
     frictions = [Friction(*[np.zeros(samples)] * 4) for _ in charges]
@@ -152,12 +152,12 @@ def steady_cycle(
         load = np.sum(list(loads.values()), axis=0)
         rotation = steady_rotation(*inertia, load, mean_speed, machine.crankshaft.motor_slope_ratio)
         joints = [
-            constraint_forces(crank, charge.moved, rotation, charge.gas_force_n, friction)
+            constraint_forces(crank, charge.kinematics, rotation, charge.gas_force_n, friction)
             for charge, friction in zip(charges, frictions, strict=True)
         ]
         shares = journal_share(machine.banks, joints, rotation)
         frictions = [
-            coulomb_friction(charge.moved, forces, machine.sliding_pairs, share)
+            coulomb_friction(charge.kinematics, forces, machine.sliding_pairs, share)
             for charge, forces, share in zip(charges, joints, shares, strict=True)
         ]
         before, loads = loads, _loads(charges, frictions)
@@ -168,18 +168,18 @@ def steady_cycle(
 
 
 def _charge(crank: SliderCrank, cylinder: Cylinder, gas: CylinderGas, samples: int) -> Charge:
-    moved = motion(crank, uniform_crank_angle(samples) + cylinder.lead_rad)
+    kinematics = motion(crank, uniform_crank_angle(samples) + cylinder.lead_rad)
     top = top_dead_centre_m(crank)
-    swept = np.maximum(crank.piston_area_m2 * (top - moved.piston_m[0]), 0.0)
-    pressure = cylinder_pressure(swept, moved.piston_m[1] < 0.0, gas)
+    swept = np.maximum(crank.piston_area_m2 * (top - kinematics.piston_m[0]), 0.0)
+    pressure = cylinder_pressure(swept, kinematics.piston_m[1] < 0.0, gas)
     force = -crank.piston_area_m2 * (pressure - gas.crankcase_pressure_pa)
-    return Charge(cylinder, moved, pressure, force)
+    return Charge(cylinder, kinematics, pressure, force)
 
 
 def _loads(charges: Sequence[Charge], frictions: Sequence[Friction]) -> dict[str, Array]:
     """Torques against the crankshaft's rotation by name, of all cylinders together."""
     single = [
-        load_torques(charge.moved, charge.gas_force_n, friction)
+        load_torques(charge.kinematics, charge.gas_force_n, friction)
         for charge, friction in zip(charges, frictions, strict=True)
     ]
     return {name: np.asarray(sum(loads[name] for loads in single[1:]) + single[0][name])
@@ -220,7 +220,7 @@ def efficiency_map(
     ----------
     machine : masses in kg, lengths in m, pressures in Pa
     speed_rpm : mean over time
-    bore_m : of the designs
+    bore_m : bore of the designs
     samples : crank angles of a revolution
 
     Returns

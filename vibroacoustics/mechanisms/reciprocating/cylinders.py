@@ -15,11 +15,11 @@ from ...mechanics.rotation import Rotation
 
 
 class Cylinder(NamedTuple):
-    """Where one cylinder stands on its crankshaft.
+    """Position of one cylinder on its crankshaft.
 
     Attributes
     ----------
-    bank_rad : of its axis from the crank frame's stroke, in the sense of rotation
+    bank_rad : angle of its axis from the crank frame's stroke, in the sense of rotation
     throw : index of its crank throw
     throw_rad : by which its crank pin runs ahead of the crank angle
     position_m : along the shaft
@@ -32,7 +32,7 @@ class Cylinder(NamedTuple):
 
     @property
     def lead_rad(self) -> float:
-        """By which its crank angle from top dead centre runs ahead of the shaft's."""
+        """Angle by which its crank angle from top dead centre runs ahead of the shaft's."""
         return self.throw_rad - self.bank_rad
 
     def frame(self, shaft: CrankFrame) -> CrankFrame:
@@ -55,13 +55,13 @@ class CylinderBanks(Parameters):
     """
 
     bank_angles_rad: tuple[float, ...] = Field(min_length=1, max_length=8)
-    """Of the cylinders' axes from upright."""
+    """Angles of the cylinders' axes from upright."""
     throw_angles_rad: tuple[float, ...] = Field(min_length=1, max_length=12)
-    """Of the crank pins from the first one's place."""
+    """Angles of the crank pins from the first one's place."""
     throw_positions_m: tuple[float, ...]
     """Middle of each crank pin along the shaft."""
     rod_pitch_m: float = Field(ge=0.0, le=1.0)
-    """Between the rods of neighbouring banks on one pin."""
+    """Distance between the rods of neighbouring banks on one pin."""
     counterweight_kg_m: float = Field(default=0.0, ge=0.0, le=1e3)
     """Mass moment of the weights opposite each crank pin, in its plane."""
 
@@ -84,9 +84,9 @@ class CylinderBanks(Parameters):
         middle = 0.5 * (len(self.bank_angles_rad) - 1)
         throws = zip(self.throw_angles_rad, self.throw_positions_m, strict=True)
         return tuple(
-            Cylinder(bank, throw, angle, position + self.rod_pitch_m * (number - middle))
+            Cylinder(bank_rad, throw, angle, position + self.rod_pitch_m * (number - middle))
             for throw, (angle, position) in enumerate(throws)
-            for number, bank in enumerate(self.bank_angles_rad)
+            for number, bank_rad in enumerate(self.bank_angles_rad)
         )
 
     def counterweight_pulls_n(self, rotation: Rotation) -> Array:
@@ -113,4 +113,4 @@ class CylinderBanks(Parameters):
 ONE_CYLINDER: Final = CylinderBanks(
     bank_angles_rad=(0.0,), throw_angles_rad=(0.0,), throw_positions_m=(0.0,), rod_pitch_m=0.0
 )
-"""Of a machine whose file has no banks."""
+"""Cylinders of a machine whose file has no banks."""

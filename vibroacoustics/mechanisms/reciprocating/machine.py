@@ -59,7 +59,7 @@ class ReciprocatingMachine(ReciprocatingTables):
         return reciprocating_curves(self, speed_rpm)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What the model leaves out."""
+        """Effects that the model neglects."""
         return _LEAVES_OUT if self.cylinders is None else _LEAVES_OUT_OF_BANKS
 
 

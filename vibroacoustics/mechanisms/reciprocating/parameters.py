@@ -27,7 +27,7 @@ class PistonAndRod(Parameters):
     small_end_to_centre_m: float = Field(ge=0.0, le=10.0)
     big_end_to_centre_m: float = Field(ge=0.0, le=10.0)
     rod_inertia_kg_m2: float = Field(ge=0.0, le=1e4)
-    """About its centre of mass."""
+    """Inertia about its centre of mass."""
 
     def contradictions(self) -> Contradictions:
         total = self.small_end_to_centre_m + self.big_end_to_centre_m
@@ -40,7 +40,7 @@ class PistonAndRod(Parameters):
 
 class Crankshaft(Parameters):
     inertia_kg_m2: float = Field(gt=0.0, le=1e6)
-    """Of all that turns with the shaft, balanced about its axis."""
+    """Inertia of all that turns with the shaft, balanced about its axis."""
     motor_slope_ratio: float = Field(ge=-3.0, le=1.0)
     """Relative change of the motor's torque per relative change of speed."""
 
@@ -85,11 +85,11 @@ class ReciprocatingTables(Machine):
     sliding_pairs: SlidingPairs
     gas: CylinderGas
     crankshaft_height_m: float = HEIGHT
-    """Of the shaft's axis from the centre of mass at rest."""
+    """Height of the shaft's axis from the centre of mass at rest."""
     cylinders: CylinderBanks | None = None
     """Banks and crank throws; none is one cylinder."""
     counterweights: BalancePlanes
-    """Where weights can sit on the crank; heights along the shaft from the cylinder's axis."""
+    """Planes for weights on the crank; heights along the shaft from the cylinder's axis."""
 
     @property
     def banks(self) -> CylinderBanks:

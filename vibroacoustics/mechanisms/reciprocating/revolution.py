@@ -45,7 +45,9 @@ def housing_wrenches_of(machine: ReciprocatingTables, cycle: Cycle) -> dict[str,
     totals: dict[str, Wrench] = {}
     for charge in cycle.charges:
         frame = charge.cylinder.frame(shaft)
-        for name, wrench in housing_wrenches(cycle.crank, charge.moved, cycle.rotation).items():
+        for name, wrench in housing_wrenches(
+            cycle.crank, charge.kinematics, cycle.rotation
+        ).items():
             totals[name] = _sum(totals.get(name), wrench.placed(frame))
     spin = -machine.crankshaft.inertia_kg_m2 * cycle.rotation.acceleration_rad_per_s2
     turning = planar(np.zeros((2, spin.size)), spin)

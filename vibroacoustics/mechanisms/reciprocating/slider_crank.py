@@ -81,7 +81,7 @@ class SliderCrank:
 
     @property
     def displacement_m3(self) -> float:
-        """Without crank offset, which lengthens the stroke a little."""
+        """Displacement without crank offset, which lengthens the stroke a little."""
         return 2.0 * self.crank_radius_m * self.piston_area_m2
 
 
@@ -171,48 +171,51 @@ def motion(crank: SliderCrank, crank_angle: Array) -> Motion:
     )
 
 
-def moving_masses(crank: SliderCrank, moved: Motion) -> tuple[tuple[float, Array], ...]:
+def moving_masses(crank: SliderCrank, kinematics: Motion) -> tuple[tuple[float, Array], ...]:
     """Masses and inertia of piston and rod with what they follow, for `reduced_inertia`.
 
     The left side of equation (1) of Tsuji et al. 2012 is then I θ̈ + ½ (dI/dθ) θ̇².
     """
     return (
-        (crank.piston_mass_kg, moved.piston_m),
-        (crank.rod_mass_kg, moved.rod_x_m),
-        (crank.rod_mass_kg, moved.rod_y_m),
-        (crank.rod_inertia_kg_m2, moved.rod_angle),
+        (crank.piston_mass_kg, kinematics.piston_m),
+        (crank.rod_mass_kg, kinematics.rod_x_m),
+        (crank.rod_mass_kg, kinematics.rod_y_m),
+        (crank.rod_inertia_kg_m2, kinematics.rod_angle),
     )
 
 
 def rates_of_momentum(
-    crank: SliderCrank, moved: Motion, rotation: Rotation
+    crank: SliderCrank, kinematics: Motion, rotation: Rotation
 ) -> tuple[Array, Array, Array, Array]:
     """m_p ẍ_p, m_c ẍ_c, m_c ÿ_c in N and I_c φ̈ in N m, each of shape (samples,)."""
     piston, rod_x, rod_y, turn = (
-        mass * acceleration_of(position, rotation) for mass, position in moving_masses(crank, moved)
+        mass * acceleration_of(position, rotation)
+        for mass, position in moving_masses(crank, kinematics)
     )
     return piston, rod_x, rod_y, turn
 
 
-def housing_wrenches(crank: SliderCrank, moved: Motion, rotation: Rotation) -> dict[str, Wrench]:
+def housing_wrenches(
+    crank: SliderCrank, kinematics: Motion, rotation: Rotation
+) -> dict[str, Wrench]:
     """-Σ m a and -d/dt of the angular momentum about the crankshaft's axis of piston and rod.
 
     A growing φ turns the rod against the crankshaft.
     """
-    piston, rod_x, rod_y, turn = rates_of_momentum(crank, moved, rotation)
-    rod_moment = turn - moved.rod_x_m[0] * rod_y + moved.rod_y_m[0] * rod_x
+    piston, rod_x, rod_y, turn = rates_of_momentum(crank, kinematics, rotation)
+    rod_moment = turn - kinematics.rod_x_m[0] * rod_y + kinematics.rod_y_m[0] * rod_x
     return {
         "piston": planar(-np.stack([piston, np.zeros_like(piston)]), crank.offset_m * piston),
         "connecting_rod": planar(-np.stack([rod_x, rod_y]), rod_moment),
     }
 
 
-def load_torques(moved: Motion, gas_force_n: Array, friction: Friction) -> dict[str, Array]:
+def load_torques(kinematics: Motion, gas_force_n: Array, friction: Friction) -> dict[str, Array]:
     """Torques of gas and friction against the crankshaft's rotation, right side of equation (1).
 
     Without crank offset dx_p/dθ = -x_p tan φ, dφ/dθ = α cos θ/cos φ and 1 + dφ/dθ = x_p/(l cos φ).
     """
-    piston, rod = moved.piston_m[1], moved.rod_angle[1]
+    piston, rod = kinematics.piston_m[1], kinematics.rod_angle[1]
     return {
         "gas": -gas_force_n * piston,
         "cylinder_wall": -friction.wall_n * piston,
@@ -223,14 +226,18 @@ def load_torques(moved: Motion, gas_force_n: Array, friction: Friction) -> dict[
 
 
 def constraint_forces(
-    crank: SliderCrank, moved: Motion, rotation: Rotation, gas_force_n: Array, friction: Friction
+    crank: SliderCrank,
+    kinematics: Motion,
+    rotation: Rotation,
+    gas_force_n: Array,
+    friction: Friction,
 ) -> ConstraintForces:
     """Joint forces from the equations of motion of piston and rod (Tsuji et al. 2012, figure 2b).
 
     Piston: m_p ẍ_p = P + f - T_x. Rod: m_c a = T - S, and its moments about the centre of mass.
     """
-    piston, rod_x, rod_y, rod_turn = rates_of_momentum(crank, moved, rotation)
-    s, c = np.sin(moved.rod_angle[0]), np.cos(moved.rod_angle[0])
+    piston, rod_x, rod_y, rod_turn = rates_of_momentum(crank, kinematics, rotation)
+    s, c = np.sin(kinematics.rod_angle[0]), np.cos(kinematics.rod_angle[0])
     t_x = gas_force_n + friction.wall_n - piston
     moments = crank.big_end_to_centre_m * (s * rod_x + c * rod_y) - rod_turn
     moments -= friction.piston_pin_n_m + friction.crank_pin_n_m
@@ -264,7 +271,7 @@ def journal_share(
 
 
 def coulomb_friction(
-    moved: Motion, forces: ConstraintForces, pairs: SlidingPairs, journal_share: Array
+    kinematics: Motion, forces: ConstraintForces, pairs: SlidingPairs, journal_share: Array
 ) -> Friction:
     """Friction of the joint forces, against the motion in each pair (equation 4)."""
     pin, crank_pin, journal = (
@@ -275,5 +282,7 @@ def coulomb_friction(
             (pairs.journal_radius_m, forces.journal_n),
         )
     )
-    wall = -pairs.wall_friction * np.abs(forces.piston_pin_n[1]) * np.sign(moved.piston_m[1])
-    return Friction(wall, np.sign(moved.rod_angle[1]) * pin, crank_pin, journal_share * journal)
+    wall = -pairs.wall_friction * np.abs(forces.piston_pin_n[1]) * np.sign(kinematics.piston_m[1])
+    return Friction(
+        wall, np.sign(kinematics.rod_angle[1]) * pin, crank_pin, journal_share * journal
+    )

@@ -40,7 +40,7 @@ def bearing_forces_n(machine: RollingPistonTables, cycle: RollingPistonCycle) ->
     Parameters
     ----------
     machine : masses in kg, lengths in m
-    cycle : of the machine
+    cycle : cycle of the machine
 
     Returns
     -------

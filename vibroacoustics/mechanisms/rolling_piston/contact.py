@@ -30,15 +30,15 @@ class Contact:
     extension : x of the roller at the vane and its derivatives, shape (3, samples)
     flight : acceleration of the vane off the roller, NaN in contact, shape (samples,), m/s²
     impacts : landings of the vane's tip
-    jump_speed_rad_per_s : of the shaft, above which the tip leaves
+    jump_speed_rad_per_s : speed of the shaft above which the tip leaves
     vane_acceleration : inwards, shape (samples,), m/s²
     tip_n : normal force of the tip, negative where frozen flight and contact differ, (samples,)
-    tip_friction_n : of the vane on the roller against the turned normal, shape (samples,)
+    tip_friction_n : friction of the vane on the roller against the turned normal, shape (samples,)
     slot_n : across the vane at mouth and rear end, on the vane, shape (2, samples)
     slot_friction_n : against the vane's motion inwards, shape (samples,)
     on_roller_n : gas and tip, along and across the vane, shape (2, samples)
-    spin_rad_per_s : of the roller, shape (samples,)
-    spin_acceleration : of the roller, shape (samples,), rad/s²
+    spin_rad_per_s : speed of rotation of the roller, shape (samples,)
+    spin_acceleration : acceleration of the rotation of the roller, shape (samples,), rad/s²
     rubbing_w : friction of tip and slot, shape (samples,)
     load_n_m : torque against the shaft, shape (samples,)
     """
@@ -107,8 +107,8 @@ def contact_turn(
     ----------
     machine : with cylinder, vane, roller and oil
     gas : turn of the cylinder
-    rotation : of the shaft over the cylinder's own angle
-    before : of the last iteration, or `first_contact`
+    rotation : rotation of the shaft over the cylinder's own angle
+    before : result of the last iteration, or `first_contact`
 
     Raises
     ------

@@ -33,7 +33,7 @@ class RollingPistonCycle:
     Attributes
     ----------
     rotation : speed, acceleration and all of the motor's torque
-    gas : of each cylinder, over its own angle
+    gas : gas of each cylinder, over its own angle
     contacts : vane and roller of each cylinder, over its own angle
     load_n_m : torque against the rotation, shape (samples,)
     """
@@ -44,7 +44,8 @@ class RollingPistonCycle:
     load_n_m: Array
 
     def over_shaft(self, of_cylinder: Array, number: int) -> Array:
-        """Turn a course over a cylinder's own angle into one over the crank angle, last axis."""
+        """Turn a time history over a cylinder's own angle into one over the crank angle, last
+        axis."""
         return np.roll(of_cylinder, -self._shift(number), axis=-1)
 
     def _shift(self, number: int) -> int:

@@ -28,7 +28,7 @@ class GasTurn(NamedTuple):
     ----------
     compression_pa : p_c, shape (samples,)
     flow_kg_per_s : through the discharge valve, shape (samples,)
-    lift_m : of the reed, shape (samples,)
+    lift_m : lift of the reed, shape (samples,)
     mass_kg : in the compression chamber with its clearance, shape (samples,)
     delivered_kg : through the valve in a turn, less what flows back until the reed is seated
     leaked_kg : to the suction chamber in a turn, through the gaps
@@ -64,7 +64,7 @@ def gas_turn(
 
     Parameters
     ----------
-    cylinder, gas, valve, leakage : of the machine
+    cylinder, gas, valve, leakage : cylinder, gas, valve and leakage of the machine
     speed_rpm : mean over time
     samples : uniform angles of the turn
 
@@ -109,7 +109,8 @@ def chamber_of(
     speed_rpm: float,
     steps: int,
 ) -> Chamber:
-    """Constants and courses of the compression chamber's equations; parameters as of `gas_turn`."""
+    """Constants and time histories of the compression chamber's equations; parameters as of
+    `gas_turn`."""
     angle = np.linspace(0.0, 2.0 * pi, steps + 1, dtype=np.float64)
     volume, slope = compression_volume(cylinder, angle)
     gap = leakage.contact_gap_m * cylinder.height_m

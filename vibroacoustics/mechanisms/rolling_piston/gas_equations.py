@@ -25,7 +25,7 @@ PRESSURE, MASS, LIFT, SPEED = 0, 1, 2, 3
 
 
 class Chamber(NamedTuple):
-    """Constants of a chamber; courses are over a turn, both ends included."""
+    """Constants of a chamber; time histories are over a turn, both ends included."""
 
     steps: int
     angular_speed: float
@@ -34,7 +34,7 @@ class Chamber(NamedTuple):
     volume_m3: Array
     """Clearance included."""
     slope_m3: Array
-    """Over the crank angle."""
+    """Slope over the crank angle."""
     gap_m2: Array
     """Effective area to the suction chamber."""
     suction_pa: float
@@ -43,7 +43,7 @@ class Chamber(NamedTuple):
     discharge_density: float
     kappa: float
     port_m2: float
-    """On which the pressure lifts the reed."""
+    """Area on which the pressure lifts the reed."""
     gap_per_lift_m: float
     """Effective area of the valve over its lift."""
     reed_kg: float
@@ -61,7 +61,7 @@ def valve_flow(pressure: float, density: float, lift: float, c: Chamber) -> floa
     Parameters
     ----------
     pressure, density : in the chamber
-    lift : of the reed, m
+    lift : lift of the reed, m
     c : constants
     """
     if lift <= 0.0:
@@ -161,7 +161,7 @@ def chamber_turn(lift: float, speed: float, c: Chamber) -> Array:
 
     Parameters
     ----------
-    lift, speed : of the reed at the start, m and m/s
+    lift, speed : lift and speed of the reed at the start, m and m/s
     c : constants
     """
     states = np.empty((4, c.steps + 1))

@@ -12,7 +12,7 @@ from ...machine.usual import Usual
 from ...mechanics.bushings import AttachedBodies
 from ...mechanics.capabilities import Capability
 from ...mechanics.moving_parts import Revolution
-from ...mechanics.rolling_piston import RollingCourses, RollingPiston
+from ...mechanics.rolling_piston import RollingHistories, RollingPiston
 from ...mechanics.torque_control import ControlledMotor, TorqueControl
 from .parameters import SIZES, RollingPistonTables
 
@@ -52,17 +52,17 @@ class RollingPistonMachine(RollingPistonTables):
         """Rolling pistons, and the motor where an inverter sets its torque."""
         gas, cylinder = self.gas, self.cylinder
         piston = RollingPiston(
-            self._courses,
+            self._histories,
             gas.discharge_density_kg_per_m3,
             gas.discharge_sound_speed_m_per_s,
             cylinder.middle_height_m,
         )
         return (piston, ControlledMotor(self._under)) if self.drive.is_inverter else (piston,)
 
-    def _courses(self, speed_rpm: float, samples: int) -> RollingCourses:
-        from .revolution import rolling_courses
+    def _histories(self, speed_rpm: float, samples: int) -> RollingHistories:
+        from .revolution import rolling_histories
 
-        return rolling_courses(self, speed_rpm, samples)
+        return rolling_histories(self, speed_rpm, samples)
 
     def _under(self, control: TorqueControl) -> Self:
         return self.model_copy(update={"drive": self.drive.model_copy(update={"control": control})})

@@ -40,7 +40,7 @@ class Cylinder(Parameters):
     middle_height_m: float = HEIGHT
     """Height of the cylinders' middle from the centre of mass at rest."""
     spacing_m: float = Field(default=0.0, ge=0.0, le=0.5)
-    """Between the middles of two cylinders, along the shaft."""
+    """Distance between the middles of two cylinders, along the shaft."""
 
     def contradictions(self) -> Contradictions:
         most = LARGEST_ECCENTRICITY * self.bore_radius_m
@@ -107,11 +107,11 @@ class ReedValve(Parameters):
     flow_ratio: float = Field(gt=0.0, le=1.0)
     """Effective over geometric area, of port and gap alike."""
     mass_kg: float = Field(gt=0.0, le=1.0)
-    """That moves with the lift."""
+    """Mass that moves with the lift."""
     natural_frequency_hz: float = Field(ge=1.0, le=1e5)
     damping_ratio: float = Field(ge=0.0, le=2.0)
     lift_m: float = Field(gt=0.0, le=0.05)
-    """To the stop."""
+    """Lift to the stop."""
     seat_stiffness_n_per_m: float = Field(gt=0.0, le=1e9)
     """Stiffness of seat and stop."""
     seat_damping_ratio: float = Field(ge=0.0, le=2.0)
@@ -130,9 +130,9 @@ class Leakage(Parameters):
     """Gaps from the compression to the suction chamber of a cylinder."""
 
     contact_gap_m: float = GAP
-    """Between roller and bore."""
+    """Gap between roller and bore."""
     vane_end_gap_m: float = GAP
-    """At each end of the vane."""
+    """Gap at each end of the vane."""
     flow_ratio: float = Field(gt=0.0, le=1.0)
     """Effective over geometric area."""
 
@@ -143,7 +143,7 @@ class Vane(Parameters):
     mass_kg: float = PART_MASS
     length_m: float = LENGTH
     spring_force_n: float = Field(ge=0.0, le=1e4)
-    """At the outermost position."""
+    """Force at the outermost position."""
     spring_stiffness_n_per_m: float = Field(ge=0.0, le=1e6)
     tip_friction_ratio: float = FRICTION
     slot_friction_ratio: float = FRICTION
@@ -157,9 +157,9 @@ class Roller(Parameters):
     eccentric_mass_kg: float = Field(ge=0.0, le=100.0)
     """Mass of the eccentric and what else of the shaft is on its side."""
     film_gap_m: float = FILM
-    """Between eccentric and roller."""
+    """Gap between eccentric and roller."""
     face_gap_m: float = FILM
-    """Between each end of the roller and the cover."""
+    """Gap between each end of the roller and the cover."""
 
 
 class RotaryShaft(Parameters):
@@ -186,7 +186,7 @@ class RotaryShaft(Parameters):
 
 
 class Drive(Parameters):
-    """How the motor's torque goes with the speed."""
+    """Slope of the motor's torque over the speed."""
 
     supply: Literal["mains", "inverter"]
     motor_slope_ratio: float = Field(ge=-3.0, le=1.0)
@@ -226,9 +226,9 @@ class RollingPistonTables(Machine):
     drive: Drive
     counterweights: CounterweightPlanes
     accumulator: Accumulator | None = None
-    """On a bracket at the shell; none where it stands apart."""
+    """Accumulator on a bracket at the shell; none where it stands apart."""
     synchronous_motor: SynchronousMotor | None = None
-    """On an inverter, for the source of that name."""
+    """Motor on an inverter, for the source of that name."""
     structure: ShellStructure | None = None
     """Wall of the shell, where it may bend."""
     variation: ShellVariation | None = None

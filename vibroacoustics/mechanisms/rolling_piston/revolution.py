@@ -7,7 +7,7 @@ import numpy as np
 from ...base.units import shaft_frequency_hz
 from ...mechanics.crankshaft import every
 from ...mechanics.moving_parts import Revolution, Wrench, path, wrenches_of_parts
-from ...mechanics.rolling_piston import RollingCourses
+from ...mechanics.rolling_piston import RollingHistories
 from .bearings import bearing_forces_n, turning_parts
 from .cycle import SAMPLES, RollingPistonCycle, steady_cycle
 from .drive import torque_orders_n_m
@@ -58,7 +58,7 @@ def housing_wrenches(machine: RollingPistonTables, cycle: RollingPistonCycle) ->
     Parameters
     ----------
     machine : masses in kg, lengths in m
-    cycle : of the machine
+    cycle : cycle of the machine
     """
     rotation = cycle.rotation
     wrenches = wrenches_of_parts(turning_parts(machine, rotation.crank_angle), rotation)
@@ -86,7 +86,7 @@ def facts(
 
     Parameters
     ----------
-    machine : of the cycle
+    machine : machine of the cycle
     cycle : steady
     speed_rpm : mean over time
     """
@@ -118,7 +118,7 @@ def friction_w(machine: RollingPistonTables, cycle: RollingPistonCycle) -> float
 
     Parameters
     ----------
-    machine : of the cycle
+    machine : machine of the cycle
     cycle : steady
     """
     speed = cycle.rotation.speed_rad_per_s
@@ -131,8 +131,10 @@ def friction_w(machine: RollingPistonTables, cycle: RollingPistonCycle) -> float
     return float(np.mean(power / speed) / np.mean(1.0 / speed))
 
 
-def rolling_courses(machine: RollingPistonTables, speed_rpm: float, samples: int) -> RollingCourses:
-    """What the rolling pistons do inside the shell over a turn; see `RollingCourses`.
+def rolling_histories(
+    machine: RollingPistonTables, speed_rpm: float, samples: int
+) -> RollingHistories:
+    """Return the time histories of the rolling pistons over a turn; see `RollingHistories`.
 
     Parameters
     ----------
@@ -155,7 +157,7 @@ def rolling_courses(machine: RollingPistonTables, speed_rpm: float, samples: int
         landing += cycle.over_shaft(force, number) / step_s
     # The gas turns at constant speed: its mass per crank angle is kept where the speed varies.
     flow *= rotation.speed_rad_per_s / (2.0 * np.pi * shaft_frequency_hz(speed_rpm))
-    return RollingCourses(
+    return RollingHistories(
         rotation.speed_rad_per_s,
         flow / machine.gas.discharge_density_kg_per_m3,
         torque,

@@ -101,11 +101,11 @@ def roller_spin(
         machine.vane.tip_friction_ratio,
     )
     mean = float(np.mean(speed_rad_per_s))
-    courses = (speed_rad_per_s, axial_n, *incline, slide_m_per_s, constants)
+    histories = (speed_rad_per_s, axial_n, *incline, slide_m_per_s, constants)
     before, start = 0.0, 0.1 * mean
-    short = _turn(before, *courses)[2] - before
+    short = _turn(before, *histories)[2] - before
     for _ in range(SHOTS):
-        spin, torque, end = _turn(start, *courses)
+        spin, torque, end = _turn(start, *histories)
         missing = end - start
         if abs(missing) <= PERIODIC * mean:
             return spin, torque / constants[0]

@@ -123,7 +123,7 @@ def vane_flight(
     ----------
     machine : with its vane
     pressing_n : force of gas and spring inwards, shape (samples,)
-    extension : of `vane_extension`, shape (3, samples)
+    extension : result of `vane_extension`, shape (3, samples)
     speed_rad_per_s : Ω
 
     Returns

@@ -9,7 +9,8 @@ from ...base.errors import ParameterError
 from .parameters import JournalBearing, ThrustBearing
 
 MOST_STEPS: Final = 60
-"""As many halvings come down to the rounding of a double; Newton's steps are about seven."""
+"""Largest number of steps: so many halvings come down to rounding; Newton's steps are about
+seven."""
 ROUNDING: Final = 4.0 * np.finfo(float).eps
 
 
@@ -21,7 +22,7 @@ def short_bearing_friction(eccentricity_ratio: Array, length_per_diameter: float
 
     Parameters
     ----------
-    eccentricity_ratio : from 0 to below 1
+    eccentricity_ratio : eccentricity, from 0 to below 1, shape (...)
     length_per_diameter : l/d
 
     Raises
@@ -77,8 +78,8 @@ def journal_friction_moment(
     Parameters
     ----------
     bearing : lengths in m
-    load_n : load, N
-    velocity : angular velocity, rad/s, above zero
+    load_n : load, shape (...), N
+    velocity : angular velocity, shape (...), rad/s, above zero
     viscosity_pa_s : dynamic viscosity
     """
     diameter = 2.0 * bearing.radius_m
@@ -98,8 +99,8 @@ def journal_friction_coefficient(
     Parameters
     ----------
     bearing : lengths in m
-    load_n : load, N, above zero
-    velocity : angular velocity, rad/s, above zero
+    load_n : load, shape (...), N, above zero
+    velocity : angular velocity, shape (...), rad/s, above zero
     viscosity_pa_s : dynamic viscosity
     """
     moment = journal_friction_moment(bearing, load_n, velocity, viscosity_pa_s)
@@ -114,8 +115,8 @@ def petroff_coefficient(
     Parameters
     ----------
     bearing : lengths in m
-    load_n : load, N
-    velocity : angular velocity, rad/s
+    load_n : load, shape (...), N
+    velocity : angular velocity, shape (...), rad/s
     viscosity_pa_s : dynamic viscosity
     """
     pressure = load_n / (2.0 * bearing.radius_m * bearing.length_m)
@@ -134,8 +135,8 @@ def loaded_coefficient(
     Parameters
     ----------
     bearing : lengths in m
-    load_n : load, N
-    velocity : angular velocity, rad/s
+    load_n : load, shape (...), N
+    velocity : angular velocity, shape (...), rad/s
     viscosity_pa_s : dynamic viscosity
     """
     slenderness = bearing.length_m / (2.0 * bearing.radius_m)

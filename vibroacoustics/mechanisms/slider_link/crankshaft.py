@@ -74,7 +74,7 @@ def bearing_forces(
 ) -> tuple[Array, Array]:
     """Forces of upper and lower bearing on the crankshaft (27) to (30), shape (2, samples), N.
 
-    From the moments about the middle of the lower bearing; the second row of (28) and of (30) is
+    From the moments about the centre of the lower bearing; the second row of (28) and of (30) is
     printed with wrong signs, table 2 is right.
 
     Parameters
@@ -103,7 +103,7 @@ def crank_forces(
     ----------
     machine : masses in kg, lengths in m
     state : motion of the crank
-    tilting_friction_n_m : M_k, which the slider passes on to the link
+    tilting_friction_n_m : M_k, shape (samples,), which the slider passes on to the link
     """
     mechanism, masses, oil = machine.mechanism, machine.masses, machine.oil
     gas = gas_force(mechanism, machine.gas, state.angle)
@@ -132,13 +132,13 @@ def crank_coefficients(
 ) -> tuple[Array, Array, Array, Array]:
     """γ4, γ5, γ6 of (34), kg m² and m, and the factor of the slider's moment on the link.
 
-    The last one comes with the moment M_b that the paper leaves out: the crank pin's friction
+    The last one comes with the moment M_b that the paper neglects: the crank pin's friction
     moment, passed on to the link, acts back on the crank with this factor.
 
     Parameters
     ----------
     machine : masses in kg, lengths in m
-    angle : crank angle, rad
+    angle : crank angle, shape (samples,), rad
     contacts : signs of the constraint forces on the piston
     """
     mechanism, masses = machine.mechanism, machine.masses
@@ -168,8 +168,8 @@ def crank_acceleration(
     ----------
     machine : masses in kg, lengths in m
     state : motion of the crank; its acceleration has shaped the forces
-    forces : of that motion
-    motor_torque_n_m : M_v
+    forces : forces of that motion
+    motor_torque_n_m : M_v, shape (samples,)
     """
     fourth, fifth, sixth, passed = crank_coefficients(machine, state.angle, forces.contacts)
     resisting = (
@@ -194,7 +194,7 @@ def settled(
     Parameters
     ----------
     machine : masses in kg, lengths in m
-    angle, velocity : of the crank, rad and rad/s, shape (samples,)
+    angle, velocity : angle and velocity of the crank, rad and rad/s, shape (samples,)
     motor_torque_n_m : M_v, shape (samples,)
 
     Raises

@@ -81,12 +81,12 @@ class SliderLinkMachine(SliderLinkTables):
         return slider_link_curves(self, speed_rpm)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What the model leaves out."""
+        """Effects that the model neglects."""
         return *_LEAVES_OUT, GAS_PATH_PARTLY if inner_sources else _GAS_PATH
 
 
 _GAS_PATH: Final = (
-    "Sound and force that pass from the block to the shell through gas and oil are left out: "
+    "Sound and force that pass from the block to the shell through gas and oil are neglected: "
     "above some hundred hertz they can carry more than the springs."
 )
 

@@ -45,11 +45,11 @@ class GaussPanels:
         return np.asarray(self.edges[:-1, None] + self._width * positions).ravel()
 
     def integral(self, values: Array) -> float:
-        """Over all panels.
+        """Return the integral over all panels.
 
         Parameters
         ----------
-        values : at the nodes
+        values : values at the nodes, shape (node,)
         """
         return float(self.running(values)[1][-1])
 
@@ -58,7 +58,7 @@ class GaussPanels:
 
         Parameters
         ----------
-        values : at the nodes
+        values : values at the nodes, shape (node,)
         """
         _, weights, inner = _rule()
         scaled = self._width * values.reshape(-1, NODES)
@@ -78,9 +78,9 @@ class SliderLinkCycle:
     ----------
     state : motion of the crank
     forces : inside the machine
-    motor_torque_n_m : M_v
-    time_s : from crank angle zero
-    work_j : of one revolution: put in by the motor, taken by the gas and by each friction
+    motor_torque_n_m : M_v, shape (samples,)
+    time_s : time from crank angle zero, shape (samples,)
+    work_j : work of one revolution: put in by the motor, taken by the gas and by each friction
     """
 
     state: CrankState
@@ -105,7 +105,7 @@ def steady_motion(
     ----------
     machine : masses in kg, lengths in m, pressures in Pa
     mean_velocity : one revolution per its time, rad/s
-    samples : of the result, a multiple of four; also the number of panels of the quadrature
+    samples : number of samples of the result, a multiple of four; also the panels of the quadrature
 
     Raises
     ------
@@ -171,7 +171,7 @@ def _converged(
 
 
 def _motor_answer(panels: GaussPanels, error: Array, steepness: float) -> Array:
-    """What the motor takes back of a change of φ̇²/2: the periodic v of v' + s v = s error.
+    """Response of the motor to a change of φ̇²/2: the periodic v of v' + s v = s error.
 
     Only a preconditioner: where e^(2π s) would grow too large a smaller s does.
     """
@@ -182,7 +182,7 @@ def _motor_answer(panels: GaussPanels, error: Array, steepness: float) -> Array:
 
 
 def _start(panels: GaussPanels, rise: Array, mean_velocity: float) -> float:
-    """What to add to φ̇²/2 for the mean velocity to be as given; Newton's method."""
+    """Return what to add to φ̇²/2 for the stated mean velocity; Newton's method."""
     start = 0.5 * mean_velocity**2 - panels.integral(rise) / (2.0 * np.pi)
     for _ in range(MAXIMUM_ITERATIONS):
         if np.min(start + rise) <= 0.0:

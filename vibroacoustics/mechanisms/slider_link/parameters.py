@@ -30,7 +30,7 @@ class SliderLink(Parameters):
     bore_m: float = Field(ge=1e-3, le=0.3)
     """[D]"""
     piston_length_m: float = LENGTH
-    """From the piston's end to the axis of the link [L_p]."""
+    """Length from the piston's end to the axis of the link [L_p]."""
     cylinder_length_m: float = LENGTH
     """Engaged length at top dead centre [L_c]."""
     slider_diameter_m: float = Field(gt=0.0, le=0.2)
@@ -74,7 +74,7 @@ class MovingMasses(Parameters):
     crankshaft_mass_offset_m: float = OFFSET
     """Their centre of mass from the shaft's axis, away from the crank pin [e_cr]."""
     crankshaft_inertia_kg_m2: float = Field(gt=0.0, le=100.0)
-    """About the shaft's axis [J_z]."""
+    """Inertia about the shaft's axis [J_z]."""
     crankshaft_product_kg_m2: float = Field(ge=-1.0, le=1.0)
     """∫ x' z dm [J_x'z]."""
 
@@ -83,11 +83,11 @@ class Heights(Parameters):
     """Distances along the shaft."""
 
     piston_axis_m: float = Field(ge=-0.5, le=0.5)
-    """From the block's centre of mass up to the piston's axis [z_s]."""
+    """Height from the block's centre of mass up to the piston's axis [z_s]."""
     upper_bearing_m: float = LENGTH
-    """From the piston's axis down to the middle of the upper bearing [z_p]."""
+    """Height of the piston's axis above the centre of the upper bearing [z_p]."""
     bearing_distance_m: float = LENGTH
-    """Between the middles of the two bearings [z_b]."""
+    """Distance between the middles of the two bearings [z_b]."""
 
 
 class JournalBearing(Parameters):
@@ -158,7 +158,7 @@ class SliderLinkTables(Machine):
     """The shell is at suction pressure [p_0]."""
     motor: Motor
     counterweights: BalancePlanes
-    """Where further weights can sit on the shaft."""
+    """Planes for further weights on the shaft."""
     centre_of_mass_offset_m: float = Field(ge=-0.2, le=0.2)
     """Block's centre of mass from the shaft's axis, along x [x_c]."""
     suspension: Suspension

@@ -49,11 +49,11 @@ class PistonContacts:
 
     Attributes
     ----------
-    front : F_GN1, along y, at the piston's end
-    rear : F_GN2, along y, at the crank-side end of the cylinder
-    link : F_BN, along x, of the slider on the link
+    front : F_GN1, along y, at the piston's end, shape (samples,)
+    rear : F_GN2, along y, at the crank-side end of the cylinder, shape (samples,)
+    link : F_BN, along x, of the slider on the link, shape (samples,)
     sides : δ3, δ4, δ5, shape (samples, 3)
-    piston_sense, slider_sense : δ1, δ2
+    piston_sense, slider_sense : δ1, δ2, shape (samples,)
     """
 
     front: Array
@@ -97,7 +97,7 @@ def engaged_length(mechanism: SliderLink, angle: Array) -> Array:
     Parameters
     ----------
     mechanism : lengths in m
-    angle : crank angle, rad
+    angle : crank angle, shape (...), rad
     """
     fall = mechanism.crank_radius_m * (1.0 - np.cos(angle))
     return np.asarray(mechanism.cylinder_length_m - fall)
@@ -134,9 +134,9 @@ def piston_matrix(
     Parameters
     ----------
     mechanism : lengths in m
-    angle : crank angle, rad
+    angle : crank angle, shape (...), rad
     sides : δ3, δ4, δ5, shape (..., 3)
-    piston_sense, slider_sense : δ1, δ2
+    piston_sense, slider_sense : δ1, δ2, shape (...)
     friction_arm_m : D_s/2 for the matrix as printed
     """
     front, rear, link = np.moveaxis(sides, -1, 0)
@@ -167,7 +167,7 @@ def piston_contacts(
 ) -> PistonContacts:
     """Constraint forces on the piston (8) to (11), with the sides that it touches.
 
-    Of the eight combinations of sides the one is taken whose forces have the signs assumed. It
+    One of the eight combinations of sides is taken: its forces have the signs assumed. It
     exists and is the only one where all eight determinants are positive (`check_not_jammed`).
 
     Parameters
@@ -175,7 +175,8 @@ def piston_contacts(
     mechanism : lengths in m
     state : motion of the crank
     axial_force_n : F_g - F_FG + m_p ẍ_p, first entry of the right side of (10)
-    tilting_moment_n_m : m_p ẍ_p e_cl and the crank pin's friction moment, its third entry
+    tilting_moment_n_m : shape (samples,), m_p ẍ_p e_cl and the crank pin's friction moment, its
+    third entry
     """
     senses = sign(-piston_velocity(mechanism, state)), sign(slider_velocity(mechanism, state))
     matrix = piston_matrix(
@@ -226,7 +227,7 @@ def cylinder_pressure(gas: CylinderGas, angle: Array) -> Array:
     Parameters
     ----------
     gas : pressures in Pa
-    angle : crank angle, rad
+    angle : crank angle, shape (...), rad
     """
     fill = gas.clearance_ratio + 0.5 * (1.0 - np.cos(angle))
     return gas.valve_cycle.pressure_pa(fill, np.sin(angle) > 0.0)
@@ -260,7 +261,7 @@ def gas_force(mechanism: SliderLink, gas: CylinderGas, angle: Array) -> Array:
     ----------
     mechanism : lengths in m
     gas : pressures in Pa
-    angle : crank angle, rad
+    angle : crank angle, shape (...), rad
     """
     area = np.pi / 4.0 * mechanism.bore_m**2
     return np.asarray((cylinder_pressure(gas, angle) - gas.suction_pressure_pa) * area)

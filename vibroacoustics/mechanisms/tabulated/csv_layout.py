@@ -63,8 +63,8 @@ def _assembled(
     highest = max(spectrum.shape[-1] for spectrum in spectra.values())
     orders = np.zeros((len(speeds), len(sources), len(COMPONENTS), highest), dtype=complex)
     for (speed, source), spectrum in spectra.items():
-        at = (speeds.index(speed), sources.index(source))
-        orders[at][:, : spectrum.shape[-1]] = spectrum
+        case = (speeds.index(speed), sources.index(source))
+        orders[case][:, : spectrum.shape[-1]] = spectrum
     return Spectra(speeds, sources, orders)
 
 
@@ -98,10 +98,10 @@ def _of_angles(columns: Columns, rows: list[int]) -> ComplexArray:
     even = 360.0 * np.arange(angles.size) / angles.size
     uneven = np.flatnonzero(np.abs(angles - even) > UNEVEN * 360.0 / angles.size)
     if angles.size < SMALLEST_STEPS or uneven.size:
-        at = int(uneven[0]) if uneven.size else 0
+        uneven_row = int(uneven[0]) if uneven.size else 0
         raise columns.refusal(
-            int(ordered[at]),
-            f"crank_angle_deg = {angles[at]:g}: {angles.size} angles must be even over a "
+            int(ordered[uneven_row]),
+            f"crank_angle_deg = {angles[uneven_row]:g}: {angles.size} angles must be even over a "
             f"revolution from 0, in steps of {360.0 / angles.size:g}, at least {SMALLEST_STEPS}",
         )
     return orders_of(values)
@@ -111,24 +111,25 @@ def _check_closed(columns: Columns, row: int, values: Array) -> None:
     """A row at 360° repeats the one at zero."""
     jump = np.abs(values[:, -1] - values[:, 0]) - NOT_PERIODIC * np.abs(values).max(axis=1)
     if np.any(jump > 0.0):
-        name, at = VALUES[int(np.argmax(jump))], int(np.argmax(jump))
+        name, column = VALUES[int(np.argmax(jump))], int(np.argmax(jump))
         raise columns.refusal(
             row,
-            f"{name} = {values[at, -1]:g} at 360°, {values[at, 0]:g} at 0°: is not periodic",
+            f"{name} = {values[column, -1]:g} at 360°, {values[column, 0]:g} at 0°: "
+            "is not periodic",
         )
 
 
 def _of_orders(columns: Columns, rows: list[int]) -> ComplexArray:
     """Orders of one source at one speed, zero where the file has none, (component, order)."""
     orders = columns.numbers["order"]
-    seen: set[float] = set()
+    numbers: set[float] = set()
     for row in rows:
         number = float(orders[row])
         if not (number.is_integer() and 0.0 <= number <= HIGHEST_ORDER):
             raise columns.refusal(row, f"order = {number:g}: must be a whole number from 0")
-        if number in seen:
+        if number in numbers:
             raise columns.refusal(row, f"order = {number:g}: is given twice")
-        seen.add(number)
+        numbers.add(number)
     values = np.zeros((len(COMPONENTS), int(orders[rows].max()) + 1), dtype=complex)
     for component, (value, phase) in enumerate(zip(VALUES, PHASES, strict=True)):
         peaks = columns.numbers[value][rows] * np.exp(1j * columns.numbers[phase][rows])
@@ -141,11 +142,11 @@ def forces_csv(results: xr.Dataset, option: str = REFERENCE_OPTION) -> bytes:
     """Orders of force and moment of a run's results, as a table by order.
 
     Remarks above it hold the table `[shaft_axes]` that the machine file needs. Sources that make no
-    force under the option are left out.
+    force under the option are omitted.
 
     Parameters
     ----------
-    results : of `run`
+    results : results of `run`
     option : by name
     """
     dims = ("speed", "source", "order", "axis")

@@ -24,9 +24,9 @@ class Forces(FileTable):
 
     content: ClassVar[str] = "packed"
     scaling: Literal["inertia"] | None = None
-    """With one speed: every force grows as the speed squared."""
+    """Scaling of a table with one speed: every force grows as the speed squared."""
     recorded_speed_rpm: float | None = Field(default=None, gt=0.0, le=1e5)
-    """Of a recording over time, which does not say it."""
+    """Speed of a recording over time, which does not say it."""
     speed_rpm: tuple[float, ...] = ()
     sources: tuple[str, ...] = ()
     packed: str = ""
@@ -52,7 +52,7 @@ class Forces(FileTable):
             )
         _spectra(self)  # refuses what was not read from a file
 
-    def at(self, speed_rpm: float) -> ComplexArray:
+    def orders_at(self, speed_rpm: float) -> ComplexArray:
         """Orders at a speed, shape (source, component, order), N and N m.
 
         Raises
@@ -66,12 +66,16 @@ class Forces(FileTable):
         try:
             return spectra.between(speed_rpm)
         except ParameterError as error:
-            one = len(self.speed_rpm) == 1
-            hint = '; scaling = "inertia" lets forces grow as the speed squared' if one else ""
+            has_one_speed = len(self.speed_rpm) == 1
+            hint = (
+                '; scaling = "inertia" lets forces grow as the speed squared'
+                if has_one_speed
+                else ""
+            )
             raise ParameterError(f"{self.file}: {error}{hint}") from None
 
     def doubt_at(self, speed_rpm: float) -> str:
-        """What is doubtful at a speed: how far the table's speeds are; empty where nothing."""
+        """Say what is doubtful at a speed: how far the table's speeds are; empty where nothing."""
         below = [speed for speed in self.speed_rpm if speed <= speed_rpm]
         above = [speed for speed in self.speed_rpm if speed >= speed_rpm]
         if self.scaling is not None:

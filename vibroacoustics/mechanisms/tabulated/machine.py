@@ -35,7 +35,7 @@ class SlidingMass(Parameters):
     amplitude_m: float | None = Field(default=None, gt=0.0, le=1.0)
     """Half its stroke."""
     height_m: float = HEIGHT
-    """Along the shaft, from the origin of the shaft's axes."""
+    """Height along the shaft, from the origin of the shaft's axes."""
 
     def contradictions(self) -> Contradictions:
         if (self.mass_kg is None) != (self.amplitude_m is None):
@@ -79,11 +79,11 @@ class TabulatedMachine(Machine):
     forces: Forces
     shaft_axes: ShaftAxes
     sliding_mass: SlidingMass | None = None
-    """For options that balance it."""
+    """Mass for options that balance it."""
     oldham: Ring | None = None
-    """For options that hang on it."""
+    """Ring of the machine, for options that add to it."""
     counterweights: BalancePlanes | None = None
-    """Where weights can sit on the shaft."""
+    """Planes for weights on the shaft."""
 
     def contradictions(self) -> Contradictions:
         if self.sliding_mass is not None and self.counterweights is None:
@@ -92,7 +92,7 @@ class TabulatedMachine(Machine):
     def doubts(self) -> Iterable[str]:
         """Forces at the table's highest speed, against masses and speed of the machine."""
         speed_rpm = max(self.forces.speed_rpm)
-        first = self.forces.at(speed_rpm).sum(axis=0)[:3, 1]
+        first = self.forces.orders_at(speed_rpm).sum(axis=0)[:3, 1]
         force = float(np.linalg.norm(first))
         speed = 2.0 * np.pi * shaft_frequency_hz(speed_rpm)
         if words := doubt_of_forces(self.scale.mass_kg, force, speed):
@@ -119,7 +119,7 @@ class TabulatedMachine(Machine):
 
     @property
     def capabilities(self) -> tuple[Capability, ...]:
-        """What the tables name for options to work on."""
+        """Capabilities that the tables name for options."""
         named: list[Capability] = []
         if self.sliding_mass is not None and self.counterweights is not None:
             named.append(self._slider(self.sliding_mass, self.counterweights))
@@ -133,7 +133,7 @@ class TabulatedMachine(Machine):
         mass_kg, amplitude_m = sliding.mass_kg, sliding.amplitude_m
         if mass_kg is None or amplitude_m is None:
             speed_rpm, frame = max(self.forces.speed_rpm), self.crank_frame
-            first_n = self.forces.at(speed_rpm).sum(axis=0)[:3, 1]
+            first_n = self.forces.orders_at(speed_rpm).sum(axis=0)[:3, 1]
             along_n, across_n = np.dot(frame.stroke, first_n), np.dot(frame.across, first_n)
             moment = oscillating_mass_moment(along_n, across_n, speed_rpm)
             mass_kg, amplitude_m = moment / planes.radius_m, planes.radius_m
@@ -152,7 +152,7 @@ class TabulatedMachine(Machine):
         ParameterError
             The table does not reach the speed.
         """
-        values = over_revolution(self.forces.at(speed_rpm), samples)
+        values = over_revolution(self.forces.orders_at(speed_rpm), samples)
         wrenches = {
             source: Wrench(each[:3], each[3:])
             for source, each in zip(self.forces.sources, values, strict=True)
@@ -160,7 +160,7 @@ class TabulatedMachine(Machine):
         return Revolution(speed_rpm, constant_rotation(speed_rpm, samples), wrenches)
 
     def leaves_out(self, inner_sources: bool) -> tuple[str, ...]:
-        """What a table leaves out."""
+        """Effects that a table neglects."""
         return _LEAVES_OUT
 
 

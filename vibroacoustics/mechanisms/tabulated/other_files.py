@@ -15,13 +15,13 @@ from .csv_layout import ONE_SOURCE
 from .spectra import COMPONENTS, Spectra, orders_of
 
 MAXIMUM_BYTES: Final = 2**31
-"""Of results, which are read as a whole."""
+"""Size of results, which are read as a whole."""
 MISSED_REVOLUTION: Final = 1e-3
 """Largest part of a revolution by which a recording misses whole ones."""
 if TYPE_CHECKING:
     from ...recordings.measured_function import MeasuredFunction
 TIME: Final = 1
-"""Function type of a course over time."""
+"""Function type of a time history."""
 OFF_ORDER: Final = 1e-3
 """Largest distance of a frequency from a whole order."""
 
@@ -54,8 +54,8 @@ def read_results(path: Path) -> Spectra:
     rising = np.argsort(speeds)
     acting = np.flatnonzero(np.any(orders, axis=(0, 2, 3)))
     return Spectra(
-        tuple(speeds[at] for at in rising),
-        tuple(sources[at] for at in acting),
+        tuple(speeds[row] for row in rising),
+        tuple(sources[row] for row in acting),
         orders[rising][:, acting],
     )
 
@@ -129,7 +129,7 @@ def _meant(path: Path, channel: str, unit: str) -> tuple[str, str]:
 
 
 def holds_spectra(path: Path) -> bool:
-    """Whether a universal file has no course over time; also false where it cannot be read."""
+    """Whether a universal file has no time history; also false where it cannot be read."""
     from ...recordings.uff58 import datasets
 
     try:
@@ -162,17 +162,17 @@ def read_spectra(path: Path, speed_rpm: float) -> Spectra:
     except StorageError as error:
         raise ParameterError(*error.args) from None
     parts: dict[str, dict[str, tuple[IndexArray, ComplexArray]]] = {}
-    for one in functions:
-        if one.kind == "spectrum" and one.response_unit in ("N", "N m"):
+    for function in functions:
+        if function.kind == "spectrum" and function.response_unit in ("N", "N m"):
             try:
-                component, order = _component(one), _orders(one, speed_rpm)
+                component, order = _component(function), _orders(function, speed_rpm)
             except ParameterError as error:
-                raise ParameterError(f"{path}: {one}: {error}") from None
-            known = parts.setdefault(str(one.response.number), {})
-            if component in known:
-                raise ParameterError(f"{path}: {one}: is there twice")
-            sign = -1.0 if one.response.direction[0] == "-" else 1.0
-            known[component] = order, sign * one.values
+                raise ParameterError(f"{path}: {function}: {error}") from None
+            components = parts.setdefault(str(function.response.number), {})
+            if component in components:
+                raise ParameterError(f"{path}: {function}: is there twice")
+            sign = -1.0 if function.response.direction[0] == "-" else 1.0
+            components[component] = order, sign * function.values
     if not parts:
         raise ParameterError(f"{path}: holds no spectrum in N or N m")
     highest = max(int(order.max()) for of in parts.values() for order, _ in of.values())
@@ -183,23 +183,23 @@ def read_spectra(path: Path, speed_rpm: float) -> Spectra:
     return Spectra((speed_rpm,), tuple(parts), orders)
 
 
-def _component(one: "MeasuredFunction") -> str:
-    axis = one.response.direction
+def _component(function: "MeasuredFunction") -> str:
+    axis = function.response.direction
     component = f"{'m' if axis[1:2] == 'r' else 'f'}{axis[-1:]}"
-    if component not in COMPONENTS or (component[0] == "m") != (one.response_unit == "N m"):
+    if component not in COMPONENTS or (component[0] == "m") != (function.response_unit == "N m"):
         raise ParameterError(
-            f"unit {one.response_unit}: must be N along x, y, z or N m about rx, ry, rz"
+            f"unit {function.response_unit}: must be N along x, y, z or N m about rx, ry, rz"
         )
     return component
 
 
-def _orders(one: "MeasuredFunction", speed_rpm: float) -> IndexArray:
-    order = one.frequency_hz / shaft_frequency_hz(speed_rpm)
+def _orders(function: "MeasuredFunction", speed_rpm: float) -> IndexArray:
+    order = function.frequency_hz / shaft_frequency_hz(speed_rpm)
     off = np.abs(order - np.rint(order))
     if off.max() > OFF_ORDER:
-        at = int(off.argmax())
+        row = int(off.argmax())
         raise ParameterError(
-            f"{one.frequency_hz[at]:g} Hz is order {order[at]:.4g} at {speed_rpm:g} rpm: must be "
-            "a whole order"
+            f"{function.frequency_hz[row]:g} Hz is order {order[row]:.4g} at {speed_rpm:g} rpm: "
+            "must be a whole order"
         )
     return np.rint(order).astype(np.intp)

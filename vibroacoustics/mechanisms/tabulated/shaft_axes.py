@@ -13,7 +13,7 @@ _UNIT: Final = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)
 
 
 class ShaftAxes(Parameters):
-    """Where the shaft is: crank angle counts from the stroke, positive about the shaft."""
+    """Position of the shaft: crank angle counts from the stroke, positive about the shaft."""
 
     lines_to_add: ClassVar[str] = (
         'add the lines [shaft_axes], stroke = "x", shaft = "z" with the directions of this '
@@ -48,7 +48,7 @@ def axes_lines(frame: Mapping[str, Any], source: str) -> list[str]:
     Parameters
     ----------
     frame : `CrankFrame` by its names
-    source : of the position of the shaft
+    source : source of the position of the shaft
 
     Returns
     -------
@@ -62,7 +62,11 @@ def axes_lines(frame: Mapping[str, Any], source: str) -> list[str]:
         "[shaft_axes]",
         f'stroke = "{stroke}"',
         f'shaft = "{shaft}"',
-        *(f'{axis}_m = {{ value = {at!r}, source = "{source}" }}' for axis, at in position if at),
+        *(
+            f'{axis}_m = {{ value = {coordinate!r}, source = "{source}" }}'
+            for axis, coordinate in position
+            if coordinate
+        ),
     ]
 
 

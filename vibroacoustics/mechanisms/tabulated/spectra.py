@@ -16,7 +16,7 @@ COMPONENTS: Final = ("fx", "fy", "fz", "mx", "my", "mz")
 SAME_SPEED: Final = 1e-9
 """Speeds that differ by less than this part of them are one."""
 SMALLEST_STEPS: Final = 3
-"""Of crank angles over a revolution: with fewer there is no order one."""
+"""Least number of crank angles over a revolution: with fewer there is no order one."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Spectra:
     orders: ComplexArray
 
     def between(self, speed_rpm: float) -> ComplexArray:
-        """At a speed in their range, shape (source, component, order).
+        """Return the spectra at a speed in their range, shape (source, component, order).
 
         Each complex order is linear in the speed squared between two speeds of the table: exact
         there, and everywhere for inertia, which grows as the speed squared, and for a force that
@@ -50,17 +50,17 @@ class Spectra:
         ParameterError
             It is not.
         """
-        known = np.array(self.speed_rpm)
-        same = np.flatnonzero(np.abs(known - speed_rpm) <= SAME_SPEED * known)
+        tabulated_rpm = np.array(self.speed_rpm)
+        same = np.flatnonzero(np.abs(tabulated_rpm - speed_rpm) <= SAME_SPEED * tabulated_rpm)
         if same.size:
             return np.asarray(self.orders[same[0]])
-        if not known[0] < speed_rpm < known[-1]:
+        if not tabulated_rpm[0] < speed_rpm < tabulated_rpm[-1]:
             raise ParameterError(
-                f"speed_rpm = {speed_rpm:g} rpm: the table of forces has {known[0]:g}"
-                + (f" to {known[-1]:g} rpm" if known.size > 1 else " rpm alone")
+                f"speed_rpm = {speed_rpm:g} rpm: the table of forces has {tabulated_rpm[0]:g}"
+                + (f" to {tabulated_rpm[-1]:g} rpm" if tabulated_rpm.size > 1 else " rpm alone")
             )
-        above = int(np.searchsorted(known, speed_rpm))
-        low, high = known[above - 1] ** 2, known[above] ** 2
+        above = int(np.searchsorted(tabulated_rpm, speed_rpm))
+        low, high = tabulated_rpm[above - 1] ** 2, tabulated_rpm[above] ** 2
         share = (speed_rpm**2 - low) / (high - low)
         return np.asarray((1.0 - share) * self.orders[above - 1] + share * self.orders[above])
 

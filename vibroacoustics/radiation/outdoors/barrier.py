@@ -39,7 +39,7 @@ class Barrier:
         return bool(self.sign * (point[self.axis] - self.position_m) > 0.0)
 
     def edge_points(self, points: Array, receiver: Array) -> Array:
-        """Where the shortest way from points (point, 3) to a receiver crosses the edge."""
+        """Return where the shortest path from points (point, 3) to a receiver crosses the edge."""
         before, behind = self._to_edge(points), self._to_edge(receiver)
         edge = points + (receiver - points) * (before / (before + behind))[..., None]
         edge[..., self.axis], edge[..., 2] = self.position_m, self.top_m
@@ -63,13 +63,15 @@ class Barrier:
         mirrored[..., self.axis] = 2.0 * self.position_m - points[..., self.axis]
         reflected = np.linalg.norm(receiver - mirrored, axis=-1)
         edge = self.edge_points(points, receiver)
-        over = np.linalg.norm(edge - points, axis=-1) + np.linalg.norm(receiver - edge, axis=-1)
+        around_edge = np.linalg.norm(edge - points, axis=-1) + np.linalg.norm(
+            receiver - edge, axis=-1
+        )
         share = self._gap(points) / (self._gap(points) + self._gap(receiver))
         visible = points[..., 2] + share * (receiver[2] - points[..., 2]) > self.top_m
-        of_direct = diffracted(wavenumber, direct, over)
+        of_direct = diffracted(wavenumber, direct, around_edge)
         free = np.exp(-1j * wavenumber * direct) / (4.0 * np.pi * direct)
         over_edge = np.where(visible, free - of_direct, of_direct)
-        return np.asarray(over_edge + diffracted(wavenumber, reflected, over))
+        return np.asarray(over_edge + diffracted(wavenumber, reflected, around_edge))
 
     def _gap(self, points: Array) -> Array:
         return np.asarray(np.abs(points[..., self.axis] - self.position_m))

@@ -13,12 +13,12 @@ from .barrier import Barrier
 
 @dataclass(frozen=True)
 class Outdoors:
-    """What sound meets on its way from the machine.
+    """Ground and barrier on the path of the sound from the machine.
 
     Attributes
     ----------
     ground_z_m : height of the ground
-    flow_resistivity_pa_s_per_m2 : of the ground; none where it is hard
+    flow_resistivity_pa_s_per_m2 : flow resistivity of the ground; none where it is hard
     barrier : none where there is none
     """
 
@@ -30,8 +30,8 @@ class Outdoors:
         """β = ρc/Z of the ground."""
         if self.flow_resistivity_pa_s_per_m2 is None:
             return 0.0
-        at = np.array(frequency_hz)
-        return complex(1.0 / normalised_impedance(at, self.flow_resistivity_pa_s_per_m2))
+        hertz = np.array(frequency_hz)
+        return complex(1.0 / normalised_impedance(hertz, self.flow_resistivity_pa_s_per_m2))
 
     def green(
         self, points: Array, receiver: Array, frequency_hz: float, walls: Sequence[Mirror] = ()
@@ -50,9 +50,12 @@ class Outdoors:
     def rows(
         self, points: Array, receivers: Array, frequency_hz: Array, walls: Sequence[Mirror] = ()
     ) -> Iterator[ComplexArray]:
-        """The same to several receivers: (receiver, point), one frequency after the other."""
+        """Green's functions to several receivers: (receiver, point), one frequency after the
+        other."""
         for hertz in frequency_hz:
-            yield np.array([self.green(points, one, float(hertz), walls) for one in receivers])
+            yield np.array(
+                [self.green(points, receiver, float(hertz), walls) for receiver in receivers]
+            )
 
     def _of_image(self, points: Array, receiver: Array, frequency_hz: float) -> ComplexArray:
         k = float(wavenumber(np.array(frequency_hz)))
@@ -89,7 +92,7 @@ def _mirrored(points: Array, ground_z_m: float) -> Array:
 
 
 def _parities(walls: Sequence[Mirror]) -> Array:
-    """Which coordinates each image of `images` turns round, (image, 3)."""
+    """Return which coordinates each image of `images` inverts, (image, 3)."""
     turned = np.zeros((1, 3))
     for wall in walls:
         turned = np.concatenate([turned, turned + np.eye(3)[wall.axis]])
@@ -111,7 +114,7 @@ def reflection_coefficient(
     wavenumber : k, rad/m
     admittance : β = ρc/Z
     distance_m : r2 from the image source, shape (...)
-    cosine : of the angle of incidence from the vertical, cos θ = (z + h)/r2, shape (...)
+    cosine : cosine of the angle of incidence from the vertical, cos θ = (z + h)/r2, shape (...)
     """
     if admittance == 0.0:
         return np.ones(np.shape(distance_m), dtype=complex)

@@ -10,19 +10,22 @@ from .barrier import Barrier
 from .green import Outdoors
 
 _LEAST_GAP_M: Final = 0.3
-"""From the machine to a barrier, whose echo to the machine is left out."""
+"""Distance from the machine to a barrier, whose echo to the machine is neglected."""
 
 
 def outdoors_of(shell: Shell, surroundings: Surroundings) -> Outdoors | None:
     """Ground and barrier; none on a floor alone or in free field."""
     if not surroundings.is_outdoors:
         return None
-    ground, given = surroundings.ground, surroundings.barrier
+    ground, barrier_settings = surroundings.ground, surroundings.barrier
     barrier = None
-    if given is not None:
-        sign = -1 if given.side[0] == "-" else 1
-        axis, top_m = "xyz".index(given.side[1]), shell.floor_z_m + given.height_m
-        barrier = Barrier(axis, sign, sign * given.distance_m, top_m)
+    if barrier_settings is not None:
+        sign = -1 if barrier_settings.side[0] == "-" else 1
+        axis, top_m = (
+            "xyz".index(barrier_settings.side[1]),
+            shell.floor_z_m + barrier_settings.height_m,
+        )
+        barrier = Barrier(axis, sign, sign * barrier_settings.distance_m, top_m)
     resistivity = None if ground is None else ground.resistivity_pa_s_per_m2
     return Outdoors(shell.floor_z_m, resistivity, barrier)
 

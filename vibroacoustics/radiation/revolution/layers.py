@@ -19,7 +19,7 @@ from .ring import DIGITS, ring, rules
 _NEAR: Final = 1.3
 """A point this many lengths of an element off its middle sees its nodes alone."""
 _ON_POINTS: Final = 12
-"""On each side of a point of the element."""
+"""Points on each side of a point of the element."""
 _BESIDE_POINTS: Final = 20
 _CROWDING: Final = 4
 """Power by which nodes crowd at a point of the element."""
@@ -69,8 +69,8 @@ def layers(
     elements = (mesh.weights, mesh.lengths, mesh.coefficients)
     quadrature = (wavenumber, DIGITS, rules(orders), _element())
     for side in sides:
-        at = np.ascontiguousarray(side, dtype=float)
-        _fill(at, sources, elements, quadrature, single, double)
+        field_points = np.ascontiguousarray(side, dtype=float)
+        _fill(field_points, sources, elements, quadrature, single, double)
     return single, double
 
 

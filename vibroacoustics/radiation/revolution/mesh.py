@@ -14,7 +14,7 @@ from .profile import edges
 NODES: Final = 5
 """Nodes of an element: pressure and velocity are polynomials of degree four along it."""
 _DEGREE: Final = 7
-"""Of the polynomials that stand for the curve of an element."""
+"""Degree of the polynomials that stand for the curve of an element."""
 _FITTING: Final = 1e-6
 """Largest distance of an element from its curve over half of its length."""
 _SHRINKING: Final = 0.3

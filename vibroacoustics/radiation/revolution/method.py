@@ -22,7 +22,7 @@ from .side import Addition, RevolutionSide
 _NAME: Final = "boundary elements"
 _ON_BOX: Final = "boundary elements at the box of k-Wave"
 _BOX_MARGIN_M: Final = 0.04
-"""From the body to its box."""
+"""Distance from the body to its box."""
 
 
 class ByRevolution:
@@ -44,7 +44,9 @@ class ByRevolution:
 
         And pressures (point, pattern, frequency) elsewhere.
         """
-        return self._at_receivers(progress), [self._at(asked, progress) for asked in elsewhere]
+        return self._at_receivers(progress), [
+            self._at(microphones, progress) for microphones in elsewhere
+        ]
 
     def _at_receivers(self, progress: Progress) -> Vectors:
         task, side = self._task, self.side
@@ -55,40 +57,40 @@ class ByRevolution:
             return by_name(closed)
         box = join_box(side, task.resolving_spacing_m)
         greens, expected = room_greens(box, task, progress), list(closed_greens(box, task))
-        asked = task.kwave_microphones
-        table_hz = task.frequency_hz[asked.frequencies]
+        microphones = task.kwave_microphones
+        table_hz = task.frequency_hz[microphones.frequencies]
         added = addition(side, box, table_hz, greens, expected)
-        exact = closed.selected(asked.frequencies, task.kwave_rows)
-        kwave = side.with_small(exact, added, asked.points, table_hz, _ON_BOX, progress)
+        exact = closed.selected(microphones.frequencies, task.kwave_rows)
+        kwave = side.with_small(exact, added, microphones.points, table_hz, _ON_BOX, progress)
         differences = differences_db(greens, iter(expected))
         return with_kwave(task, by_name(closed), by_name(kwave), differences)
 
-    def _at(self, asked: Microphones, progress: Progress) -> ComplexArray:
+    def _at(self, microphones: Microphones, progress: Progress) -> ComplexArray:
         """Pressures (point, pattern, frequency); those of the table are interpolated."""
-        frequency_hz = self._task.frequency_hz[asked.frequencies]
-        added = self._over_ground(asked.points, frequency_hz)
-        if asked.frequencies == self._task.table:
+        frequency_hz = self._task.frequency_hz[microphones.frequencies]
+        added = self._over_ground(microphones.points, frequency_hz)
+        if microphones.frequencies == self._task.table:
             side, name = self.side, "sound field"
-            sampled = side.spectrum(asked.points, frequency_hz, name, progress, added)
+            sampled = side.spectrum(microphones.points, frequency_hz, name, progress, added)
             pressure = np.moveaxis(sampled.pressure, 0, -1)
         else:
             by_line = [
-                self.side.finer_pressures(float(line), asked.points) for line in frequency_hz
+                self.side.finer_pressures(float(line), microphones.points) for line in frequency_hz
             ]
             if added is not None:
-                by_line = [one + added(number) for number, one in enumerate(by_line)]
+                by_line = [values + added(number) for number, values in enumerate(by_line)]
             pressure = np.stack(by_line, axis=-1)
-        return pressure[:, : asked.patterns]
+        return pressure[:, : microphones.patterns]
 
     def _over_ground(self, points: Array, frequency_hz: Array) -> Addition | None:
-        """What ground and barrier add at points, by index of the frequency; none on a floor."""
+        """Addition of ground and barrier at points, by index of the frequency; none on a floor."""
         by_wall = over_ground(self._task.scene, points)
         if by_wall is None:
             return None
         return lambda index: self.side.added(float(frequency_hz[index]), by_wall)
 
     def attributes(self) -> dict[str, Any]:
-        """What the result says about its solution."""
+        """Return attributes of the result on its solution."""
         side = self.side
         fine, coarse = (radiator.mesh for radiator in side.radiators)
         return {
@@ -126,7 +128,7 @@ def _check_receivers(side: RevolutionSide, task: Task) -> None:
     for name, position in task.positions.items():
         if not side.clear(position[None, :])[0]:
             raise ParameterError(
-                f"receivers.{name}: stands under the floor or on the wall of the machine"
+                f"receivers.{name}: is under the floor or on the wall of the machine"
             )
 
 
@@ -162,17 +164,17 @@ def addition(
     greens: Sequence[BoxField],
     expected: Sequence[BoxField],
 ) -> Addition:
-    """What k-Wave's Green's functions add to each microphone's pressure at a frequency."""
+    """Return what k-Wave's Green's functions add to each microphone's pressure at a frequency."""
     points = np.concatenate([box.inner, box.outer])
     pairs = len(box.inner)
     couples = list(zip(greens, expected, strict=True))
     inner = box.weights * np.array([green.inner - exact.inner for green, exact in couples])
     outer = box.weights * np.array([green.outer - exact.outer for green, exact in couples])
 
-    def at(index: int) -> ComplexArray:
+    def pressure_added(index: int) -> ComplexArray:
         pressure = side.finer_pressures(float(table_hz[index]), points)
         added: ComplexArray = outer[:, index] @ pressure[:pairs]
         added -= inner[:, index] @ pressure[pairs:]
         return added
 
-    return at
+    return pressure_added

@@ -1,4 +1,4 @@
-"""What ground and barrier change of the sound of a body of revolution on a hard floor.
+"""Change of the sound of a body of revolution on a hard floor by ground and barrier.
 
 The wall's pressure is that over the hard floor. Over it and its velocity the difference of both
 Green's functions is integrated; that has no singularity above the ground, as its sources are images
@@ -18,16 +18,17 @@ from .mesh import Mesh
 from .radiator import Radiator, WallPressure
 
 _STEP_M: Final = 1e-3
-"""To both sides of the wall, of the normal derivative."""
+"""Step to both sides of the wall for the normal derivative."""
 _MORE_ANGLES: Final = 48
-"""Than twice the orders."""
+"""More angles than twice the orders."""
 
 AtFrequency = Callable[[Radiator, WallPressure], ComplexArray]
-"""From what a frequency gives on the wall to what is added to pressures, (point, pattern)."""
+"""Function of values on the wall at a frequency to the addition to pressures, (point, pattern)."""
 
 
 def over_ground(scene: Scene, points: Array) -> AtFrequency | None:
-    """What is added to the pressure over the hard floor at points (point, 3); none on a floor."""
+    """Return the addition to the pressure over the hard floor at points (point, 3); none on a
+    floor."""
     outdoors = scene.outdoors
     if outdoors is None:
         return None

@@ -31,7 +31,7 @@ class OrderColumns:
     """Columns of one order that some patterns have."""
 
     pattern: IndexArray
-    """Which pattern each column belongs to, (column,)."""
+    """Pattern of each column, (column,)."""
     sine: IndexArray
     """0 where the column is the cosine's, 1 where it is the sine's, (column,)."""
     velocity: Array
@@ -44,7 +44,7 @@ class WallPressure:
 
     frequency_hz: float
     orders: list[ComplexArray]
-    """At the nodes per unit of each pattern, Pa, (node, column) of each order."""
+    """Orders at the nodes per unit of each pattern, Pa, (node, column) of each order."""
 
 
 class Radiator:
@@ -101,7 +101,7 @@ def wall_pressure(
 
     Parameters
     ----------
-    mesh : of the meridian
+    mesh : mesh of the meridian
     null : points in the body where the field vanishes, (point, 2), m
     wavenumber : rad/m
     velocity : normal velocity at the nodes, (node, column) of each order, m/s
@@ -186,10 +186,10 @@ def _normal_velocity(mesh: Mesh, pattern: Pattern) -> Array:
     position, normal = _turned(mesh.points, angle), _turned(mesh.normals, angle)
     number = len(position)
     area = np.repeat(mesh.weights * mesh.points[:, 0], _ANGLES) * (2.0 * np.pi / _ANGLES)
-    at = SurfacePoints(
+    points = SurfacePoints(
         position, normal, area, np.zeros(number, dtype=np.intp), np.full((number, 3), 1.0 / 3.0)
     )
-    velocity = np.asarray(pattern.velocity(at), dtype=float)
+    velocity = np.asarray(pattern.velocity(points), dtype=float)
     return np.asarray(np.einsum("pi,pi->p", velocity, normal).reshape(-1, _ANGLES))
 
 

@@ -1,6 +1,6 @@
 """The field of a ring by Fourier orders: Green's function integrated around the axis.
 
-Of G = exp(-jkR)/(4 pi R) with R² = d² + 4 r r' sin²(t/2), d the distance in the meridian's plane,
+With G = exp(-jkR)/(4 pi R) and R² = d² + 4 r r' sin²(t/2), d the distance in the meridian's plane,
 and of its derivative along the ring's normal. Far rings take the midpoint rule, which converges
 exponentially; for near ones t = w sinh(u), w = d/sqrt(r r'), moves the poles at R = 0 to
 u = ± j pi/2, so that Gauss's rule converges as well, however small d is (Johnston and Elliott,
@@ -19,7 +19,7 @@ from ..arrays import Array, IndexArray
 _MIDPOINTS: Final = (8, 12, 16, 24, 32, 40, 48, 64, 80, 96, 128, 160, 192, 256, 384, 512)
 _GAUSS: Final = (8, 12, 16, 20, 24, 28, 32, 40, 48, 64, 80, 96, 128, 160, 192, 256, 384, 512)
 DIGITS: Final = 20.0
-"""Of the rules, as a natural logarithm: 2e-9."""
+"""Digits of the rules, as a natural logarithm: 2e-9."""
 
 
 class Rules(NamedTuple):
@@ -29,7 +29,7 @@ class Rules(NamedTuple):
     """Number of points of each midpoint rule."""
     starts: IndexArray
     cosines: Array
-    """Of the orders 0, 1, ... at each point, (point, order)."""
+    """Cosines of the orders 0, 1, ... at each point, (point, order)."""
     half_sines: Array
     """Squared sine of half the angle, (point,)."""
     gauss: IndexArray

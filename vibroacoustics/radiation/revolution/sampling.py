@@ -19,11 +19,11 @@ TOLERANCE: Final = 1e-3
 _FIRST_HZ: Final = 200.0
 """Distance of the frequencies solved first."""
 _GAIN: Final = 16.0
-"""Error at a solved frequency that is left out over that beside it, about; 2⁶ for fine steps."""
+"""Error at an omitted solved frequency over that beside it, about; 2⁶ for fine steps."""
 _DEGREE: Final = 5
 
 Solve = Callable[[IndexArray], tuple[ComplexArray, Array]]
-"""From indices of frequencies to pressures and their errors, (index, receiver, pattern)."""
+"""Function of indices of frequencies to pressures and their errors, (index, receiver, pattern)."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ def interpolated(
     ----------
     table_hz : shape (frequency,)
     delay_s : shape (receiver,)
-    solved : indices of the solved frequencies
+    solved : indices of the solved frequencies, shape (solved,)
     pressure : there, shape (solved, receiver, pattern), Pa
     """
     smooth, beside = _smooth_and_error(table_hz[solved], delay_s, pressure)
@@ -110,15 +110,17 @@ def _trend(frequency_hz: Array, delay_s: Array) -> ComplexArray:
 
 
 def _spline(frequency_hz: Array, smooth: ComplexArray, wanted_hz: Array) -> ComplexArray:
-    """Through both halves of the spectrum."""
-    both = np.concatenate([-frequency_hz[::-1], frequency_hz])
+    """Spline through both halves of the spectrum."""
+    two_sided_hz = np.concatenate([-frequency_hz[::-1], frequency_hz])
     values = np.concatenate([smooth[::-1].conj(), smooth])
-    degree = min(_DEGREE, both.size - 1)
-    return np.asarray(make_interp_spline(both, values, k=degree - 1 + degree % 2)(wanted_hz))
+    degree = min(_DEGREE, two_sided_hz.size - 1)
+    return np.asarray(
+        make_interp_spline(two_sided_hz, values, k=degree - 1 + degree % 2)(wanted_hz)
+    )
 
 
 def _left_out(frequency_hz: Array, smooth: ComplexArray) -> Array:
-    """What every solved frequency but the last errs by where it is left out with every other."""
+    """Error at every solved frequency but the last, if it is omitted with every other one."""
     error = np.zeros(smooth.shape)
     for start in (0, 1):
         out = np.arange(start, frequency_hz.size - 1, 2)

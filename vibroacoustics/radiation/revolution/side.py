@@ -24,7 +24,7 @@ from .radiator import Radiator, WallPressure
 from .sampling import Sampled, first_solved, interpolated, sample
 
 _ELEMENTS: Final = 20
-"""On the meridian, at least."""
+"""Least number of elements on the meridian."""
 _ELEMENTS_PER_WAVE: Final = 1.5
 _GRADINGS: Final = 2
 _COARSENING: Final = 1.25
@@ -33,14 +33,14 @@ _ERROR: Final = 0.75
 _QUADRATURE: Final = 3e-8
 """Error of the rules that both meshes share, over the largest pressure."""
 _CLOSEST_M: Final = 1e-3
-"""To the wall that pressures are asked for."""
+"""Least distance from the wall to points with pressures."""
 _SOLVED: Final = 3
 """Times as many as at first are solved in all, about; how many is not known before."""
 _FREQUENCIES: Final = 200
 """Whose wall pressures memory is reckoned with."""
 
 Addition = Callable[[int], ComplexArray]
-"""From the index of a tabulated frequency to what is added to pressures, (point, pattern)."""
+"""Function of the index of a tabulated frequency to the addition to pressures, (point, pattern)."""
 
 
 class RevolutionSide:
@@ -83,7 +83,7 @@ class RevolutionSide:
 
     @cached_property
     def radiators(self) -> list[Radiator]:
-        """On the finer mesh and on the coarser one."""
+        """Radiators on the finer mesh and on the coarser one."""
         return [self.finer, Radiator(self._coarser, self._patterns, self.floor_z_m)]
 
     @property
@@ -112,12 +112,14 @@ class RevolutionSide:
         return self.radiators[0].pressures(self._walls(frequency_hz)[0], points)
 
     def added(self, frequency_hz: float, by_wall: AtFrequency) -> ComplexArray:
-        """What the finer mesh's wall adds besides, (point, pattern), Pa."""
+        """Return the further pressure by the finer mesh's wall, (point, pattern), Pa."""
         return by_wall(self.radiators[0], self._walls(frequency_hz)[0])
 
     def _walls(self, frequency_hz: float) -> list[WallPressure]:
         if frequency_hz not in self._solved:
-            self._solved[frequency_hz] = [one.solve(frequency_hz) for one in self.radiators]
+            self._solved[frequency_hz] = [
+                radiator.solve(frequency_hz) for radiator in self.radiators
+            ]
         return self._solved[frequency_hz]
 
     def spectrum(
@@ -132,7 +134,7 @@ class RevolutionSide:
         delay_s, done, lock = self.delays_s(points), list[int](), Lock()
         expected = min(_SOLVED * first_solved(table_hz).size, table_hz.size)
 
-        def at(index: int) -> tuple[ComplexArray, Array]:
+        def pressures_at(index: int) -> tuple[ComplexArray, Array]:
             pressure, error = self.pressures(float(table_hz[index]), points)
             return (pressure if addition is None else pressure + addition(index)), error
 
@@ -140,7 +142,7 @@ class RevolutionSide:
             total = max(expected, len(done) + indices.size)
 
             def counted(index: int) -> tuple[ComplexArray, Array]:
-                result = at(index)
+                result = pressures_at(index)
                 with lock:
                     done.append(index)
                     progress(name, min(len(done), total - 1), total)
@@ -168,10 +170,10 @@ class RevolutionSide:
 
         Parameters
         ----------
-        pressure : of `spectrum`
+        pressure : result of `spectrum`
         addition : to them
-        points, table_hz : those of the pressures
-        name, progress : of the advance
+        points, table_hz : points (point, 3) and frequencies (frequency,) of the pressures
+        name, progress : name and progress of the computation
         """
         indices = first_solved(table_hz)
         progress(name, 0, indices.size)

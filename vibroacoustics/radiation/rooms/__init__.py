@@ -6,7 +6,7 @@
 from .diffuse import (
     DiffuseRoom,
     blend,
-    gain_at_place_db,
+    gain_at_position_db,
     line_of_sight,
     mean_square_per_power,
 )
@@ -29,7 +29,7 @@ __all__ = [
     "RoomResponse",
     "RoomSettings",
     "blend",
-    "gain_at_place_db",
+    "gain_at_position_db",
     "line_of_sight",
     "mean_square_per_power",
     "read_library",

@@ -24,13 +24,14 @@ from .layout import (
 from .wall_step import WallPatch, Walls, pass_walls
 
 _LARGEST_PHASE: Final = 2.8
-"""Of the highest term in a step, rad, where the search for the time step begins."""
+"""Phase of the highest term in a step, rad, where the search for the time step begins."""
 _LARGEST_EIGENVALUE: Final = 3.9
-"""Of a step's operator without walls' resistance: from 4 on, terms grow."""
+"""Eigenvalue of a step's operator without walls' resistance: from 4 on, terms grow."""
 
 
 class Air:
-    """Pressure of all boxes as cosine series, with fluxes through seams and into walls."""
+    """Pressure of all boxes as cosine series, with fluxes through joints of boxes and into
+    walls."""
 
     def __init__(
         self,
@@ -42,7 +43,7 @@ class Air:
         self.boxes, self.time_step_s = boxes, time_step_s
         self._layout = plan = layout(boxes, faces)
         self.terms = np.zeros(plan.terms[-1])
-        """Of the series now, box after box."""
+        """Terms of the series now, box after box."""
         self._before = np.zeros_like(self.terms)
         self._turn = 2.0 * np.cos(plan.omega * time_step_s)
         reach = SPEED_OF_SOUND_M_PER_S * time_step_s
@@ -65,8 +66,10 @@ class Air:
         """Let a monopole act at a point of a box: what `force` gives to series and nodes."""
         plan, air = self._layout, self.boxes[box]
         of = [(float(size), count) for size, count in zip(air.size, air.nodes, strict=True)]
-        at = point - air.lower
-        lines = [cosines(at[[axis]], *of[axis])[0] * inverse_norms(*of[axis]) for axis in range(3)]
+        offset = point - air.lower
+        lines = [
+            cosines(offset[[axis]], *of[axis])[0] * inverse_norms(*of[axis]) for axis in range(3)
+        ]
         first, last = plan.terms[box], plan.terms[box + 1]
         self._push[:] = 0.0
         self._push[first:last] = np.einsum("i,j,k->ijk", *lines).ravel()
@@ -74,7 +77,7 @@ class Air:
         planes = np.zeros(plan.side_terms)
         for axis in range(3):
             across = np.outer(*(lines[other] for other in range(3) if other != axis))
-            for end, from_end in enumerate((at[axis], of[axis][0] - at[axis])):
+            for end, from_end in enumerate((offset[axis], of[axis][0] - offset[axis])):
                 lacking, _ = left_out(np.array([from_end]), *of[axis], self.time_step_s)
                 start = plan.sides[box, axis, end]
                 planes[start : start + across.size] = lacking[0] * across.ravel()
@@ -98,7 +101,7 @@ class Air:
 
     @property
     def plan(self) -> Layout:
-        """Where in `terms` and `flux` everything stands."""
+        """Layout of `terms` and `flux`."""
         return self._layout
 
     @property
@@ -107,7 +110,8 @@ class Air:
         return self._flux
 
     def operator(self, terms: Array) -> Array:
-        """What a step of the air without resistance takes from a series: 2 now - before - M now.
+        """Return the change of a series in a step of the air without resistance: 2 now - before - M
+        now.
 
         Walls are nothing but their mass of air: whatever passive stands behind it lowers the
         largest eigenvalue of M.
@@ -161,7 +165,7 @@ def _mass_m(
 def _seams(
     boxes: Sequence[AirBox], faces: Sequence[Face], plan: Layout, masses: Sequence[float]
 ) -> tuple[IndexArray, Array]:
-    """First nodes of both ends of every seam and their number; 1/(d1 + d2) by node, 1/m."""
+    """First nodes of both ends of every joint and their number; 1/(d1 + d2) by node, 1/m."""
     rows, give, row = [], np.zeros(plan.nodes), 0
     for face, mass in zip(faces, masses, strict=True):
         if len(face.ends) == 2:
@@ -185,7 +189,8 @@ def _patches(faces: Sequence[Face], plan: Layout, masses: Sequence[float]) -> li
 
 
 def largest_eigenvalue(air: Air) -> float:
-    """Of a step's operator: Lanczos iteration, an upper bound to its tolerance."""
+    """Largest eigenvalue of a step's operator: Lanczos iteration, an upper bound to its
+    tolerance."""
     from scipy.sparse.linalg import LinearOperator, eigsh
 
     factors = air.balance()

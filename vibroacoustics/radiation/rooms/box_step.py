@@ -41,7 +41,7 @@ def sum_on_sides(
 
 @kernel
 def _ends_of_parities(planes: Any) -> None:  # pragma: no cover
-    """From even and odd terms to values at the lower and the upper end, and back but for 1/2."""
+    """Change even and odd terms to values at the lower and the upper end, and back but for 1/2."""
     for i in range(planes.shape[1]):
         for j in range(planes.shape[2]):
             even, odd = planes[0, i, j], planes[1, i, j]
@@ -54,13 +54,13 @@ def to_nodes(
 ) -> None:  # pragma: no cover
     """Pressure at the nodes of every end of a face."""
     for end in range(ends.shape[0]):
-        side, n1, n2, node, m1, m2, left, right, _, _, left_out = ends[end]
+        side, n1, n2, node, m1, m2, left_start, right, _, _, left_out = ends[end]
         if left_out:
             pressure[node : node + m1 * m2] = sums[side : side + n1 * n2]
             continue
         plane = sums[side : side + n1 * n2].reshape(n1, n2)
         half = work[: m1 * n2].reshape(m1, n2)
-        np.dot(matrices[left : left + m1 * n1].reshape(m1, n1), plane, half)
+        np.dot(matrices[left_start : left_start + m1 * n1].reshape(m1, n1), plane, half)
         nodes = pressure[node : node + m1 * m2].reshape(m1, m2)
         np.dot(half, matrices[right : right + n2 * m2].reshape(n2, m2), nodes)
 
@@ -72,7 +72,7 @@ def to_sides(
     """Flux of every side of the boxes from that at the nodes of its faces."""
     sides[:] = 0.0
     for end in range(ends.shape[0]):
-        side, n1, n2, node, m1, m2, _, _, left, right, left_out = ends[end]
+        side, n1, n2, node, m1, m2, _, _, left_start, right, left_out = ends[end]
         plane = sides[side : side + n1 * n2]
         if left_out:
             plane += flux[node : node + m1 * m2]
@@ -81,7 +81,7 @@ def to_sides(
         half = work[: m1 * n2].reshape(m1, n2)
         np.dot(nodes, matrices[right : right + m2 * n2].reshape(m2, n2), half)
         product = work[m1 * n2 : m1 * n2 + n1 * n2].reshape(n1, n2)
-        np.dot(matrices[left : left + n1 * m1].reshape(n1, m1), half, product)
+        np.dot(matrices[left_start : left_start + n1 * m1].reshape(n1, m1), half, product)
         plane += product.ravel()
 
 
@@ -122,12 +122,12 @@ def step_series(
 
 @kernel
 def pass_seams(pressure: Any, flux: Any, seams: Any, give: Any) -> None:  # pragma: no cover
-    """Change of flux through seams by the difference of pressure across them.
+    """Change of flux through joints of boxes by the difference of pressure across them.
 
-    `seams` holds the first node of both ends and their number; `give` is c dt/(d1 + d2) by node.
+    `joints` holds the first node of both ends and their number; `give` is c dt/(d1 + d2) by node.
     """
-    for seam in range(seams.shape[0]):
-        first, second, count = seams[seam]
+    for joint in range(seams.shape[0]):
+        first, second, count = seams[joint]
         for node in range(count):
             change = give[first + node] * (pressure[first + node] - pressure[second + node])
             flux[first + node] = change

@@ -1,4 +1,4 @@
-"""What the waves of a study's room will take: a few steps of its air are timed."""
+"""Cost of the waves of a study's room: a few steps of its air are timed."""
 
 from math import ceil
 from typing import Final
@@ -30,7 +30,7 @@ def room_cost(study: Study, settings: StudyRoom) -> Cost:
     Raises
     ------
     ParameterError
-        As `room_vectors`.
+        See `room_vectors`.
     """
     waves, ears = RoomSettings(settings.maximum_frequency_hz), listeners_m(settings)
     shell, radiation = study.machine.shell, study.radiation

@@ -35,7 +35,7 @@ class AirBox:
 
     @property
     def spacing(self) -> Array:
-        """Of the nodes, m."""
+        """Spacing of the nodes, m."""
         return np.asarray(self.size / np.array(self.nodes))
 
 
@@ -50,10 +50,10 @@ class End:
 
 @dataclass(frozen=True)
 class Face:
-    """A rectangle where air ends: a seam between two boxes, or a wall behind one."""
+    """A rectangle where air ends: a joint between two boxes, or a wall behind one."""
 
     ends: tuple[End, ...]
-    """Two of a seam, of which the first lies below; one of a wall."""
+    """Two boxes at a joint, of which the first lies below; one at a wall."""
     lower: Array
     """Corner along the two axes of the face, in their order, m, (2,)."""
     upper: Array
@@ -92,8 +92,8 @@ def _planes(room: Room) -> list[Array]:
     """Planes of walls and blocks along each axis, rising; those of one place once."""
     lines = []
     for axis, size in enumerate(room.size_m):
-        at = [edge for block in room.blocks for edge in (block.lower[axis], block.upper[axis])]
-        line = np.unique(np.clip([0.0, size, *at], 0.0, size))
+        edges = [edge for block in room.blocks for edge in (block.lower[axis], block.upper[axis])]
+        line = np.unique(np.clip([0.0, size, *edges], 0.0, size))
         lines.append(line[np.append(True, np.diff(line) > _SAME_PLANE_M)])
     return lines
 
@@ -149,8 +149,8 @@ def _walls_of_side(room: Room, box: AirBox, side: End, lines: list[Array]) -> It
         if material is None or material.hard:
             continue
         chosen = np.zeros((middles[0].size, middles[1].size), dtype=bool)
-        for cell, one in behind.items():
-            chosen[cell] = one == material
+        for cell, behind_cell in behind.items():
+            chosen[cell] = behind_cell == material
         for ranges in rectangles(chosen, lines):
             lower = np.array([line[a] for line, (a, _) in zip(lines, ranges, strict=True)])
             upper = np.array([line[b] for line, (_, b) in zip(lines, ranges, strict=True)])
@@ -158,16 +158,16 @@ def _walls_of_side(room: Room, box: AirBox, side: End, lines: list[Array]) -> It
 
 
 def _lines_across(room: Room, box: AirBox, axis: int, other: int) -> Array:
-    """Where a side of a box across `axis` is cut along another axis."""
+    """Cuts of a side of a box across `axis` along another axis."""
     from .room import SIDES
 
-    at = [edge for block in room.blocks for edge in (block.lower[other], block.upper[other])]
+    edges = [edge for block in room.blocks for edge in (block.lower[other], block.upper[other])]
     for patch in room.patches:
         if SIDES[patch.side][0] == axis:
-            row = [one for one in range(3) if one != axis].index(other)
-            at += [patch.lower[row], patch.upper[row]]
+            row = [other_axis for other_axis in range(3) if other_axis != axis].index(other)
+            edges += [patch.lower[row], patch.upper[row]]
     low, high = box.lower[other], box.upper[other]
-    line = np.unique(np.clip([low, high, *at], low, high))
+    line = np.unique(np.clip([low, high, *edges], low, high))
     kept: Array = line[np.append(True, np.diff(line) > _SAME_PLANE_M)]
     kept[-1] = high
     return kept
@@ -175,10 +175,10 @@ def _lines_across(room: Room, box: AirBox, axis: int, other: int) -> Array:
 
 def rectangles(chosen: NDArray[np.bool_], lines: list[Array]) -> Iterator[Ranges]:
     """Rectangles that cover the chosen cells once; `lines` bound the cells along each axis, m."""
-    left = chosen.copy()
-    while left.any():
-        ranges = _largest(left, lines)
-        left[tuple(slice(*one) for one in ranges)] = False
+    remaining = chosen.copy()
+    while remaining.any():
+        ranges = _largest(remaining, lines)
+        remaining[tuple(slice(*span) for span in ranges)] = False
         yield ranges
 
 

@@ -1,4 +1,4 @@
-"""The diffuse field of a room, where waves are not computed, and its seam to the waves."""
+"""The diffuse field of a room, where waves are not computed, and its crossover to the waves."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -11,30 +11,30 @@ from ..arrays import Array
 from .cutting import cut, faces
 from .room import OCTAVES_HZ, WAVE_OCTAVES, Room
 
-SEAM_HZ: Final = (400.0, 630.0)
-"""Below, waves alone; above, the diffuse field alone."""
+CROSSOVER_HZ: Final = (400.0, 630.0)
+"""Crossover frequencies: below, waves alone; above, the diffuse field alone."""
 _MOST_MEAN_ABSORPTION: Final = 0.99
 _NEAREST_M: Final = 0.05
 _AIR_TEMPERATURE_K: Final = 293.15
 _AIR_HUMIDITY_RATIO: Final = 0.5
 LONGEST_S: Final = 5.0
-"""Of rooms that hardly absorb."""
+"""Longest reverberation time, of rooms that hardly absorb."""
 
 
 @dataclass(frozen=True)
 class DiffuseRoom:
-    """What a diffuse field asks of a room."""
+    """Room for a diffuse field."""
 
     absorption_area_m2: Array
-    """By octave from 63 Hz to 4 kHz, (octave,)."""
+    """Absorption area by octave from 63 Hz to 4 kHz, (octave,)."""
     surface_m2: float
-    """Of walls and blocks."""
+    """Surface of walls and blocks."""
     volume_m3: float
-    """Of the air."""
+    """Volume of the air."""
 
     @classmethod
     def of(cls, room: Room) -> "DiffuseRoom":
-        """Of a room."""
+        """Return the diffuse room of a room."""
         return cls(absorption_area_m2(room), surface_m2(room), volume_m3(room))
 
     def area_m2(self, frequency_hz: Array) -> Array:
@@ -54,7 +54,7 @@ class DiffuseRoom:
         return np.asarray(area / (1.0 - np.minimum(area / self.surface_m2, _MOST_MEAN_ABSORPTION)))
 
     def reverberation_time_s(self, frequency_hz: Array) -> Array:
-        """Of walls and air, T = 24 ln 10 V/(c A), (frequency,), s; 5 s at most.
+        """Reverberation time of walls and air, T = 24 ln 10 V/(c A), (frequency,), s; 5 s at most.
 
         H. Kuttruff, Room Acoustics, 6th edition (2016), equation 5.25 (Sabine).
         """
@@ -98,11 +98,11 @@ def direct_per_power(distance_m: float, in_sight: bool) -> float:
 
 def line_of_sight(room: Room, start: Array, end: Array) -> bool:
     """Whether no block stands between two points (3,)."""
-    way = np.subtract(end, start)
+    path = np.subtract(end, start)
     for block in room.blocks:
         with np.errstate(divide="ignore", invalid="ignore"):
-            to_planes = np.array([block.lower, block.upper] - np.asarray(start)) / way
-        parallel = way == 0.0
+            to_planes = np.array([block.lower, block.upper] - np.asarray(start)) / path
+        parallel = path == 0.0
         beside = (np.asarray(start) <= block.lower) | (np.asarray(start) >= block.upper)
         if np.any(parallel & beside):
             continue
@@ -119,23 +119,23 @@ def blend(frequency_hz: Array) -> Array:
     3 x² - 2 x³ over the logarithm of the frequency. With it, mean squares of the waves and of the
     diffuse field are added.
     """
-    low, high = np.log(SEAM_HZ)
+    low, high = np.log(CROSSOVER_HZ)
     with np.errstate(divide="ignore"):
         x = np.clip((np.log(frequency_hz) - low) / (high - low), 0.0, 1.0)
     return np.asarray(x**2 * (3.0 - 2.0 * x))
 
 
-def gain_at_place_db(waves: Array, diffuse: Array) -> float:
+def gain_at_position_db(waves: Array, diffuse: Array) -> float:
     """Level of the waves above the diffuse field, dB: what the place does to the power sent out.
 
     A machine in a corner or a niche sends out another power than in the open. The mean of the
     ratios of both mean squares over all listeners and third octaves; added to the diffuse field,
-    both have the same energy at the seam.
+    both have the same energy at the crossover.
 
     Parameters
     ----------
     waves, diffuse : mean square pressures (listener, third octave), Pa²; those without sound
-        are left out
+        are omitted
     """
     sounding = (waves > 0.0) & (diffuse > 0.0)
     if not sounding.any():
@@ -144,7 +144,7 @@ def gain_at_place_db(waves: Array, diffuse: Array) -> float:
 
 
 def air_attenuation_per_m(frequency_hz: Array) -> Array:
-    """Attenuation of the intensity by air at 20 °C, 50 % and 101.325 kPa, m in exp(-m x), 1/m.
+    """Attenuation of the intensity in air at 20 °C, 50 % and 101.325 kPa, m in exp(-m x), 1/m.
 
     ISO 9613-1:1993, equations 3 to 6.
     """
@@ -166,7 +166,7 @@ def air_attenuation_per_m(frequency_hz: Array) -> Array:
 
 
 def volume_m3(room: Room) -> float:
-    """Of the air, m³."""
+    """Return the volume of the air, m³."""
     return float(sum(np.prod(box.size) for box in cut(room, np.inf, least_nodes=1)))
 
 

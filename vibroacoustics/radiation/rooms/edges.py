@@ -31,7 +31,7 @@ def interface_air_m(
 
     Parameters
     ----------
-    boxes : of the air
+    boxes : boxes of the air
     face : interface between two of them
     nodes : its nodes along both axes
     air_m : length of air at a node away from edges, m

@@ -47,7 +47,7 @@ class Branches:
         return np.asarray(-parts / parts.sum(axis=1, keepdims=True) ** 2)
 
     def _impedances(self, frequency_hz: Array) -> ComplexArray:
-        """Of mass, resistance and spring, (frequency, part, branch)."""
+        """Impedances of mass, resistance and spring, (frequency, part, branch)."""
         s = 2j * np.pi * np.asarray(frequency_hz, dtype=float)[:, None]
         parts: ComplexArray = np.stack(
             np.broadcast_arrays(s * self.mass, self.resistance, self.spring / s), axis=1
@@ -79,7 +79,7 @@ def random_absorption_slopes(admittance: ComplexArray) -> tuple[Array, Array]:
 
     Parameters
     ----------
-    admittance : of rho c, (frequency,)
+    admittance : admittance times rho c, (frequency,)
     """
     node, weight = _quadrature()
     cosine = (node + 1.0) / 2.0

@@ -10,7 +10,7 @@ from ..arrays import Array, ComplexArray
 from .lattice import Lattice
 
 _MORE_NODES: Final = 6
-"""Of the quadrature, beyond those that waves along the side need."""
+"""More nodes of the quadrature, beyond those that waves along the side need."""
 _QUADRATURE: Final = 1e-4
 """Error of the quadrature by what radiates or scatters close to the box."""
 
@@ -18,14 +18,14 @@ _QUADRATURE: Final = 1e-4
 class JoinBox:
     """Points on the six sides of a box: nodes of Gauss-Legendre quadrature.
 
-    The sides may pass through seams and stand near walls and blocks, but lie in the air.
+    The sides may pass through joints of boxes and stand near walls and blocks, but lie in the air.
 
     Parameters
     ----------
     lower, upper : corners (3,), m
-    maximum_frequency_hz : of the waves
+    maximum_frequency_hz : maximum frequency of the waves
     clearance_m : between the sides and the body in the box: the closer, the more nodes
-    on_floor : whether the box stands on something hard: its lowest side is left out, where neither
+    on_floor : whether the box stands on something hard: its lowest side is omitted, where neither
         the field nor the Green's function has a slope
     """
 
@@ -38,7 +38,7 @@ class JoinBox:
         on_floor: bool = False,
     ) -> None:
         self.lattices: list[Lattice] = []
-        """Of each side, for `room_transfer`."""
+        """Lattice of each side, for `room_transfer`."""
         self.axes: list[int] = []
         """Across each side."""
         self.weights: list[Array] = []
@@ -54,18 +54,18 @@ class JoinBox:
             for sign, level in ((-1.0, lower[axis]), (1.0, upper[axis])):
                 if on_floor and (axis, sign) == (2, -1.0):
                     continue
-                at, by = list(lines), list(weights)
-                at[axis], by[axis] = np.array([level]), np.array([sign])
-                self.lattices.append(Lattice(at[0], at[1], at[2]))
+                coordinates, by = list(lines), list(weights)
+                coordinates[axis], by[axis] = np.array([level]), np.array([sign])
+                self.lattices.append(Lattice(coordinates[0], coordinates[1], coordinates[2]))
                 self.weights.append(np.einsum("i,j,k->ijk", *by).ravel())
                 self.axes.append(axis)
 
     @property
     def points(self) -> list[Array]:
-        """Of each side, (point, 3), m."""
+        """Points of each side, (point, 3), m."""
         return [
-            np.stack(np.meshgrid(*one.lines, indexing="ij"), axis=-1).reshape(-1, 3)
-            for one in self.lattices
+            np.stack(np.meshgrid(*lattice.lines, indexing="ij"), axis=-1).reshape(-1, 3)
+            for lattice in self.lattices
         ]
 
     def join(

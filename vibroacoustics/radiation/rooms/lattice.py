@@ -14,25 +14,25 @@ from .layout import cosines, left_out, series_mass_m, slopes
 
 _EDGE_M = 1e-9
 _NEGLIGIBLE: Final = 0.01
-"""Share of what a series lacks at its end: sides that matter less to the points are left out."""
+"""Share of what a series lacks at its end: sides that matter less to the points are omitted."""
 
 
 @dataclass(frozen=True)
 class Piece:
     """A quantity at rows and columns of points in a box.
 
-    Series alone would be wrong near seams and walls by the pressure that drives the flux through
-    them: the terms that are left out are added from the fluxes. That is also how a source acts, so
+    Series alone would be wrong near joints and walls by the pressure that drives the flux through
+    them: the omitted terms are added from the fluxes. That is also how a source acts, so
     that source and point may be exchanged.
     """
 
     box: int
     bases: tuple[Array, Array, Array]
-    """From terms to points along each axis, (point, term)."""
+    """Bases from terms to points along each axis, (point, term)."""
     near: tuple[tuple[int, int, Array], ...]
     """Sides that matter: axis, end, and what the series lacks along the axis, (point,)."""
     result_rows: IndexArray
-    """Of the points in what is read, (point,)."""
+    """Rows of the points in what is read, (point,)."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Lattice:
 
     @property
     def lines(self) -> tuple[Array, Array, Array]:
-        """Along each axis."""
+        """Lines along each axis."""
         return self.x, self.y, self.z
 
     @property
@@ -61,7 +61,7 @@ class Lattice:
 
 
 def holding(boxes: Sequence[AirBox], point: Array, name: str = "room") -> int:
-    """Which box of air holds a point, the first of those that share it.
+    """Return the box of air that holds a point, the first of those that share it.
 
     Raises
     ------
@@ -81,11 +81,11 @@ def pieces_of(
     lattice: Lattice,
     time_step_s: float,
     quantities: Sequence[int],
-    first_place: int = 0,
+    first_index: int = 0,
 ) -> list[Piece]:
     """Pressure (-1) and derivatives by axis at a lattice, by box of air.
 
-    Places are those of a flat array (quantity, x, y, z) that begins at `first_place`.
+    Indices are those of a flat array (quantity, x, y, z) that begins at `first_index`.
 
     Raises
     ------
@@ -93,22 +93,22 @@ def pieces_of(
         A point lies in a block or outside the room.
     """
     shape = (len(quantities), *lattice.shape)
-    result_rows: IndexArray = first_place + np.arange(int(np.prod(shape))).reshape(shape)
-    left, pieces = np.ones(lattice.shape, dtype=bool), []
+    result_rows: IndexArray = first_index + np.arange(int(np.prod(shape))).reshape(shape)
+    remaining, pieces = np.ones(lattice.shape, dtype=bool), []
     for number, box in enumerate(boxes):
-        at = [
+        indices = [
             np.flatnonzero((line >= low - _EDGE_M) & (line <= high + _EDGE_M))
             for line, low, high in zip(lattice.lines, box.lower, box.upper, strict=True)
         ]
-        if left[np.ix_(*at)].any():
-            left[np.ix_(*at)] = False
-            lines = [line[i] for line, i in zip(lattice.lines, at, strict=True)]
+        if remaining[np.ix_(*indices)].any():
+            remaining[np.ix_(*indices)] = False
+            lines = [line[i] for line, i in zip(lattice.lines, indices, strict=True)]
             pieces += [
-                piece(number, box, lines, time_step_s, quantity, of[np.ix_(*at)].ravel())
+                piece(number, box, lines, time_step_s, quantity, of[np.ix_(*indices)].ravel())
                 for quantity, of in zip(quantities, result_rows, strict=True)
             ]
-    if left.any():
-        first = np.argwhere(left)[0]
+    if remaining.any():
+        first = np.argwhere(remaining)[0]
         holding([], np.array([line[i] for line, i in zip(lattice.lines, first, strict=True)]))
     return pieces
 
@@ -126,7 +126,9 @@ def piece(
         (line - low, float(size), count)
         for line, low, size, count in zip(lines, box.lower, box.size, box.nodes, strict=True)
     ]
-    x, y, z = (slopes(*one) if axis == quantity else cosines(*one) for axis, one in enumerate(of))
+    x, y, z = (
+        slopes(*line) if axis == quantity else cosines(*line) for axis, line in enumerate(of)
+    )
     near = []
     reach = SPEED_OF_SOUND_M_PER_S * time_step_s
     for axis, (line, length, nodes) in enumerate(of):

@@ -13,13 +13,13 @@ from .cutting import AirBox, End, Face
 
 @dataclass(frozen=True)
 class Layout:
-    """Where in flat arrays everything of the boxes, their sides and the ends of faces stands.
+    """Layout of the boxes, their sides and the ends of faces in flat arrays.
 
     A side of a box has a plane of terms: sums of the series over its axis, and a flux. An end of a
     face has nodes, where pressures are compared and fluxes act. From terms to nodes leads a matrix
     for each axis of the face, and back another: the transposed one with the nodes' widths and the
     terms' norms. Where a face covers its sides completely with as many nodes as they have terms,
-    those transforms undo each other and are left out.
+    those transforms undo each other and are omitted.
     """
 
     shapes: IndexArray
@@ -35,7 +35,7 @@ class Layout:
     side_terms: int
     ends: IndexArray
     """Side's first term, terms along both axes, first node, nodes along both axes, first entry of
-    the four matrices, and 1 where they are left out, (end, 11)."""
+    the four matrices, and 1 where they are omitted, (end, 11)."""
     matrices: Array
     nodes: int
     omega: Array
@@ -50,7 +50,7 @@ def layout(boxes: Sequence[AirBox], faces: Sequence[Face]) -> Layout:
     norm_starts: list[int] = []
     for box in boxes:
         for length, count in zip(box.size, box.nodes, strict=True):
-            norm_starts.append(sum(one.size for one in norms))
+            norm_starts.append(sum(norm.size for norm in norms))
             norms.append(inverse_norms(float(length), count))
     planes = [
         int(np.prod(box.nodes)) // box.nodes[axis]
@@ -115,7 +115,7 @@ def _covers(box: AirBox, end: End, face: Face, counts: Sequence[int]) -> bool:
 def _matrices(
     box: AirBox, across: Sequence[int], face: Face, counts: Sequence[int]
 ) -> tuple[Array, Array, Array, Array]:
-    """To the nodes from the left and the right, and back from the left and the right."""
+    """Matrices to the nodes from the left and the right, and back from the left and the right."""
     to_nodes, back = [], []
     for row, axis in enumerate(across):
         width = (face.upper[row] - face.lower[row]) / counts[row]
@@ -129,7 +129,7 @@ def _matrices(
 
 
 def wavenumbers(length_m: float, nodes: int) -> Array:
-    """Of the terms along one axis, n pi/L, rad/m, (term,)."""
+    """Return the wavenumbers of the terms along one axis, n pi/L, rad/m, (term,)."""
     return np.asarray(np.pi * np.arange(nodes) / length_m)
 
 
@@ -159,9 +159,9 @@ def angular_frequencies(box: AirBox) -> Array:
 
 
 def flux_gain(omega: Array, time_step_s: float) -> Array:
-    """What a term takes of a flux at a wall: cos²(omega dt/2).
+    """Return the gain of a term by a flux at a wall: cos²(omega dt/2).
 
-    With fluxes in the middle of the steps a term at resonance answers to its mean flux by
+    With fluxes midway in the steps a term at resonance answers to its mean flux by
     omega/(2 tan(omega dt/2)/dt) sin(omega dt)/(omega dt) too much; this undoes it. It is the
     correction of k-Wave's sources (E. Wise, B. Treeby et al.), once for the flux and once for its
     mean over a step.
@@ -172,7 +172,8 @@ def flux_gain(omega: Array, time_step_s: float) -> Array:
 def left_out(
     points_m: Array, length_m: float, nodes: int, time_step_s: float
 ) -> tuple[Array, Array]:
-    """What a series lacks of the answer to a flux at its lower end, m; its derivative; (point,).
+    """Return what a series lacks of the answer to a flux at its lower end, m; its derivative;
+    (point,).
 
     Terms far above the frequencies of interest follow a flux at once: the pressure lacks
     P(x)/c dU/dt with P(x) = 2/L sum of cos(n pi x/L)/k² over n >= N, and what `flux_gain` takes

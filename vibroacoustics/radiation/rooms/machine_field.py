@@ -14,9 +14,9 @@ from .join_box import JoinBox
 from .record import Record
 
 _STEP_HZ: Final = 50.0
-"""Between the frequencies at which the field is computed, at most; splines run through them."""
+"""Largest step between the frequencies at which the field is computed; splines run through them."""
 _APART: Final = 0.01
-"""Of the two points of a slope, over the distance from the body to the box."""
+"""Distance of the two points of a slope, over the distance from the body to the box."""
 
 
 class MachineField:
@@ -44,7 +44,7 @@ class MachineField:
         maximum_frequency_hz: float,
         progress: Progress,
     ) -> None:
-        points = [one - origin_m for one in box.points]
+        points = [point - origin_m for point in box.points]
         self._delay_s = float(np.mean(side.delays_s(np.concatenate(points))))
         count = int(np.ceil(maximum_frequency_hz / _STEP_HZ))
         self._table_hz = maximum_frequency_hz / count * np.arange(1.0, count + 1.0)
@@ -55,13 +55,15 @@ class MachineField:
             for step in (-1.0, 1.0)
         ]
 
-        def at(number: int) -> ComplexArray:
+        def pressures_at(number: int) -> ComplexArray:
             progress("machine on its floor", number, count)
             return side.finer_pressures(float(self._table_hz[number]), np.concatenate(layers))
 
-        pressure = np.array(in_threads([partial(at, number) for number in range(count)]))
+        pressure = np.array(in_threads([partial(pressures_at, number) for number in range(count)]))
         pressure /= self._trend(self._table_hz)[:, None, None]
-        parts = np.split(pressure, np.cumsum([len(one) for one in layers])[:-1], axis=1)
+        parts = np.split(
+            pressure, np.cumsum([len(layer_points) for layer_points in layers])[:-1], axis=1
+        )
         self._splines = [
             self._spline(weights, below, above, apart)
             for weights, below, above in zip(box.weights, parts[::2], parts[1::2], strict=True)
@@ -70,15 +72,16 @@ class MachineField:
     def _spline(
         self, weights: Array, below: ComplexArray, above: ComplexArray, apart: float
     ) -> ComplexArray:
-        """What G and its slope are joined with: coefficients (power, piece, column, pattern).
+        """Spline that G and its slope are joined with: coefficients (power, piece, column,
+        pattern).
 
         Both halves of the spectrum are run through; the pieces above 0 Hz are kept.
         """
         value, slope = 0.5 * (above + below), (above - below) / apart
         joined = np.stack([-slope, value], axis=1) * weights[:, None]
         joined = joined.reshape(len(joined), -1, joined.shape[-1])
-        both = np.concatenate([-self._table_hz[::-1], self._table_hz])
-        spline = CubicSpline(both, np.concatenate([joined[::-1].conj(), joined]))
+        two_sided_hz = np.concatenate([-self._table_hz[::-1], self._table_hz])
+        spline = CubicSpline(two_sided_hz, np.concatenate([joined[::-1].conj(), joined]))
         return np.asarray(spline.c[:, self._table_hz.size - 1 :])
 
     def _trend(self, frequency_hz: Array) -> ComplexArray:

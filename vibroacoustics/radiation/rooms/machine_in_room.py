@@ -33,14 +33,15 @@ from .settings import RoomSettings
 from .standing import Standing, check_listeners, standing
 
 MOST_HZ: Final = 1000.0
-"""Of the waves in a room."""
+"""Highest frequency of the waves in a room."""
 _PADDING: Final = 2
 """Lines of the fine grid for each that the record's duration needs."""
 _MORE_LINES: Final = STENCIL_NODES // 2
-"""Above the highest frequency, for interpolation below it."""
+"""More lines above the highest frequency, for interpolation below it."""
 _POSITIONS: Final = 20
 _LEAST_RADIUS_M: Final = 1.0
-"""Of the hemisphere, which is twice the characteristic dimension of the machine or more."""
+"""Least radius of the hemisphere, which is twice the characteristic dimension of the machine or
+more."""
 
 
 def room_vectors(
@@ -62,13 +63,13 @@ def room_vectors(
 
     Parameters
     ----------
-    shell, settings : of the machine; the settings' surroundings are not asked, the room stands
-        for them
+    shell, settings : shell and settings of the machine; the room replaces the settings'
+        surroundings for them
     room : without the machine
-    foot_m : of the axis of the shell on what it stands on, in the room's coordinates, (3,); the
-        axes of machine and room are parallel
+    foot_m : foot of the axis of the shell on what it stands on, in the room's coordinates, (3,);
+        the axes of machine and room are parallel
     listeners : (3,) by name, in the room's coordinates, m
-    maximum_frequency_hz : of the waves
+    maximum_frequency_hz : maximum frequency of the waves
     motions : surface velocities besides the rigid motions
     progress : told of the advance
 
@@ -121,7 +122,7 @@ def placed(
     Raises
     ------
     ParameterError
-        As `room_vectors`.
+        See `room_vectors`.
     """
     profile = body_profile(shell, settings.body)
     if profile is None:
@@ -145,7 +146,7 @@ def _in_room(
     names: Sequence[str],
     progress: Progress,
 ) -> xr.Dataset:
-    """`room_transfer_vector` and `room_green_of_foot`, with what is told of the runs."""
+    """`room_transfer_vector` and `room_green_of_foot`, with attributes of the runs."""
     highest, clearance_m = waves.maximum_frequency_hz, stands.clearance_m
     box = JoinBox(stands.lower, stands.upper, highest, clearance_m, on_floor=True)
     boxes = cut(stands.room, waves.spacing_m)
@@ -161,13 +162,15 @@ def _in_room(
     advance = together(progress, len(listeners))
     remaining: dict[str, float] = {}
 
-    def one(name: str, position: Array) -> tuple[ComplexArray, ComplexArray]:
+    def of_listener(name: str, position: Array) -> tuple[ComplexArray, ComplexArray]:
         record = runs.record(name, position, advance)
         remaining[name] = record.remaining_db
         green = record.on_grid(len(box.lattices), length, lines)[:, 0].mean(axis=-1)
         return field.join(record, length, lines, step_hz), green
 
-    values, green = zip(*in_threads([partial(one, *of) for of in listeners.items()]), strict=True)
+    values, green = zip(
+        *in_threads([partial(of_listener, *of) for of in listeners.items()]), strict=True
+    )
     ears = {"listener": list(listeners)}
     hertz = {"room_frequency": step_hz * np.arange(1.0, lines + 1.0)}
     coords = {**ears, "pattern": list(names), **hertz}
@@ -180,7 +183,7 @@ def _in_room(
         "room_record_s": runs.samples * runs.sample_s,
         "room_remaining_db": max(remaining.values(), default=0.0),
         "room_boxes": len(boxes),
-        "room_terms": int(sum(np.prod(one.nodes) for one in boxes)),
+        "room_terms": int(sum(np.prod(grid.nodes) for grid in boxes)),
         "room_time_step_s": runs.step_s,
     }
     return xr.Dataset(arrays, attrs=attributes)
@@ -235,7 +238,7 @@ def green_of_foot(vectors: xr.Dataset) -> Callable[[Array], ComplexArray]:
     Raises
     ------
     ParameterError
-        As `room_pressure_per_velocity`.
+        Takes and gives what `room_pressure_per_velocity` does.
     """
     table = vectors["room_green_of_foot"].transpose("listener", "room_frequency")
     return _between_lines(table.values, vectors)
@@ -255,7 +258,7 @@ def _between_lines(values: ComplexArray, vectors: xr.Dataset) -> Callable[[Array
     below = turned[..., _MORE_LINES - 1 :: -1][..., -_MORE_LINES:].conj()
     around = np.concatenate([below, np.zeros((*values.shape[:-1], 1)), turned], axis=-1)
 
-    def at(frequency_hz: Array) -> ComplexArray:
+    def interpolated(frequency_hz: Array) -> ComplexArray:
         frequency_hz = np.asarray(frequency_hz, dtype=float)
         if frequency_hz.size and not (
             frequency_hz.min() >= 0.0 and frequency_hz.max() <= highest_hz * (1.0 + 1e-9)
@@ -273,4 +276,4 @@ def _between_lines(values: ComplexArray, vectors: xr.Dataset) -> Callable[[Array
         result *= np.exp(-2j * np.pi * frequency_hz * middle_s)
         return result
 
-    return at
+    return interpolated

@@ -21,12 +21,12 @@ from ..interpolation import interpolant
 from ..patterns import SurfaceMotion
 from ..transfer_vectors import cache_key_material
 from .diffuse import (
-    SEAM_HZ,
+    CROSSOVER_HZ,
     DiffuseRoom,
     absorption_area_m2,
     blend,
     direct_per_power,
-    gain_at_place_db,
+    gain_at_position_db,
     line_of_sight,
     mean_square_per_power,
 )
@@ -40,7 +40,7 @@ _KEPT: Final = 8
 SHOWN_FROM_HZ: Final = 250.0
 """Lowest third octave in which both methods are shown."""
 PressureAt = Callable[[Array], ComplexArray]
-"""Of frequencies, (frequency,), to (place, pattern, frequency), Pa per unit velocity."""
+"""Function of frequencies, (frequency,), to (place, pattern, frequency), Pa per unit velocity."""
 
 
 @dataclass(frozen=True)
@@ -63,24 +63,24 @@ def room_of(settings: StudyRoom) -> Room:
         settings.size_m,
         {side: _material(side, covering) for side, covering in settings.walls.items()},
         tuple(
-            Block(name, one.lower_m, one.upper_m, _material(name, one.material))
-            for name, one in settings.furniture.items()
+            Block(name, block.lower_m, block.upper_m, _material(name, block.material))
+            for name, block in settings.furniture.items()
         ),
         tuple(
-            Patch(name, one.side, one.lower_m, one.upper_m, _material(name, one.material))
-            for name, one in settings.patches.items()
+            Patch(name, patch.side, patch.lower_m, patch.upper_m, _material(name, patch.material))
+            for name, patch in settings.patches.items()
         ),
     )
 
 
 def _material(name: str, covering: Covering) -> Material:
-    """With the octave of 63 Hz as that of 125 Hz (assumed)."""
+    """Material with the octave of 63 Hz as that of 125 Hz (assumed)."""
     values = covering.absorption_ratio
     return Material(covering.name or name, (values[0], *values), covering.source)
 
 
 def foot_m(settings: StudyRoom) -> Array:
-    """Of the shell's axis on what it stands on, shape (3,)."""
+    """Return the foot of the shell's axis on what it stands on, shape (3,)."""
     return np.array([*settings.foot_m, settings.standing_height_m])
 
 
@@ -91,9 +91,10 @@ def machine_middle_m(settings: StudyRoom, shell: Shell) -> Array:
 
 
 def listeners_m(settings: StudyRoom) -> dict[str, Array]:
-    """Of each listener by name, shape (3,)."""
+    """Return the position of each listener by name, shape (3,)."""
     return {
-        name: np.array([one.x_m, one.y_m, one.height_m]) for name, one in settings.listeners.items()
+        name: np.array([listener.x_m, listener.y_m, listener.height_m])
+        for name, listener in settings.listeners.items()
     }
 
 
@@ -142,7 +143,7 @@ def plane_in_room(
     )  # fmt: skip
 
 
-def pressure_at_places(vectors: xr.Dataset) -> PressureAt:
+def pressure_at_positions(vectors: xr.Dataset) -> PressureAt:
     """Pressure at the listeners by waves, then at the positions on the hemisphere.
 
     Above the waves' highest frequency the listeners get none.
@@ -182,15 +183,15 @@ def of_modes(pressure: PressureAt) -> PressureAt:
 def wave_share(highest_hz: float) -> Callable[[Array], Array]:
     """Share of the waves in mean squares, of frequencies.
 
-    From the waves to the power over the seam's frequencies; lower by a factor where the waves end
-    below them.
+    From the waves to the power over the crossover frequencies; lower by a factor where the waves
+    end below them.
     """
-    return lambda frequency_hz: np.asarray(1.0 - blend(frequency_hz / seam_shift(highest_hz)))
+    return lambda frequency_hz: np.asarray(1.0 - blend(frequency_hz / crossover_shift(highest_hz)))
 
 
-def seam_shift(highest_hz: float) -> float:
-    """Factor on the seam's frequencies where waves end below it."""
-    return min(1.0, highest_hz / SEAM_HZ[1])
+def crossover_shift(highest_hz: float) -> float:
+    """Factor on the crossover frequencies where waves end below it."""
+    return min(1.0, highest_hz / CROSSOVER_HZ[1])
 
 
 def diffuse_per_power(
@@ -200,9 +201,9 @@ def diffuse_per_power(
 
     Parameters
     ----------
-    settings : of the room
+    settings : settings of the room
     source_m : where the sound comes from, shape (3,)
-    gain : of the power at its place, of frequencies
+    gain : gain of the power at its position, a function of frequencies
 
     Returns
     -------
@@ -210,7 +211,7 @@ def diffuse_per_power(
     """
     room = room_of(settings)
     diffuse = DiffuseRoom.of(room)
-    ways = [
+    sights = [
         (float(np.linalg.norm(ears_m - source_m)), line_of_sight(room, source_m, ears_m))
         for ears_m in listeners_m(settings).values()
     ]
@@ -219,7 +220,10 @@ def diffuse_per_power(
         return np.asarray(
             gain(frequency_hz)
             * np.array(
-                [mean_square_per_power(frequency_hz, away, diffuse, seen) for away, seen in ways]
+                [
+                    mean_square_per_power(frequency_hz, away, diffuse, sight)
+                    for away, sight in sights
+                ]
             )
         )
 
@@ -252,15 +256,15 @@ def plate_per_power(settings: StudyRoom, vectors: xr.Dataset) -> Callable[[Array
     return per_power
 
 
-def seam_bands_hz(highest_hz: float) -> tuple[float, float]:
-    """Lowest and highest middle of the third octaves that are shown around the seam, Hz."""
-    return SHOWN_FROM_HZ * seam_shift(highest_hz), highest_hz
+def crossover_bands_hz(highest_hz: float) -> tuple[float, float]:
+    """Lowest and highest midband frequency that is shown around the crossover, Hz."""
+    return SHOWN_FROM_HZ * crossover_shift(highest_hz), highest_hz
 
 
-def place_gains_db(waves: Array, diffuse: Array) -> Array:
+def position_gains_db(waves: Array, diffuse: Array) -> Array:
     """Level of the power at the machine's place over that in the open, (shown band + 1,), dB.
 
-    Of each third octave that is shown, the mean over the listeners; the last one, of all of them
+    For each third octave that is shown, the mean over the listeners; the last one, of all of them
     together, holds above the waves.
 
     Parameters
@@ -268,14 +272,14 @@ def place_gains_db(waves: Array, diffuse: Array) -> Array:
     waves, diffuse : mean squares per power in these bands, shape (listener, shown band)
     """
     parts = [np.array([number]) for number in range(waves.shape[1])] + [np.arange(waves.shape[1])]
-    return np.array([gain_at_place_db(waves[:, part], diffuse[:, part]) for part in parts])
+    return np.array([gain_at_position_db(waves[:, part], diffuse[:, part]) for part in parts])
 
 
 def gain_over_frequency(gains_db: Array, middle_hz: Array) -> Callable[[Array], Array]:
     """Factor on the power, of frequencies; over the logarithm between the bands."""
-    known = np.log([*middle_hz, middle_hz[-1] * 2.0 ** (1.0 / 3.0)])
+    log_middle_hz = np.log([*middle_hz, middle_hz[-1] * 2.0 ** (1.0 / 3.0)])
     return lambda frequency_hz: np.asarray(
-        power_of_level(np.interp(np.log(frequency_hz), known, gains_db))
+        power_of_level(np.interp(np.log(frequency_hz), log_middle_hz, gains_db))
     )
 
 
@@ -294,11 +298,11 @@ def arrivals(settings: StudyRoom, source_m: Array) -> Arrivals:
 
     Parameters
     ----------
-    settings : of the room
+    settings : settings of the room
     source_m : where the sound comes from, shape (3,)
     """
     room, ears_m = room_of(settings), list(listeners_m(settings).values())
-    away = np.array([np.linalg.norm(at - source_m) for at in ears_m])
-    seen = [line_of_sight(room, source_m, at) for at in ears_m]
-    direct = [direct_per_power(float(far), one) for far, one in zip(away, seen, strict=True)]
+    away = np.array([np.linalg.norm(ear_m - source_m) for ear_m in ears_m])
+    sights = [line_of_sight(room, source_m, ear_m) for ear_m in ears_m]
+    direct = [direct_per_power(float(far), sight) for far, sight in zip(away, sights, strict=True)]
     return Arrivals(away, np.array(direct))

@@ -41,12 +41,12 @@ def plane_gains(
 
     Parameters
     ----------
-    room : its furniture is left out of the map
+    room : its furniture is omitted from the map
     source_m : the monopole, shape (3,)
     above_floor_m : height of the monopole over what it stands on
-    height_m : of the plane
+    height_m : height of the plane
     bands_hz : frequencies that stand for each band, alike in number, by its nominal middle
-    maximum_frequency_hz : of the waves; bands beyond it are left out
+    maximum_frequency_hz : maximum frequency of the waves; bands beyond it are omitted
     progress : told of the advance
 
     Returns
@@ -94,7 +94,8 @@ def _free_rows(room: Room, x: Array, y: Array, height_m: float) -> list[tuple[in
 def _in_air(room: Room, point: tuple[float, float, float]) -> bool:
     return not any(
         all(
-            low <= at <= high for low, at, high in zip(block.lower, point, block.upper, strict=True)
+            low <= coordinate <= high
+            for low, coordinate, high in zip(block.lower, point, block.upper, strict=True)
         )
         for block in room.blocks
     )

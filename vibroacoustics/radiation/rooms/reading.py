@@ -26,22 +26,22 @@ class Readings:
         numbers: list[Array] = [np.zeros(0)]
         result_rows: list[IndexArray] = [np.zeros(0, dtype=np.intp)]
         entry = row = 0
-        for one in pieces:
+        for piece in pieces:
             matrices = []
-            for basis in one.bases:
+            for basis in piece.bases:
                 matrices.append(entry)
                 numbers.append(basis.ravel())
                 entry += basis.size
             first = len(sides)
-            for axis, end, along in one.near:
-                sides.append([axis, int(plan.sides[one.box, axis, end]), entry])
+            for axis, end, along in piece.near:
+                sides.append([axis, int(plan.sides[piece.box, axis, end]), entry])
                 numbers.append(along)
                 entry += along.size
-            points, terms = zip(*(basis.shape for basis in one.bases), strict=True)
-            start = int(plan.terms[one.box])
+            points, terms = zip(*(basis.shape for basis in piece.bases), strict=True)
+            start = int(plan.terms[piece.box])
             rows.append([start, *terms, *points, *matrices, row, first, len(sides)])
-            result_rows.append(one.result_rows)
-            row += one.result_rows.size
+            result_rows.append(piece.result_rows)
+            row += piece.result_rows.size
         self._pieces = (
             np.array(rows, dtype=np.intp).reshape(-1, 13),
             np.array(sides, dtype=np.intp).reshape(-1, 3),
@@ -64,18 +64,21 @@ def read_pieces(
         values = _of_series(terms[piece[0] : piece[0] + n[0] * n[1] * n[2]], piece, matrices)
         for number in range(piece[11], piece[12]):
             axis, first, lacking = sides[number, 0], sides[number, 1], sides[number, 2]
-            one, other = (1 if axis == 0 else 0), (1 if axis == 2 else 2)
-            plane = flux[first : first + n[one] * n[other]].reshape(n[one], n[other])
-            left, right = _matrix(matrices, piece, one), _matrix(matrices, piece, other)
-            at = np.dot(np.dot(left, plane), right.T)
+            first_axis, other = (1 if axis == 0 else 0), (1 if axis == 2 else 2)
+            plane = flux[first : first + n[first_axis] * n[other]].reshape(n[first_axis], n[other])
+            first_matrix, right = (
+                _matrix(matrices, piece, first_axis),
+                _matrix(matrices, piece, other),
+            )
+            flux_at_points = np.dot(np.dot(first_matrix, plane), right.T)
             for a in range(p[axis]):
                 share = matrices[lacking + a]
                 if axis == 0:
-                    values[a] -= share * at
+                    values[a] -= share * flux_at_points
                 elif axis == 1:
-                    values[:, a] -= share * at
+                    values[:, a] -= share * flux_at_points
                 else:
-                    values[:, :, a] -= share * at
+                    values[:, :, a] -= share * flux_at_points
         flat = values.ravel()
         first = piece[10]
         for point in range(flat.size):
@@ -84,7 +87,7 @@ def read_pieces(
 
 @kernel
 def _matrix(matrices: Any, piece: Any, axis: int) -> Any:  # pragma: no cover
-    """From terms to points along an axis, (point, term)."""
+    """Matrix from terms to points along an axis, (point, term)."""
     first, count, points = piece[7 + axis], piece[1 + axis], piece[4 + axis]
     return matrices[first : first + points * count].reshape(points, count)
 

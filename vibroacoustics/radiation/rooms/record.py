@@ -1,4 +1,4 @@
-"""What a run of a room records at lattices of points, and its spectra."""
+"""Record of a run of a room at lattices of points, and its spectra."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,14 +13,14 @@ from ..pulse import transform
 
 @dataclass(frozen=True)
 class Pulse:
-    """What drove a run: a pulse in the middle of steps, as fluxes are; see `flux_gain`."""
+    """Pulse that drove a run: midway in steps, like fluxes; see `flux_gain`."""
 
     time_s: Array
     force: Array
     step_s: float
 
     def spectrum(self, frequency_hz: Array) -> ComplexArray:
-        """By which recorded spectra are divided, (frequency,)."""
+        """Return the spectrum by which recorded spectra are divided, (frequency,)."""
         phase = np.pi * frequency_hz * self.step_s
         driven: ComplexArray = transform(frequency_hz, self.time_s, self.force)
         driven *= phase / np.tan(phase)
@@ -33,13 +33,13 @@ class Record:
 
     samples: Array
     shapes: Sequence[tuple[int, ...]]
-    """Of each lattice, (quantity, x, y, z)."""
+    """Shapes of each lattice, (quantity, x, y, z)."""
     pulse: Pulse
     every: int
     remaining_db: float
     """Level at which the run ended, of its largest pressure: what was cut off."""
 
-    def at(self, frequency_hz: Array) -> tuple[ComplexArray, ...]:
+    def greens_at(self, frequency_hz: Array) -> tuple[ComplexArray, ...]:
         """Green's functions of each lattice, (frequency, quantity, x, y, z)."""
         time = self.pulse.step_s * self.every * np.arange(len(self.samples))
         angle = 2.0 * np.pi * np.outer(frequency_hz, time)

@@ -36,20 +36,20 @@ class RoomResponse:
     """Green's function of a microphone at lattices of points."""
 
     values: tuple[ComplexArray, ...]
-    """Of each lattice, (frequency, quantity, x, y, z): the Green's function, 1/m, and if asked for
-    its derivatives along x, y and z, 1/m²; free field is exp(-jkr)/(4 pi r)."""
+    """Values of each lattice, (frequency, quantity, x, y, z): the Green's function, 1/m, and on
+    request its derivatives along x, y and z, 1/m²; free field is exp(-jkr)/(4 pi r)."""
     remaining_db: float
     """Level at which the run ended, of its largest pressure: what was cut off."""
 
 
 class Runs:
-    """What the runs of a room share: air, time step, points.
+    """Shared data of the runs of a room: air, time step, points.
 
     Parameters
     ----------
-    boxes, faces : of the air
+    boxes, faces : boxes and faces of the air
     lattices : where is recorded
-    quantities : of each lattice, pressure (-1) and derivatives by axis
+    quantities : quantities of each lattice, pressure (-1) and derivatives by axis
     settings : spacing and duration
     longest_s : duration after the pulse, at most
     """
@@ -67,20 +67,20 @@ class Runs:
         air = stable_air(boxes, faces, settings.longest_step_s, settings.maximum_frequency_hz)
         self.step_s = air.time_step_s
         self._shapes = [
-            (len(asked), *lattice.shape)
-            for lattice, asked in zip(lattices, quantities, strict=True)
+            (len(quantity), *lattice.shape)
+            for lattice, quantity in zip(lattices, quantities, strict=True)
         ]
         first = np.cumsum([0, *(int(np.prod(shape)) for shape in self._shapes)])
         self._columns = int(first[-1])
         pieces = (
-            pieces_of(boxes, lattice, self.step_s, asked, int(start))
-            for lattice, asked, start in zip(lattices, quantities, first[:-1], strict=True)
+            pieces_of(boxes, lattice, self.step_s, quantity, int(start))
+            for lattice, quantity, start in zip(lattices, quantities, first[:-1], strict=True)
         )
         self._readings = Readings(air.plan, list(chain.from_iterable(pieces)))
         self._pulse = Pulse(*settings.force(self.step_s), self.step_s)
         self._every = settings.sampling_steps(self.step_s)
         self.steps = int(np.ceil((self._pulse.time_s[-1] + longest_s) / self.step_s))
-        """Of a run, at most."""
+        """Steps of a run, at most."""
 
     @property
     def sample_s(self) -> float:
@@ -89,7 +89,7 @@ class Runs:
 
     @property
     def samples(self) -> int:
-        """Of a run, at most."""
+        """Samples of a run, at most."""
         return -(-self.steps // self._every)
 
     def record(self, name: str, microphone: Array, progress: Progress = no_progress) -> Record:
@@ -140,11 +140,11 @@ def run_all(
     runs = Runs(boxes, faces, lattices, quantities, settings, longest_s)
     advance = together(progress, len(microphones))
 
-    def one(name: str, position: Array) -> RoomResponse:
+    def of_microphone(name: str, position: Array) -> RoomResponse:
         record = runs.record(name, position, advance)
-        return RoomResponse(record.at(frequency_hz), record.remaining_db)
+        return RoomResponse(record.greens_at(frequency_hz), record.remaining_db)
 
-    tasks = [partial(one, name, position) for name, position in microphones.items()]
+    tasks = [partial(of_microphone, name, position) for name, position in microphones.items()]
     return dict(zip(microphones, in_threads(tasks, workers), strict=True))
 
 
@@ -201,7 +201,7 @@ def room_transfer(
     Parameters
     ----------
     room : its origin is the origin of all coordinates
-    lattices : of points, such as those of `join_lattices`
+    lattices : lattices of points, such as those of `join_lattices`
     microphones : (3,) by name, m
     frequency_hz : (frequency,), up to the settings' highest
     settings : spacing and duration
@@ -248,7 +248,9 @@ def spacing_error_db(
     settings = settings or RoomSettings()
     finer = replace(settings, nodes_per_wave=2.0 * settings.wavelength_m / settings.spacing_m)
     of = (room, lattices, microphones, frequency_hz)
-    coarse, fine = (room_transfer(*of, one, progress=progress) for one in (settings, finer))
+    coarse, fine = (
+        room_transfer(*of, accuracy, progress=progress) for accuracy in (settings, finer)
+    )
     return {name: _difference_db(coarse[name].values, fine[name].values) for name in microphones}
 
 

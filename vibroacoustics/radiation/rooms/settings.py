@@ -1,4 +1,4 @@
-"""How finely and how long a room is computed, and the pulse that drives it."""
+"""Resolution and length of the computation of a room, and the pulse that drives it."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -10,26 +10,27 @@ from ..arrays import Array
 
 LEAST_NODES_PER_WAVE: Final = 3.5
 LARGEST_SPACING_M: Final = 0.128
-"""With it flat L- and U-shaped rooms with blocks of 1.1 m and more have their natural frequencies
-within 0.1 %, with waves to 355 and 710 Hz."""
+"""Largest spacing: flat L- and U-shaped rooms with blocks of 1.1 m and more have their natural
+frequencies within 0.1 %, with waves to 355 and 710 Hz."""
 SAMPLES_PER_PERIOD: Final = 3.0
-"""Of what is recorded, at the highest frequency: the pulse has next to nothing at twice that."""
+"""Samples of what is recorded, at the highest frequency: the pulse has next to nothing at twice
+that."""
 STEPS_PER_PERIOD: Final = 10.0
-"""At the highest frequency, at least: with 8 a wall of 0.8 takes 0.0055 too much. Rooms with
+"""Steps at the highest frequency, at least: with 8 a wall of 0.8 takes 0.0055 too much. Rooms with
 furniture are stable with about as many only."""
 
 
 @dataclass(frozen=True)
 class RoomSettings:
-    """How finely and how long a room is computed."""
+    """Resolution and length of the computation of a room."""
 
     maximum_frequency_hz: float = 1000.0
     nodes_per_wave: float | None = None
-    """At the highest frequency; None: 3.5, more in rooms to less than 765 Hz."""
+    """Nodes at the highest frequency; None: 3.5, more in rooms to less than 765 Hz."""
     decay_db: float = 60.0
     """A run ends when the pressure at its points has fallen by so much."""
     longest_s: float | None = None
-    """It ends then at the latest; None: after the reverberation time."""
+    """Longest record; None: the reverberation time."""
 
     @property
     def wavelength_m(self) -> float:
@@ -45,7 +46,7 @@ class RoomSettings:
 
     @property
     def longest_step_s(self) -> float:
-        """With which steps of walls keep their impedance: see `stepped_branches`."""
+        """Longest step with which walls keep their impedance: see `stepped_branches`."""
         return 1.0 / (STEPS_PER_PERIOD * self.maximum_frequency_hz)
 
     def sampling_steps(self, time_step_s: float) -> int:

@@ -1,4 +1,4 @@
-"""Where a machine stands in a room: the box around it, and its body among the room's blocks."""
+"""Position of a machine in a room: the box around it, and its body among the room's blocks."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -14,9 +14,9 @@ from .cutting import cut
 from .room import Block, Room
 
 _MARGIN_M: Final = 0.1
-"""From the body to the box around it where nothing is in the way, else half the gap."""
+"""Margin from the body to the box around it where nothing is in the way, else half the gap."""
 LEAST_GAP_M: Final = 0.03
-"""Between the body and what stands beside it."""
+"""Distance between the body and objects beside it."""
 _SAME_LEVEL_M: Final = 1e-6
 _SIDES: Final = ((0, 0), (0, 1), (1, 0), (1, 1), (2, 1))
 """Axis and end of the box's sides but the lowest."""
@@ -27,16 +27,16 @@ class Standing:
     """A machine in its room, in the room's coordinates."""
 
     room: Room
-    """With the machine's body as a block, if it fits."""
+    """Room with the machine's body as a block, if it fits."""
     foot_m: Array
     """Foot of the machine's axis, (3,)."""
     lower: Array
     """Corner of the box around the machine, (3,)."""
     upper: Array
     clearance_m: float
-    """From the body to the nearest side of the box."""
+    """Distance from the body to the nearest side of the box."""
     body_in_room: str
-    """What stands for the body among the room's blocks, in words."""
+    """Words for the body among the room's blocks."""
 
 
 def standing(
@@ -133,8 +133,8 @@ def _support(room: Room, lower: Array, upper: Array) -> Block | None:
 
 def _beside(room: Room, lower: Array, upper: Array) -> Iterator[Block]:
     """Blocks that reach above the foot and may be in the way of the box."""
-    way = 2.0 * _MARGIN_M
-    low, high = lower - [way, way, -_SAME_LEVEL_M], upper + way
+    margin = 2.0 * _MARGIN_M
+    low, high = lower - [margin, margin, -_SAME_LEVEL_M], upper + margin
     for block in room.blocks:
         if np.all((high > block.lower) & (low < block.upper)):
             yield block
@@ -148,7 +148,7 @@ def _between(block: Block, lower: Array, upper: Array) -> tuple[int, int]:
         )
         for axis, end in _SIDES
     }
-    side = max(away, key=lambda one: away[one])
+    side = max(away, key=lambda name: away[name])
     if away[side] < 0.0:
         raise ParameterError(f"room.foot_mm: meets room.furniture.{block.name}")
     return side

@@ -31,8 +31,8 @@ def wall_absorption(room: Room, highest_hz: float) -> xr.Dataset:
     surfaces = dict(_surfaces(room))
     coords = {"room_surface": list(surfaces), "room_octave": list(OCTAVES_HZ)}
     values = {
-        "room_wall_absorption": [computed(one, highest_hz) for one in surfaces.values()],
-        "room_wall_absorption_requested": [one.absorption for one in surfaces.values()],
+        "room_wall_absorption": [computed(surface, highest_hz) for surface in surfaces.values()],
+        "room_wall_absorption_requested": [surface.absorption for surface in surfaces.values()],
     }
     return stamped(values, coords)
 
@@ -71,5 +71,5 @@ def warn_of_absorption(room: Room, highest_hz: float) -> None:
 def _surfaces(room: Room) -> Iterator[tuple[str, Material]]:
     """Surfaces by their key below `room` in a study."""
     yield from ((f"walls.{side}", room.walls.get(side, HARD)) for side in SIDES)
-    yield from ((f"furniture.{one.name}", one.material) for one in room.blocks)
-    yield from ((f"patches.{one.name}", one.material) for one in room.patches)
+    yield from ((f"furniture.{block.name}", block.material) for block in room.blocks)
+    yield from ((f"patches.{patch.name}", patch.material) for patch in room.patches)

@@ -37,7 +37,7 @@ class WallPatch:
 class Walls:
     """State of all patches of walls of a room, and what a step does to it.
 
-    U = rho c u out of the room in the middle of the steps, S the sum of its means over the steps.
+    U = rho c u out of the room midway in the steps, S the sum of its means over the steps.
     The trapezoidal rule for each branch, L (U+ - U-)/dt + R (U+ + U-)/2 + K dt (S+ + S-)/4 = p,
     keeps the branches passive whatever the step (Bilbao et al. (2016), section IV), and p is what
     the mass of air in front leaves, p - d/c (U+ - U-)/dt with the sum of U over the branches.
@@ -45,28 +45,28 @@ class Walls:
 
     def __init__(self, patches: Sequence[WallPatch], time_step_s: float) -> None:
         self.patches: IndexArray = np.array(
-            [[one.first_node, one.nodes] for one in patches], dtype=np.intp
+            [[patch.first_node, patch.nodes] for patch in patches], dtype=np.intp
         ).reshape(-1, 2)
         count = WAVE_OCTAVES
         self.coefficients = np.zeros((len(patches), 3, count))
         self.mass = np.zeros(len(patches))
-        for number, one in enumerate(patches):
-            self.mass[number] = one.mass_m / (SPEED_OF_SOUND_M_PER_S * time_step_s)
-            self.coefficients[number] = _coefficients(one.material, time_step_s)
+        for number, patch in enumerate(patches):
+            self.mass[number] = patch.mass_m / (SPEED_OF_SOUND_M_PER_S * time_step_s)
+            self.coefficients[number] = _coefficients(patch.material, time_step_s)
         total = int(self.patches[:, 1].sum())
         self.flux = np.zeros((count, total))
         self.sums = np.zeros((count, total))
-        self.work = np.zeros((3, max((one.nodes for one in patches), default=1)))
+        self.work = np.zeros((3, max((patch.nodes for patch in patches), default=1)))
 
     @property
     def arguments(self) -> tuple[Any, ...]:
-        """What `pass_walls` takes after the pressure and the change of the flux."""
+        """Arguments of `pass_walls` after the pressure and the change of the flux."""
         return self.patches, self.coefficients, self.mass, self.flux, self.sums, self.work
 
 
 @lru_cache
 def _coefficients(material: Material, time_step_s: float) -> Array:
-    """Of p, U- and S- in the next flux of each branch, (3, branch)."""
+    """Coefficients of p, U- and S- in the next flux of each branch, (3, branch)."""
     stepped = stepped_branches(fitted_branches(material), time_step_s)
     mass, spring = stepped.mass / time_step_s, stepped.spring * time_step_s
     resistance = stepped.resistance / 2.0

@@ -80,7 +80,7 @@ def _rows(file: BinaryIO, head: Head) -> tuple[int, int]:
 
 
 def _complete(table: _Table) -> tuple[_Table, list[str]]:
-    """The table without a last row that was cut short, and what to tell of it."""
+    """The table without a last row that was cut short, and a remark on it."""
     rows, has_end = last_lines(table.file, table.begin)
     if has_end or len(rows) < 2:
         return table, []
@@ -89,7 +89,7 @@ def _complete(table: _Table) -> tuple[_Table, list[str]]:
         return table, []
     remark = (
         f"its last row ({text(last)[:60]!r}) has no end and seems cut short: the file is "
-        "truncated; that row is left out"
+        "truncated; that row is omitted"
     )
     return _Table(table.file, table.head, table.begin, last_begin), [remark]
 
@@ -195,12 +195,12 @@ def _numbers(
 def _row_texts(table: _Table) -> Iterator[str]:
     """Rows with a decimal point, all of the same number of columns."""
     table.file.seek(table.begin)
-    at, row = table.begin, 0
+    position, row = table.begin, 0
     separator, separators = table.head.separator, len(table.head.names) - 1
     decimal = table.head.form.decimal
     other = {",": ".", ".": "," if separator != "," else "\0"}[decimal]
-    while at < table.end and (line := table.file.readline(MAXIMUM_LINE_BYTES)):
-        at += len(line)
+    while position < table.end and (line := table.file.readline(MAXIMUM_LINE_BYTES)):
+        position += len(line)
         row += 1
         plain = line.decode("latin-1")
         if not plain.strip():

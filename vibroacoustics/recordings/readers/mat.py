@@ -65,7 +65,9 @@ def _read_mat(request: Request) -> Recorded:
     if signals := [struct for struct in signals if struct.is_signal]:
         return recorded_signals(signals, request)
     arrays: list[NamedArray] = []
-    for name, shape, kind in {name: (name, *rest) for name, *rest in variables}.values():
+    for name, shape, kind in {
+        name: (name, *attributes) for name, *attributes in variables
+    }.values():
         if kind == "struct":
             arrays += fields(name, loaded(name))
         else:
@@ -85,17 +87,18 @@ def fields(name: str, struct: Any, depth: int = 0) -> list[NamedArray]:
 
     Parameters
     ----------
-    name : of the struct
-    struct : as SciPy reads it: an array of objects with fields; of several each has its number
+    name : name of the struct
+    struct : struct that SciPy reads: an array of objects with fields; of several each has its
+        number
     depth : structs around it
     """
     if depth == _MAXIMUM_DEPTH:
         return []
     arrays = []
-    for number, one in enumerate(struct.ravel(), 1):
+    for number, element in enumerate(struct.ravel(), 1):
         of_one = name if struct.size == 1 else f"{name}({number})"
-        for field in getattr(one, "_fieldnames", ()):
-            value = np.asarray(getattr(one, field))
+        for field in getattr(element, "_fieldnames", ()):
+            value = np.asarray(getattr(element, field))
             path = f"{of_one}.{field}"
             if value.dtype.kind in "iufc":
                 arrays.append(NamedArray(path, value.shape, True, value.__getitem__))

@@ -29,9 +29,9 @@ class _Sheet:
 
     Attributes
     ----------
-    title : of the sheet
+    title : title of the sheet
     head : names, units and rows above the numbers
-    columns : of the table's fields among the cells of a row
+    columns : columns of the table's fields among the cells of a row
     rate_hz : sample rate from a row above the names; None without one
     """
 

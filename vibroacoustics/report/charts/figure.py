@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from .frame import Frame, frame_of
-from .layout import NOTHING_TO_DRAW, layout, styled
+from .layout import NOTHING_TO_SHOW, layout, styled
 from .marks import (
     Area,
     Bars,
@@ -73,11 +73,11 @@ def figure(chart: Chart) -> Figure:
             if panel.title:
                 axes.set_title(escaped(panel.title))
             if frame is None:
-                empty = NOTHING_TO_DRAW if panel.marks else ""
+                empty = NOTHING_TO_SHOW if panel.marks else ""
                 axes.text(0.5, 0.5, empty, transform=axes.transAxes, ha="center", va="center")
                 axes.set(xticks=[], yticks=[])
                 continue
-            handles |= _draw_panel(axes, panel, frame)
+            handles |= _plot_panel(axes, panel, frame)
         if chart.title:
             drawing.text(0.02, 0.99, escaped(chart.title), va="top", size=9.5)
         shown = [key.name for key in placed.keys if key.name in handles]
@@ -92,7 +92,7 @@ def escaped(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def _draw_panel(axes: Any, panel: Panel, frame: Frame) -> dict[str, Any]:
+def _plot_panel(axes: Any, panel: Panel, frame: Frame) -> dict[str, Any]:
     """Draw marks and ticks; return what the legend shows of each label."""
     for letter, scale in (("x", frame.x), ("y", frame.y)):
         if letter == "y" or not panel.polar:

@@ -24,9 +24,9 @@ COLOURS: Final = (
 """Okabe & Ito's palette without its yellow, and a violet."""
 DASHES: Final = ("-", "--", "-.", ":")
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
-NOTHING_TO_DRAW: Final = "Every value is too small to draw."
+NOTHING_TO_SHOW: Final = "Every value is too small to show."
 _KEY: Final = 40.0
-"""Width of what the legend draws before a name."""
+"""Width of the legend's mark before a name."""
 _GAP: Final = 14.0
 _BAR: Final = 66.0
 _STEPS: Final = (1.0, 2.0, 2.5, 5.0, 10.0)
@@ -93,9 +93,9 @@ def layout(chart: Chart) -> Layout:
         row = chart.panels[start : start + chart.columns]
         height = max(96.0 * panel.height for panel in row)
         for column, panel in enumerate(row):
-            left, right, below, above = margins(panel)
-            size = (max(each - left - right, 30.0), max(height - below - above, 30.0))
-            boxes.append(Box(column * each + left, top + above, *size))
+            left_margin, right, below, above = margins(panel)
+            size = (max(each - left_margin - right, 30.0), max(height - below - above, 30.0))
+            boxes.append(Box(column * each + left_margin, top + above, *size))
         top += height
     keys = _keys(chart, width, top + 4.0)
     bottom = max((key.y + ROW * lines(key.name) for key in keys), default=top)

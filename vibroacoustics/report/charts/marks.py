@@ -1,6 +1,6 @@
 """Charts as data: panels with marks, which paper, page and JSON share.
 
-`picture` draws a chart once; `data` gives the same values as JSON.
+`picture` renders a chart once; `data` gives the same values as JSON.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -22,13 +22,13 @@ class Line:
 
     Attributes
     ----------
-    x, y : of the points, shape (n,)
+    x, y : coordinates of the points, shape (n,)
     label : in the legend; empty for none
     interval : lower and upper values around the line, shape (n,) each
     colour : hexadecimal; empty for the next one of the palette
-    dash : as matplotlib writes it; empty for the next one of the palette
-    marker : of the points; empty for none
-    width : of the line, points
+    dash : dash in the notation of matplotlib; empty for the next one of the palette
+    marker : marker of the points; empty for none
+    width : width of the line, points
     """
 
     x: Values
@@ -47,8 +47,8 @@ class Points:
 
     Attributes
     ----------
-    x, y : of the points, shape (n,)
-    label, interval, colour : as of a line
+    x, y : coordinates of the points, shape (n,)
+    label, interval, colour : see `Line`
     marker : empty for the next one
     size : points
     filled : or open
@@ -75,7 +75,7 @@ class Bars:
     position : middles along the axis that names the bars, shape (n,)
     size : lengths, shape (n,)
     base : starts, shape (n,) or one
-    label, interval, colour : as of a line
+    label, interval, colour : see `Line`
     thickness : along the axis that names the bars
     upright : or from left to right
     """
@@ -96,11 +96,11 @@ class Image:
 
     Attributes
     ----------
-    x : of the columns, shape (m,)
-    y : of the rows, shape (n,)
+    x : coordinates of the columns, shape (m,)
+    y : coordinates of the rows, shape (n,)
     values : shape (n, m); those that are not finite are left blank
     scale : lowest and highest value of the colours
-    label : of the scale
+    label : label of the scale
     contours : values of labelled lines
     """
 
@@ -127,7 +127,7 @@ class Segments:
     x, y : start of each, shape (n,); not finite for an end of the axis
     x_end, y_end : end of each, shape (n,)
     label : in the legend; empty for none
-    colour, dash, width : as of a line
+    colour, dash, width : see `Line`
     arrow : with a head at the end
     """
 
@@ -150,9 +150,9 @@ class Area:
     ----------
     x, y : corners, shape (n,)
     label : in the legend; empty for none
-    fill, colour : of the area and of its outline; empty for none
-    dash : of the outline
-    opacity : of the fill
+    fill, colour : fill and colour of the area and of its outline; empty for none
+    dash : dash of the outline
+    opacity : opacity of the fill
     """
 
     x: Values
@@ -189,12 +189,12 @@ class Note:
 
     Attributes
     ----------
-    x, y : of the point
-    words : what is written
+    x, y : coordinates of the point
+    words : text
     colour : hexadecimal
     align : which end of the words is at the point
     shift : right and up, points
-    size : of the letters, points
+    size : size of the letters, points
     """
 
     x: float
@@ -258,13 +258,13 @@ class Chart:
 
     Attributes
     ----------
-    name : of its file, without ending
+    name : name of its file, without ending
     alt : text in its place
     caption : below it
     panels : row by row
     columns : panels side by side
     title : above all panels
-    wide : as wide as a page, or half
+    wide : whether it is as wide as a page, or half
     legend : names of the marks below the panels
     """
 

@@ -1,4 +1,4 @@
-"""What a chart needs of the dataset that it is drawn from."""
+"""Needs of a chart of its dataset."""
 
 from collections.abc import Callable
 from functools import wraps
@@ -39,7 +39,7 @@ def needs(*variables: str, from_: str = "`run`", any_of: bool = False) -> Callab
 
 
 def plotted(make: Callable[..., Chart], file: str = "results.nc") -> "Callable[..., Figure]":
-    """Return a function that draws with matplotlib what another returns as a chart of a dataset."""
+    """Return a function that plots with matplotlib the chart that another returns for a dataset."""
 
     @wraps(make)
     def plot(*args: Any, **kwargs: Any) -> "Figure":

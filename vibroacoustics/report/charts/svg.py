@@ -8,9 +8,9 @@ from pydantic import Base64Bytes
 
 from ..file_names import file_name
 from .frame import Frame, frame_of
-from .layout import NOTHING_TO_DRAW, ROW, Box, Key, layout, lines, margins, styled
+from .layout import NOTHING_TO_SHOW, ROW, Box, Key, layout, lines, margins, styled
 from .marks import Chart, Image, Panel
-from .svg_marks import BLANK, colour_bar, draw_mark
+from .svg_marks import BLANK, colour_bar, mark_content
 from .svg_parts import INK, opening, rectangle, upright_words, words
 
 GRID: Final = "#dddddd"
@@ -30,16 +30,16 @@ def svg(chart: Chart) -> bytes:
 
 
 def _panel(panel: Panel, box: Box, name: str, keys: dict[str, str]) -> list[str]:
-    """Axes, marks and words of a panel; adds what the legend draws of each mark."""
+    """Axes, marks and words of a panel; adds each mark's legend."""
     parts = _titles(panel, box)
     frame = frame_of(panel, box)
     if frame is None:
         middle = (box.x + 0.5 * box.width, box.y + 0.5 * box.height)
-        return [*parts, words(*middle, NOTHING_TO_DRAW if panel.marks else "", "middle")]
+        return [*parts, words(*middle, NOTHING_TO_SHOW if panel.marks else "", "middle")]
     clip = f'<clipPath id="{name}"><path d="{rectangle(frame.box)}"/></clipPath>'
     marks = []
     for mark in styled(panel.marks):
-        shape, key = draw_mark(mark, frame)
+        shape, key = mark_content(mark, frame)
         marks.append(shape)
         if key and getattr(mark, "label", ""):
             keys.setdefault(mark.label, key)  # type: ignore[union-attr]
@@ -51,7 +51,7 @@ def _panel(panel: Panel, box: Box, name: str, keys: dict[str, str]) -> list[str]
 
 def _titles(panel: Panel, box: Box) -> list[str]:
     """Title and labels around the axes."""
-    left, _, below, above = margins(panel)
+    left_margin, _, below, above = margins(panel)
     parts = []
     if panel.title:
         parts.append(words(box.x, box.y - above + 13.0, panel.title, font_size="12.5"))
@@ -59,7 +59,7 @@ def _titles(panel: Panel, box: Box) -> list[str]:
         foot = box.y + box.height + below - ROW * lines(panel.x.label) + 10.0
         parts.append(words(box.x + 0.5 * box.width, foot, panel.x.label, "middle"))
     if panel.y.label and not panel.polar:
-        position = (box.x - left + 14.0, box.y + 0.5 * box.height)
+        position = (box.x - left_margin + 14.0, box.y + 0.5 * box.height)
         parts.append(upright_words(*position, panel.y.label))
     return parts
 
@@ -133,16 +133,18 @@ class Picture(NamedTuple):
     wide: bool = False
 
 
-def picture_file(drawn: Picture) -> str:
+def picture_file(picture: Picture) -> str:
     """Return the name of the file of a picture."""
-    return f"{file_name(drawn.name)}.{drawn.ending}"
+    return f"{file_name(picture.name)}.{picture.ending}"
 
 
-_DRAWN: Final[WeakKeyDictionary[Chart, Picture]] = WeakKeyDictionary()
+_PICTURES: Final[WeakKeyDictionary[Chart, Picture]] = WeakKeyDictionary()
 
 
 def picture(chart: Chart) -> Picture:
     """Return the picture of a chart, which is drawn once."""
-    if chart not in _DRAWN:
-        _DRAWN[chart] = Picture(chart.name, chart.alt, chart.caption, svg(chart), "svg", chart.wide)
-    return _DRAWN[chart]
+    if chart not in _PICTURES:
+        _PICTURES[chart] = Picture(
+            chart.name, chart.alt, chart.caption, svg(chart), "svg", chart.wide
+        )
+    return _PICTURES[chart]

@@ -1,4 +1,4 @@
-"""Marks of a chart in SVG, each with what the legend draws of it; colours of an image."""
+"""Marks of a chart in SVG, each with its legend; colours of an image."""
 
 import base64
 import io
@@ -35,12 +35,12 @@ PALETTE: Final = _palette()
 
 _STROKES: Final = dict(zip(DASHES, ("", "7 4", "8 3 2 3", "2 3"), strict=True))
 _KEY: Final = np.array([[13.0, 0.0]])
-"""Where the legend has the marker of a mark."""
+"""Position of the marker of a mark in the legend."""
 
 
 @singledispatch
-def draw_mark(mark: Any, frame: Frame) -> tuple[str, str]:
-    """Return a mark as SVG and what the legend draws of it."""
+def mark_content(mark: Any, frame: Frame) -> tuple[str, str]:
+    """Return a mark as SVG and its legend."""
     raise TypeError(f"{mark!r}: is no mark")
 
 
@@ -48,7 +48,7 @@ def _dashed(dash: str) -> str:
     return f' stroke-dasharray="{_STROKES[dash]}"' if _STROKES[dash] else ""
 
 
-@draw_mark.register
+@mark_content.register
 def _line(mark: Line, frame: Frame) -> tuple[str, str]:
     colour, parts = mark.colour, []
     x, y = np.broadcast_arrays(numbers(mark.x), numbers(mark.y))
@@ -69,7 +69,7 @@ def _line(mark: Line, frame: Frame) -> tuple[str, str]:
     return "".join(parts), key
 
 
-@draw_mark.register
+@mark_content.register
 def _points(mark: Points, frame: Frame) -> tuple[str, str]:
     colour, points, parts = mark.colour, frame.points(mark.x, mark.y), []
     if mark.stems:
@@ -83,7 +83,7 @@ def _points(mark: Points, frame: Frame) -> tuple[str, str]:
     return "".join([*parts, shape]), key
 
 
-@draw_mark.register
+@mark_content.register
 def _bars(mark: Bars, frame: Frame) -> tuple[str, str]:
     half = 0.5 * mark.thickness
     position, size, base = np.broadcast_arrays(*map(numbers, (mark.position, mark.size, mark.base)))
@@ -100,7 +100,7 @@ def _bars(mark: Bars, frame: Frame) -> tuple[str, str]:
     return picture, f'<path d="M0-5H26V5H0Z" fill="{mark.colour}"/>'
 
 
-@draw_mark.register
+@mark_content.register
 def _segments(mark: Segments, frame: Frame) -> tuple[str, str]:
     (x, y), (x_end, y_end) = frame.ends(mark)
     first, last = frame.points(x, y), frame.points(x_end, y_end)
@@ -111,7 +111,7 @@ def _segments(mark: Segments, frame: Frame) -> tuple[str, str]:
     return shape, f'<path d="M0 0H26" {stroke}/>'
 
 
-@draw_mark.register
+@mark_content.register
 def _area(mark: Area, frame: Frame) -> tuple[str, str]:
     looks = f'fill="{mark.fill or "none"}" fill-opacity="{mark.opacity:g}"'
     looks += f' stroke="{mark.colour or "none"}"{_dashed(mark.dash)}'
@@ -119,7 +119,7 @@ def _area(mark: Area, frame: Frame) -> tuple[str, str]:
     return shape, f'<path d="M0-5H26V5H0Z" {looks}/>'
 
 
-@draw_mark.register
+@mark_content.register
 def _span(mark: Span, frame: Frame) -> tuple[str, str]:
     x, y, width, height = frame.box
     scale = frame.x if mark.along == "x" else frame.y
@@ -132,7 +132,7 @@ def _span(mark: Span, frame: Frame) -> tuple[str, str]:
     return f'<path d="{rectangle(box)}" {looks}/>', f'<path d="M0-5H26V5H0Z" {looks}/>'
 
 
-@draw_mark.register
+@mark_content.register
 def _note(mark: Note, frame: Frame) -> tuple[str, str]:
     ((x, y),) = frame.points([mark.x], [mark.y])
     anchor = {"left": "start", "center": "middle", "right": "end"}[mark.align]
@@ -140,7 +140,7 @@ def _note(mark: Note, frame: Frame) -> tuple[str, str]:
     return words(x, y, mark.words, anchor, fill=mark.colour, font_size=size), ""
 
 
-@draw_mark.register
+@mark_content.register
 def _image(mark: Image, frame: Frame) -> tuple[str, str]:
     from PIL import Image as Raster
 
@@ -213,18 +213,18 @@ def _contours(mark: Image, frame: Frame) -> str:
 def colour_bar(mark: Image, box: Box) -> str:
     """Return the scale of the colours at the right of the axes."""
     low, high = mark.ends
-    left, width = box.x + box.width + 9.0, 11.0
+    x, width = box.x + box.width + 9.0, 11.0
     count = 32
     each = box.height / count
     cells = "".join(
-        f'<path d="{rectangle(Box(left, box.y + row * each, width, each + 0.4))}" '
+        f'<path d="{rectangle(Box(x, box.y + row * each, width, each + 0.4))}" '
         f'fill="#{PALETTE[3 * index : 3 * index + 3].hex()}"/>'
         for row in range(count)
         for index in [round(254 * (1.0 - (row + 0.5) / count))]
     )
     ticks = "".join(
-        words(left + width + 4.0, box.y + box.height * (high - value) / (high - low) + 4.0, word)
+        words(x + width + 4.0, box.y + box.height * (high - value) / (high - low) + 4.0, word)
         for value, word in round_ticks(low, high, most=5)
     )
-    name = upright_words(left + width + 38.0, box.y + 0.5 * box.height, mark.label)
+    name = upright_words(x + width + 38.0, box.y + 0.5 * box.height, mark.label)
     return cells + ticks + name

@@ -25,7 +25,7 @@ _STROKED: Final = frozenset("xX_")
 
 
 def opening(width: float, height: float, title: str) -> str:
-    """What a drawing begins with; its sizes are pixels."""
+    """Return the beginning of a drawing; its sizes are pixels."""
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:.0f}" '
         f'width="{width:g}" height="{height:.0f}" '

@@ -33,7 +33,7 @@ class Column:
 
     Attributes
     ----------
-    name : as in comparison.csv, with its unit
+    name : name in comparison.csv, with its unit
     values : from the results, over option, speed and, where it depends on it, receiver
     head : in the tables of the report; None: not in them
     terminal : head in the terminal; None: not there
@@ -42,7 +42,8 @@ class Column:
         without a balancer, `silent` where it is with the option
     applies : whether results have such a column
     position : from left to right; those of third parties are the last
-    variable : of which it is the value, with the labels `at`; the tables show its interval
+    variable : name of the variable whose value it is, with the labels `at`; the tables show its
+        interval
     at : labels of the variable beside option, speed and receiver
 
     Examples

@@ -14,13 +14,13 @@ from ...results.estimates import is_sampled
 from . import Column, Values
 
 
-def _values(variable: str, at: Mapping[str, Any]) -> Values:
-    return lambda results: results[variable].sel(at)
+def _values(variable: str, coordinates: Mapping[str, Any]) -> Values:
+    return lambda results: results[variable].sel(coordinates)
 
 
-def _of(name: str, variable: str, at: Mapping[str, Any], **more: Any) -> Column:
+def _of(name: str, variable: str, coordinates: Mapping[str, Any], **more: Any) -> Column:
     """Column of the values of a variable."""
-    return Column(name, _values(variable, at), variable=variable, at=at, **more)
+    return Column(name, _values(variable, coordinates), variable=variable, at=coordinates, **more)
 
 
 def _beside(column: Column) -> Iterator[Column]:
@@ -74,7 +74,10 @@ _COLUMNS: Final = (
     _of("level_modelled_db", "level_modelled", {"weighting": "Z"}),
     _of("level_modelled_dbc", "level_modelled", {"weighting": "C"}),
 )  # fmt: skip
-_EVERY: Final = (*_COLUMNS, *(column for one in _COLUMNS for column in _beside(one)))
+_EVERY: Final = (
+    *_COLUMNS,
+    *(column for shown_column in _COLUMNS for column in _beside(shown_column)),
+)
 
 for _number, _column in enumerate(_EVERY):
     register(replace(_column, position=float(_number)))

@@ -23,7 +23,7 @@ WITHIN_DB: Final = 40.0
 LOUD_DB: Final = 20.0
 """Orders no further below the strongest of their channel and speed are printed."""
 CHANGED_DB: Final = 0.5
-"""So are those that differ by more, no further below than `WITHIN_DB`."""
+"""Difference from which orders are loud too, no further below than `WITHIN_DB`."""
 MOST_ORDERS: Final = 12
 """Printed orders of a channel at a speed: the strongest."""
 _RESULTS: Final = ("channel", "compared")
@@ -44,32 +44,32 @@ _COLUMNS: Final[Columns] = (
 
 
 def is_pressure(compared: xr.Dataset) -> list[bool]:
-    """Which channels are of sound pressure."""
+    """Return which channels are of sound pressure."""
     return [str(unit) == "Pa" for unit in compared["channel_unit"].values]
 
 
 def orders_table(compared: xr.Dataset, channel: str) -> Table:
     """Orders of a channel in both results; of sound pressure in dB re 20 µPa."""
-    there = compared.sel(channel=channel)
-    unit, drawn = str(there["channel_unit"].item()), "order_run_deviation" in compared
+    at_channel = compared.sel(channel=channel)
+    unit, is_repeated = str(at_channel["channel_unit"].item()), "order_run_deviation" in compared
     rows = []
     for speed in sorted(shown_speeds(compared)):
-        at_speed = there.sel(speed=speed)
+        at_speed = at_channel.sel(speed=speed)
         for order in loud_orders(at_speed):
-            one = at_speed.sel(order=order)
-            sizes = (_size(one[f"{name}_order_rms"].item(), unit) for name in _RESULTS)
+            at_order = at_speed.sel(order=order)
+            sizes = (_size(at_order[f"{name}_order_rms"].item(), unit) for name in _RESULTS)
             changes = (
-                rounding.signed(one["order_difference"].item(), 2),
-                rounding.signed(float(np.degrees(one["order_phase_difference"])), 0),
+                rounding.signed(at_order["order_difference"].item(), 2),
+                rounding.signed(float(np.degrees(at_order["order_phase_difference"])), 0),
             )
-            fixed = ["channel_order_coherence", *(_SCATTER if drawn else ())]
-            others = (rounding.fixed(one[name].item(), 2) for name in fixed)
+            fixed = ["channel_order_coherence", *(_SCATTER if is_repeated else ())]
+            others = (rounding.fixed(at_order[name].item(), 2) for name in fixed)
             rows.append((f"{speed:.0f}", f"{order:g}×", *sizes, *changes, *others))
     of_unit = "dB re 20 µPa" if unit == "Pa" else f"RMS, {unit}"
     head = ["rpm", "Order", f"A, {of_unit}", f"B, {of_unit}", "B − A, dB", "phase, °", "coherence"]
-    if drawn:
+    if is_repeated:
         head += ["runs ±, dB", "specimens ±, dB", "u of the mean, dB"]
-    other = str(there["compared_channel"].item())
+    other = str(at_channel["compared_channel"].item())
     name = channel if other == channel else f"{channel}, of B {other}"
     caption = f"{name}: orders within {WITHIN_DB:g} dB of the strongest; coherence of the weaker"
     return Table(caption, tuple(head), tuple(rows), frozenset({0, 1}))
@@ -77,14 +77,14 @@ def orders_table(compared: xr.Dataset, channel: str) -> Table:
 
 def known_channels(compared: xr.Dataset) -> list[str]:
     """Channels with an order that both results have, microphones first."""
-    known = compared["order_difference"].notnull().any(("speed", "order")).values
+    is_compared = compared["order_difference"].notnull().any(("speed", "order")).values
     pressure = np.array(is_pressure(compared), dtype=bool)
-    names = [compared["channel"].values[known & first] for first in (pressure, ~pressure)]
+    names = [compared["channel"].values[is_compared & first] for first in (pressure, ~pressure)]
     return [str(name) for name in np.concatenate(names)]
 
 
 def summary(compared: xr.Dataset) -> str:
-    """How far the results are apart where they are loud."""
+    """Say how far the results are apart where they are loud."""
     difference = compared["order_difference"].values
     loud = _loud(compared)
     if not loud.any():
@@ -92,14 +92,15 @@ def summary(compared: xr.Dataset) -> str:
     size = np.where(loud, np.abs(difference), -1.0)
     worst = np.unravel_index(int(size.argmax()), size.shape)
     channel, speed, order = (
-        compared[dim].values[at]
-        for dim, at in zip(("channel", "speed", "order"), worst, strict=True)
+        compared[dim].values[index]
+        for dim, index in zip(("channel", "speed", "order"), worst, strict=True)
     )
     middle = rounding.fixed(float(np.median(size[loud])), 2)
     return (
-        f"Of {int(loud.sum())} orders within {WITHIN_DB:g} dB of the strongest of their channel at "
-        f"their speed, B differs from A by {middle} dB in the middle, most in order {order:g} of "
-        f"{channel} at {speed:.0f} rpm, {rounding.signed(float(difference[worst]))} dB."
+        f"B differs from A by {middle} dB (median of {int(loud.sum())} orders within "
+        f"{WITHIN_DB:g} dB of the strongest of their channel at their speed). The largest "
+        f"difference is that of order {order:g} of {channel} at {speed:.0f} rpm: "
+        f"{rounding.signed(float(difference[worst]))} dB."
     )
 
 
@@ -113,8 +114,8 @@ def _loud(compared: xr.Dataset) -> NDArray[np.bool_]:
     rms = np.maximum(compared["channel_order_rms"].values, compared["compared_order_rms"].values)
     strongest = rms.max(axis=-1, keepdims=True)
     ratio = rms / np.where(strongest > 0.0, strongest, 1.0)
-    known = np.isfinite(compared["order_difference"].values)
-    return np.asarray(known & (level_of_amplitude(ratio) > -WITHIN_DB))
+    is_compared = np.isfinite(compared["order_difference"].values)
+    return np.asarray(is_compared & (level_of_amplitude(ratio) > -WITHIN_DB))
 
 
 def _size(rms: float, unit: str) -> str:
@@ -167,9 +168,9 @@ def compared_data(compared: xr.Dataset) -> DataTable:
 def _that_matter(rows: Iterable[Record]) -> Iterator[Record]:
     """Return the strong orders of each channel and speed, and weaker ones that differ."""
     for _, group in groupby(rows, key=itemgetter("channel", "speed_rpm")):
-        known = [row for row in group if np.isfinite(row["difference_db"])]
-        strongest = max((_peak(row) for row in known), default=0.0)
-        chosen = [row for row in known if _matters(row, strongest)]
+        compared_rows = [row for row in group if np.isfinite(row["difference_db"])]
+        strongest = max((_peak(row) for row in compared_rows), default=0.0)
+        chosen = [row for row in compared_rows if _matters(row, strongest)]
         printed = {row["order"] for row in sorted(chosen, key=_peak, reverse=True)[:MOST_ORDERS]}
         yield from (row for row in chosen if row["order"] in printed)
 

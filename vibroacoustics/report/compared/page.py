@@ -48,7 +48,7 @@ from .studies import inputs_table, key_figures
 from .validation import is_study, levels_tables, validations_of
 
 MOST_ROWS: Final = 40
-"""Of a table that is not folded."""
+"""Most rows of a table that is not folded."""
 
 
 def analysis_of_comparison(compared: Compared, figures: Sequence[CheckedFigure]) -> Analysis:
@@ -132,11 +132,12 @@ def _agreement(validations: Sequence[Validation]) -> str:
     agree, differ = (
         sum(each.verdict == word for each in validations) for word in (AGREES, DIFFERS)
     )
-    known = sum(each.uncertainty > 0.0 for each in validations)
+    count = sum(each.uncertainty > 0.0 for each in validations)
     return (
-        f"Of {len(validations)} figures of the study beside the recordings {agree} agree within "
-        f"{LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)} and {differ} differ by more than "
-        f"{COVERAGE:g} times the validation uncertainty; it is known, in part at least, of {known}."
+        f"{agree} of {len(validations)} figures of the study agree with the recordings within "
+        f"{LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)}. {differ} differ by more than "
+        f"{COVERAGE:g} times the validation uncertainty, which is known, at least in part, for "
+        f"{count}."
     )
 
 
@@ -160,12 +161,12 @@ def _orders(orders: xr.Dataset) -> list[Block]:
         return [Text(summary(orders))]
     have_pictures = orders["order_difference"].notnull().any(("speed", "order")).values
     with_pictures = map(str, orders["channel"].values[have_pictures])
-    drawn = dict(zip(with_pictures, compared_order_charts(orders), strict=True))
+    charts_of = dict(zip(with_pictures, compared_order_charts(orders), strict=True))
     loud = dict(zip(map(str, orders["channel"].values), is_pressure(orders), strict=True))
     first = [name for name in channels if loud[name]] or channels[:1]
     blocks: list[Block] = [Pictures((order_differences(orders),))]
     for name in channels:
-        pictures_of = (*(channel_charts(orders, name) if name in first else ()), drawn[name])
+        pictures_of = (*(channel_charts(orders, name) if name in first else ()), charts_of[name])
         of_channel: tuple[Block, ...] = (orders_table(orders, name), Pictures(pictures_of))
         blocks += of_channel if name in first else [Details(name, of_channel)]
     return blocks
@@ -185,7 +186,7 @@ def _runs(orders: xr.Dataset) -> tuple[Block, ...]:
     note = (
         "Means are energy means over the runs of each specimen and then over the specimens. "
         "Deviations are of levels: between runs of one specimen, and between specimens without "
-        "what the runs scatter; where each specimen ran once, the two cannot be told apart. The "
+        "what the runs scatter; where each specimen ran once, the two cannot be separated. The "
         "uncertainty of the mean of one specimen holds for that specimen alone."
     )
     table = Table("Runs", ("Run", "Recording", "Specimen"), tuple(rows), frozenset({0, 1, 2}))

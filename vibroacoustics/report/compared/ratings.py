@@ -18,7 +18,7 @@ _WORDS: Final = {
     "rating_limit": ("Limit at {}", "dB(A)", 1.0),
     "limit_probability": ("Limit met at {}", "%", 100.0),
 }
-"""What each variable is, its unit and what it is multiplied by."""
+"""Words of each variable, its unit and its factor."""
 _IN_STEPS: Final = ("tonal_adjustment", "rating_adjustment")
 
 

@@ -18,7 +18,7 @@ Figure = tuple[str, str, float, float]
 """Words, unit and the values of both."""
 MOST_ROWS: Final = 60
 _NO_INPUT: Final = ("records", "source_file", "title", "options")
-"""Of the parameters, what is no input of its known_inputs."""
+"""Attributes among the parameters that are no input."""
 _AMPLITUDES: Final = {
     "force_amplitude": ("Force", "N"),
     "moment_amplitude": ("Moment", "N m"),
@@ -52,39 +52,46 @@ def _figures(compared: Compared) -> Iterator[Figure]:
     for speed, other_speed in zip(*speeds, strict=True):
         if speed not in shown:
             continue
-        one = first.sel(speed=speed, option=option)
+        reference = first.sel(speed=speed, option=option)
         two = second.sel(speed=other_speed, option=other)
-        yield from _amplitudes(one, two, f"{speed:.0f} rpm")
-        yield from _levels(one, two, f"{speed:.0f} rpm")
+        yield from _amplitudes(reference, two, f"{speed:.0f} rpm")
+        yield from _levels(reference, two, f"{speed:.0f} rpm")
     yield from _criteria(first, option, second, other)
 
 
 def _amplitudes(first: xr.Dataset, second: xr.Dataset, where: str) -> Iterator[Figure]:
     for name, (words, unit) in _AMPLITUDES.items():
         for order in (1, 2):
-            one, two = (float(at[name].sel(order=order).max()) for at in (first, second))
-            if max(one, two) > rounding.FORCE_FLOOR:
-                yield f"{words}, {order}×, {where}", unit, one, two
+            first_n, two = (float(side[name].sel(order=order).max()) for side in (first, second))
+            if max(first_n, two) > rounding.FORCE_FLOOR:
+                yield f"{words}, {order}×, {where}", unit, first_n, two
 
 
 def _levels(first: xr.Dataset, second: xr.Dataset, where: str) -> Iterator[Figure]:
     for receiver in map(str, first["receiver"].values):
         if receiver not in second["receiver"].values:
             continue
-        one, two = first.sel(receiver=receiver), second.sel(receiver=receiver)
-        total = float(one["level_total"]), float(two["level_total"])
+        reference, two = first.sel(receiver=receiver), second.sel(receiver=receiver)
+        total = float(reference["level_total"]), float(two["level_total"])
         yield f"Level at {receiver}, {where}", "dB(A)", total[0], total[1]
-        level, other = (float(at["level_modelled"].sel(weighting="A")) for at in (one, two))
+        level, other = (
+            float(side["level_modelled"].sel(weighting="A")) for side in (reference, two)
+        )
         yield f"Modelled level at {receiver}, {where}", "dB(A)", level, other
 
 
 def _criteria(first: xr.Dataset, option: str, second: xr.Dataset, other: str) -> Iterator[Figure]:
     names = [name for name in first["criterion"].values if name in second["criterion"].values]
     for name in names:
-        one = first["criterion_value"].sel(criterion=name, option=option)
+        reference = first["criterion_value"].sel(criterion=name, option=option)
         value = float(second["criterion_value"].sel(criterion=name, option=other))
-        words = str(one["criterion_label"].item()) or labels.name(str(name))
-        yield f"Criterion: {words}", str(one["criterion_unit"].item()), float(one), value
+        words = str(reference["criterion_label"].item()) or labels.name(str(name))
+        yield (
+            f"Criterion: {words}",
+            str(reference["criterion_unit"].item()),
+            float(reference),
+            value,
+        )
 
 
 def _cells(first: float, second: float, unit: str) -> tuple[str, ...]:
@@ -100,9 +107,9 @@ def _cells(first: float, second: float, unit: str) -> tuple[str, ...]:
 
 def _inputs(result: xr.Dataset, option: str) -> dict[str, Any]:
     """All parameters of a study with the chosen option's, by their names joined by dots."""
-    known = parameters(result)
-    of_option = {"name": option, **(known["options"].get(option) or {})}
-    others = {name: value for name, value in known.items() if name not in _NO_INPUT}
+    content = parameters(result)
+    of_option = {"name": option, **(content["options"].get(option) or {})}
+    others = {name: value for name, value in content.items() if name not in _NO_INPUT}
     return dict(_flat({**others, "option": of_option}))
 
 

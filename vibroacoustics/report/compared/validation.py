@@ -21,7 +21,8 @@ from .orders import is_pressure, known_channels, loud_orders
 
 
 class Levels(NamedTuple):
-    """Levels of one result at a microphone; uncertainty of the mean where several runs tell it."""
+    """Levels of one result at a microphone; uncertainty of the mean where there are several
+    runs."""
 
     total_dba: float
     total_uncertainty_db: float
@@ -34,13 +35,16 @@ def levels_tables(compared: Compared) -> list[Table]:
     """A table for each microphone and speed at which both results have levels."""
     channels = compared.orders["channel"].values[is_pressure(compared.orders)]
     rows = product(map(str, channels), sorted(shown_speeds(compared.orders)))
-    return [table for one in rows if (table := _table(compared, *one)) is not None]
+    return [table for row in rows if (table := _table(compared, *row)) is not None]
 
 
 def levels_at(compared: Compared, channel: str, speed: float) -> tuple[Levels, Levels] | None:
     """Levels of both at a microphone; none where one has none at such a speed."""
-    there = compared.orders.sel(channel=channel, speed=speed)
-    other, other_speed = str(there["compared_channel"].item()), float(there["compared_speed"])
+    at_channel = compared.orders.sel(channel=channel, speed=speed)
+    other, other_speed = (
+        str(at_channel["compared_channel"].item()),
+        float(at_channel["compared_speed"]),
+    )
     names = {"channel": (channel, speed), "compared_channel": (other, other_speed)}
     first, second = (
         _of_study(result, option, *names[key])
@@ -58,19 +62,21 @@ def _of_study(result: xr.Dataset, option: str, channel: str, speed: float) -> Le
     if "modelled_band_level" not in result or speed not in result["path_speed"].values:
         return Levels(total, float("nan"), nothing, nothing, nothing)
     bands = result["modelled_band_level"].sel(option=option, receiver=receiver, path_speed=speed)
-    known = bands.values > rounding.LEVEL_FLOOR_DB
-    hertz = bands["band"].values[known]
-    return Levels(total, float("nan"), hertz, bands.values[known], np.full(hertz.size, np.nan))
+    is_audible = bands.values > rounding.LEVEL_FLOOR_DB
+    hertz = bands["band"].values[is_audible]
+    return Levels(total, float("nan"), hertz, bands.values[is_audible], np.full(hertz.size, np.nan))
 
 
 def _of_recording(result: xr.Dataset, channel: str, _: float) -> Levels | None:
-    """Of all of a recording, which must be at one speed."""
+    """Levels of a whole recording, which must be at one speed."""
     if "equivalent_level" not in result or result.sizes["speed"] > 1:
         return None
-    there = result.sel(channel=channel)
-    total, bands = there["equivalent_level"], there["band_level"].sel(weighting="Z")
-    total_spread = there.get("equivalent_mean_uncertainty", np.nan * total).sel(weighting="A")
-    spread = there.get("band_mean_uncertainty", np.nan * there["band_level"]).sel(weighting="Z")
+    at_channel = result.sel(channel=channel)
+    total, bands = at_channel["equivalent_level"], at_channel["band_level"].sel(weighting="Z")
+    total_spread = at_channel.get("equivalent_mean_uncertainty", np.nan * total).sel(weighting="A")
+    spread = at_channel.get("band_mean_uncertainty", np.nan * at_channel["band_level"]).sel(
+        weighting="Z"
+    )
     return Levels(
         total.sel(weighting="A").item(), total_spread.item(),
         bands["band"].values, bands.values, spread.values,
@@ -78,13 +84,21 @@ def _of_recording(result: xr.Dataset, channel: str, _: float) -> Levels | None:
 
 
 def _table(compared: Compared, channel: str, speed: float) -> Table | None:
-    both = levels_at(compared, channel, speed)
-    if both is None:
+    pair = levels_at(compared, channel, speed)
+    if pair is None:
         return None
-    rows = [_row("all, dB(A)", *((one.total_dba, one.total_uncertainty_db) for one in both))]
+    rows = [
+        _row("all, dB(A)", *((levels.total_dba, levels.total_uncertainty_db) for levels in pair))
+    ]
     first, second = (
-        dict(zip(one.band_hz, zip(one.band_db, one.band_uncertainty_db, strict=True), strict=True))
-        for one in both
+        dict(
+            zip(
+                levels.band_hz,
+                zip(levels.band_db, levels.band_uncertainty_db, strict=True),
+                strict=True,
+            )
+        )
+        for levels in pair
     )
     shared = sorted(first.keys() & second)
     rows += [_row(f"{band:g} Hz", first[band], second[band]) for band in shared]
@@ -101,13 +115,13 @@ def _table(compared: Compared, channel: str, speed: float) -> Table | None:
 
 def _row(name: str, first: tuple[float, float], second: tuple[float, float]) -> tuple[str, ...]:
     """Levels with their uncertainties, not a number where these are not known."""
-    known = [spread for _, spread in (first, second) if np.isfinite(spread)]
+    spreads = [spread for _, spread in (first, second) if np.isfinite(spread)]
     return (
         name,
         rounding.level(first[0]),
         rounding.level(second[0]),
         rounding.signed(second[0] - first[0]),
-        rounding.fixed(float(np.linalg.norm(known)), 2) if known else rounding.NOTHING,
+        rounding.fixed(float(np.linalg.norm(spreads)), 2) if spreads else rounding.NOTHING,
     )
 
 
@@ -131,10 +145,10 @@ def _points(compared: Compared, study_first: bool) -> Iterator[tuple[xr.Dataset,
     """Orders of each channel at each speed, with the name of the channel in the study."""
     orders = compared.orders
     for channel in known_channels(orders):
-        there = orders.sel(channel=channel)
-        named = channel if study_first else str(there["compared_channel"].item())
+        at_channel = orders.sel(channel=channel)
+        named = channel if study_first else str(at_channel["compared_channel"].item())
         for speed in sorted(shown_speeds(orders)):
-            yield there.sel(speed=speed), named
+            yield at_channel.sel(speed=speed), named
 
 
 def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
@@ -142,33 +156,36 @@ def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
     for at_speed, named in _points(compared, study_first):
         unit = str(at_speed["channel_unit"].item())
         for order in loud_orders(at_speed):
-            one = at_speed.sel(order=order)
-            levels = [_level(one[f"{name}_order_rms"], unit) for name in ("channel", "compared")]
+            at_order = at_speed.sel(order=order)
+            levels = [
+                _level(at_order[f"{name}_order_rms"], unit) for name in ("channel", "compared")
+            ]
             simulation, data = levels if study_first else levels[::-1]
-            spread = float(one.get("order_mean_uncertainty", np.nan))
+            spread = float(at_order.get("order_mean_uncertainty", np.nan))
             yield Validation(
-                f"Order {order:g} of {one['channel'].item()}, {one['speed'].item():.0f} rpm",
+                f"Order {order:g} of {at_order['channel'].item()}, "
+                f"{at_order['speed'].item():.0f} rpm",
                 "dB" if unit == "Pa" else f"dB re 1 {unit}",
                 simulation,
                 data,
                 _numerical(study, named),
                 0.0,
                 spread if np.isfinite(spread) else 0.0,
-                str(one.attrs["second" if study_first else "first"]),
+                str(at_order.attrs["second" if study_first else "first"]),
             )
 
 
 def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
     study = compared.first if study_first else compared.second
     _, _, option, _ = list(compared.sides())[0 if study_first else 1]
-    for one, named in _points(compared, study_first):
-        channel, speed = str(one["channel"].item()), float(one["speed"])
-        is_sound = str(one["channel_unit"].item()) == "Pa"
-        both = levels_at(compared, channel, speed) if is_sound else None
-        if both is None:
+    for at_point, named in _points(compared, study_first):
+        channel, speed = str(at_point["channel"].item()), float(at_point["speed"])
+        is_sound = str(at_point["channel_unit"].item()) == "Pa"
+        pair = levels_at(compared, channel, speed) if is_sound else None
+        if pair is None:
             continue
-        simulated, data = both if study_first else both[::-1]
-        at = speed if study_first else float(one["compared_speed"])
+        simulated, data = pair if study_first else pair[::-1]
+        study_rpm = speed if study_first else float(at_point["compared_speed"])
         spread = data.total_uncertainty_db
         yield Validation(
             f"Level in all at {channel}, {speed:.0f} rpm",
@@ -176,14 +193,14 @@ def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
             simulated.total_dba,
             data.total_dba,
             _numerical(study, named),
-            _inputs(study, option, named, at),
+            _inputs(study, option, named, study_rpm),
             spread if np.isfinite(spread) else 0.0,
-            str(one.attrs["second" if study_first else "first"]),
+            str(at_point.attrs["second" if study_first else "first"]),
         )
 
 
 def _numerical(study: xr.Dataset, channel: str) -> float:
-    """Of the transfer vectors' grids, for sound pressure."""
+    """Error of the transfer vectors' grids, for sound pressure."""
     if not channel.startswith(PRESSURE):
         return 0.0
     return grid_error_db(study, channel.removeprefix(PRESSURE))

@@ -9,7 +9,7 @@ import xarray as xr
 
 from ...base.arrays import Array, IndexArray
 from ...base.units import split_key
-from ..tables import DataTable, known
+from ..tables import DataTable, cell
 
 Mask = npt.NDArray[np.bool_]
 
@@ -20,11 +20,11 @@ class Column:
 
     Attributes
     ----------
-    label : what it is
-    unit : of its values; empty for a number or a choice
+    label : label of the variable
+    unit : unit of its values; empty for a number or a choice
     values : shape (design,); of a choice the number among its words; not a number where a design
         has no such value
-    words : of a choice
+    words : words of a choice
     """
 
     label: str
@@ -53,8 +53,8 @@ class Evaluated:
     ----------
     variables, objectives : columns
     met : which designs meet every constraint, shape (design,)
-    front : of these, those of which none is better in every objective, shape (design,)
-    best : numbers of the best few, the first one first
+    front : designs of these of which none is better in every objective, shape (design,)
+    best : numbers of the best few, the first one first, shape (best,)
     """
 
     variables: tuple[Column, ...]
@@ -83,14 +83,14 @@ def designs_data(search: xr.Dataset) -> DataTable:
         search["design_variable"].values, search["design_value"].values.T, strict=True
     ):
         words = choices.get(str(key))
-        table[str(key)] = [words[round(v)] if words else known(v) for v in column.tolist()]
+        table[str(key)] = [words[round(v)] if words else cell(v) for v in column.tolist()]
     for name, unit, column in zip(
         search["wanted"].values,
         search["wanted_unit"].values,
         search["wanted_value"].values.T,
         strict=True,
     ):
-        table[f"{name} ({unit})" if unit else str(name)] = [*map(known, column.tolist())]
+        table[f"{name} ({unit})" if unit else str(name)] = [*map(cell, column.tolist())]
     judged = ("meets_constraints", "on_front")
     return table | {name: search[name].values.tolist() for name in judged}
 

@@ -76,7 +76,7 @@ def analysis_of_no_designs(swept: xr.Dataset) -> Analysis:
 
 
 def _promised(search: xr.Dataset) -> str:
-    """What the promised values are of."""
+    """Say which statistic the promised values are."""
     count = search.attrs["promise_samples"]
     if search.attrs["is_sampled"]:
         return (
@@ -94,7 +94,7 @@ def _sentence(words: str) -> str:
 
 
 def _headline(search: xr.Dataset, designs: Evaluated) -> str:
-    """What the first of the best few promises, beside the machine without an option."""
+    """Say what the first of the best few promises, beside the machine without an option."""
     reached = []
     roles = search["wanted_role"].values
     aims = [number for number, role in enumerate(roles) if role in ("least", "greatest")]
@@ -106,7 +106,8 @@ def _headline(search: xr.Dataset, designs: Evaluated) -> str:
 
 
 def _precision(search: xr.Dataset) -> str:
-    """How far a promised value may be off for the number of samples, in decibels if it is one."""
+    """Say how far a promised value may be off for the number of samples, in decibels if it is
+    one."""
     low, value, high = (search[f"wanted_promised{end}"].values for end in ("_low", "", "_high"))
     each = np.maximum(high - value, value - low).max(axis=0)
     units, names = search["wanted_unit"].values, search["wanted"].values
@@ -143,7 +144,13 @@ def _shares(search: xr.Dataset) -> Table:
     """Share of each variable in the variance of each wanted value, where chance gives less."""
     keys = [variable_label(str(key)) for key in search["design_variable"].values]
     rows = [
-        (str(name), *(share_words(search, "design_share", number, at) for at in range(len(keys))))
+        (
+            str(name),
+            *(
+                share_words(search, "design_share", number, number_of_key)
+                for number_of_key in range(len(keys))
+            ),
+        )
         for number, name in enumerate(search["wanted"].values)
     ]
     caption = (
@@ -233,7 +240,7 @@ def shown(value: float, unit: str) -> str:
 
 
 def limiting(search: xr.Dataset, designs: Evaluated) -> Iterator[str]:
-    """What limits each of the best few: constraints that it just meets, ends of ranges."""
+    """Yield the limits of each of the best few: constraints that it just meets, ends of ranges."""
     low, high = search["design_low"].values, search["design_high"].values
     for rank, row in enumerate(designs.best, 1):
         reasons = []

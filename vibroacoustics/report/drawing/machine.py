@@ -56,9 +56,11 @@ def feet_m(machine: Mapping[str, Any]) -> Array:
     under = -machine["shell"]["centre_of_mass_height_m"]
     feet = machine.get("feet")
     if feet:
-        given = [foot for _, foot in sorted(feet.items()) if foot is not None]
-        heights = [under if foot.get("height_m") is None else foot["height_m"] for foot in given]
-        return np.array([(f["x_m"], f["y_m"], z) for f, z in zip(given, heights, strict=True)])
+        given_feet = [foot for _, foot in sorted(feet.items()) if foot is not None]
+        heights = [
+            under if foot.get("height_m") is None else foot["height_m"] for foot in given_feet
+        ]
+        return np.array([(f["x_m"], f["y_m"], z) for f, z in zip(given_feet, heights, strict=True)])
     if not machine.get("mounts"):
         return np.empty((0, 3))
     half = machine["mounts"]["pitch_m"] / 2.0
@@ -89,18 +91,18 @@ class Loads(NamedTuple):
 
 
 def loads(results: xr.Dataset) -> Loads | None:
-    """Loads without a balancer, as given; None in files of older versions."""
+    """Nominal loads without a balancer; None in files of older versions."""
     if any(name not in results for name in NEEDED):
         return None
     first = results[list(NEEDED)].sel(option=REFERENCE_OPTION, order=1)
-    at = first.isel(speed=int(first["force_amplitude"].argmax("speed")))
+    loudest = first.isel(speed=int(first["force_amplitude"].argmax("speed")))
     return Loads(
-        float(at["speed"]),
-        at["force_order"].sum("source").values,
-        at["moment_order"].sum("source").values,
-        at["foot_force_order"].sum("source").transpose("foot", "axis").values,
-        float(at["force_amplitude"]),
-        float(at["moment_amplitude"]),
+        float(loudest["speed"]),
+        loudest["force_order"].sum("source").values,
+        loudest["moment_order"].sum("source").values,
+        loudest["foot_force_order"].sum("source").transpose("foot", "axis").values,
+        float(loudest["force_amplitude"]),
+        float(loudest["moment_amplitude"]),
     )
 
 

@@ -51,17 +51,17 @@ def machine_picture(results: xr.Dataset) -> Picture | None:
 
 
 def _side(lines: Outline, feet: Array, acting: Loads) -> list[str]:
-    """Along y: outline, feet, floor, force at the centre of mass, forces into the feet."""
+    """View along y: outline, feet, floor, force at the centre of mass, forces into the feet."""
     floor = np.array([(0.0, lines.floor_z_m)])
     around = np.concatenate([lines.side, feet[:, [0, 2]], floor])
     view = fitted((0, 2), around, (110, 14), (140, 150))
-    level = view.at(floor)[0, 1]
+    level = view.in_drawing(floor)[0, 1]
     largest_foot = max(float(np.abs(acting.foot_force_n).max()), 1e-12)
     largest = max(acting.force_amplitude_n, 1e-12)
     foot_scale, scale = LONGEST_FOOT_FORCE / largest_foot, LONGEST_FORCE / largest
     ground = np.array([(20.0, level), (340.0, level)])
     parts = [
-        svg.path(view.at(lines.side), True, fill=FILL, stroke=svg.INK, stroke_width=1.2),
+        svg.path(view.in_drawing(lines.side), True, fill=FILL, stroke=svg.INK, stroke_width=1.2),
         svg.path(ground, stroke=svg.SOFT, stroke_dasharray="5 3"),
         *(_mount(view, foot, level) for foot in feet),
     ]
@@ -89,13 +89,13 @@ def _mount(view: View, foot: Array, level: float) -> str:
 def _above(
     lines: Outline, feet: Array, receivers: dict[str, Array], walls: list[tuple[int, float]]
 ) -> list[str]:
-    """Along z: outline, feet, walls, numbered microphones."""
+    """View along z: outline, feet, walls, numbered microphones."""
     points = [point[:2] for point in receivers.values()]
-    points += [np.where(np.arange(2) == axis, at, 0.0) for axis, at in walls]
+    points += [np.where(np.arange(2) == axis, coordinate, 0.0) for axis, coordinate in walls]
     around = np.concatenate([lines.above, np.array(points).reshape(-1, 2)])
     view = fitted((0, 1), around, (40, 220), (280, 140))
-    parts = [_wall(view, axis, at) for axis, at in walls]
-    parts.append(svg.path(view.at(lines.above), True, fill=FILL, stroke=svg.INK))
+    parts = [_wall(view, axis, coordinate) for axis, coordinate in walls]
+    parts.append(svg.path(view.in_drawing(lines.above), True, fill=FILL, stroke=svg.INK))
     parts += [svg.disc(view.of(foot), 1.5, fill=svg.INK) for foot in feet]
     for number, point in enumerate(receivers.values(), 1):
         x, y = view.of(point)
@@ -111,7 +111,7 @@ def _above(
 
 
 def _wall(view: View, axis: int, at_m: float) -> str:
-    x, y = view.at(np.full(2, at_m))
+    x, y = view.in_drawing(np.full(2, at_m))
     ends = [(x, 214.0), (x, 374.0)] if axis == 0 else [(14.0, y), (346.0, y)]
     return svg.path(np.array(ends), stroke=svg.SOFT, stroke_width=3)
 
@@ -147,8 +147,8 @@ def _caption(results: xr.Dataset, acting: Loads, body: dict[str, Any]) -> str:
     return (
         f"At 1× and {acting.speed_rpm:g} rpm without a balancer: force "
         f"{FORCE.write(acting.force_amplitude_n)} and moment "
-        f"{MOMENT.write(acting.moment_amplitude_nm)} about the centre of mass (dot), at most "
-        f"{FOOT_FORCE.write(foot)} into a foot; an arrow is a peak, a loop what it draws over a "
+        f"{MOMENT.write(acting.moment_amplitude_nm)} about the centre of mass (dot). Largest force "
+        f"into a foot: {FOOT_FORCE.write(foot)}. Arrows are peaks, loops their paths over a "
         f"revolution. Microphones: {'; '.join(heights)}.{mesh}"
     )
 
@@ -177,9 +177,9 @@ def section_picture(results: xr.Dataset) -> Picture | None:
         "section",
         "Section of the machine with the forces of its sources at order 1 and at the loudest line.",
         f"Section across y at {float(results['shown_speed']):g} rpm, option {REFERENCE_OPTION}, of "
-        "the representative sample: force of all sources on each part, semi-major axis, peak; a "
-        "loop is its path over a period. Above order 1, below the line with the highest A-weighted "
-        "level. Parts are cylinders at their nominal heights.",
+        "the representative sample: force of all sources on each part, semi-major axis, peak. "
+        "Loops are its path over a period. Above order 1, below the line with the highest "
+        "A-weighted level. Parts are cylinders at their nominal heights.",
         svg.drawing(_WIDTH, 8.0 + 2 * _VIEW, views, "Section of the machine with forces"),
         "svg",
     )
@@ -202,8 +202,10 @@ def _view(
     size = semi_major_axis(force.values, -1)
     scale = _LONGEST / max(float(size.max()), 1e-12)
     marks = [
-        svg.path(view.at(lines.side), True, fill="#f4f6f8", stroke=svg.INK, stroke_width=1.2),
-        *(svg.path(view.at(part), True, fill=_PART, stroke=svg.SOFT) for part in parts),
+        svg.path(
+            view.in_drawing(lines.side), True, fill="#f4f6f8", stroke=svg.INK, stroke_width=1.2
+        ),
+        *(svg.path(view.in_drawing(part), True, fill=_PART, stroke=svg.SOFT) for part in parts),
         svg.words((8.0, top + 10.0), title),
         axes_cross((16.0, top + 60.0), "x", "z"),
         bar((20.0, top + _VIEW - 14.0), scale, "N", 90.0, FORCE_COLOUR),

@@ -30,16 +30,16 @@ def path(points: Array, closed: bool = False, **looks: Any) -> str:
     return f'<path d="M{coordinates}{"Z" if closed else ""}"{_looks(looks)}/>'
 
 
-def words(at: Sequence[float], text: str, anchor: str = "start", **looks: Any) -> str:
+def words(position: Sequence[float], text: str, anchor: str = "start", **looks: Any) -> str:
     """Text that starts, ends or has its middle at a point, with white around it."""
     looks = {"paint_order": "stroke", "stroke": "#fff", "stroke_width": 3} | looks
-    where = f'x="{at[0]:.1f}" y="{at[1]:.1f}" text-anchor="{anchor}"'
+    where = f'x="{position[0]:.1f}" y="{position[1]:.1f}" text-anchor="{anchor}"'
     return f"<text {where}{_looks(looks)}>{escape(text)}</text>"
 
 
-def disc(at: Sequence[float] | Array, radius: float, **looks: Any) -> str:
+def disc(position: Sequence[float] | Array, radius: float, **looks: Any) -> str:
     """A circle about a point."""
-    return f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="{radius:g}"{_looks(looks)}/>'
+    return f'<circle cx="{position[0]:.1f}" cy="{position[1]:.1f}" r="{radius:g}"{_looks(looks)}/>'
 
 
 def arrow(tail: Array, tip: Array, colour: str) -> str:

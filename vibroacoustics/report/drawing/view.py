@@ -24,16 +24,16 @@ class View(NamedTuple):
     scale: float
     origin: Array
 
-    def at(self, points_m: Array) -> Array:
+    def in_drawing(self, points_m: Array) -> Array:
         """Points of the plane, shape (..., 2), in the drawing."""
         return np.asarray(self.origin + self.scale * points_m * [1.0, -1.0])
 
     def of(self, points_m: Array) -> Array:
         """Points in space, shape (..., 3), in the drawing."""
-        return self.at(points_m[..., list(self.axes)])
+        return self.in_drawing(points_m[..., list(self.axes)])
 
     def vector(self, peak: ComplexArray, from_m: Array, scale: float, colour: str) -> list[str]:
-        """What a complex peak, shape (axis,), draws over a revolution, with arrows to its ends.
+        """Path of a complex peak, shape (axis,), over a revolution, with arrows to its ends.
 
         It acts at a point, shape (3,); the scale is drawing units per unit of the vector.
         """
@@ -58,19 +58,21 @@ def fitted(
     return View(axes, scale, middle - scale * (lower + upper) / 2.0 * [1.0, -1.0])
 
 
-def bar(at: Sequence[float], scale: float, unit: str, longest: float, colour: str = svg.INK) -> str:
+def bar(
+    position: Sequence[float], scale: float, unit: str, longest: float, colour: str = svg.INK
+) -> str:
     """A scale, drawing units per unit: a bar of a round length with its value; below 1 m in mm."""
     value = float(_NICE[_NICE * scale <= longest].max(initial=_NICE[0]))
-    x, y = at
+    x, y = position
     ends = np.array([(x, y - 4), (x, y), (x + value * scale, y), (x + value * scale, y - 4)])
     text = f"{1e3 * value:g} mm" if unit == "m" and value < 1.0 else f"{value:g} {unit}"
     line = svg.path(ends, fill="none", stroke=colour, stroke_width=1.5)
     return line + svg.words((x + value * scale + 5, y), text, fill=colour)
 
 
-def axes_cross(at: Sequence[float], right: str, up: str) -> str:
-    """Which axes go right and up."""
-    x, y = at
+def axes_cross(position: Sequence[float], right: str, up: str) -> str:
+    """Show which axes go right and up."""
+    x, y = position
     corner = np.array([x, y])
     return (
         svg.arrow(corner, np.array([x + 22.0, y]), svg.SOFT)

@@ -19,7 +19,7 @@ def beat_charts(results: xr.Dataset) -> list[Chart]:
 
     Parameters
     ----------
-    results : of several machines together, with beats
+    results : results of several machines together, with beats
     """
     return [
         _chart(results.sel(common_receiver=name), name, file)

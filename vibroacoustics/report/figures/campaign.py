@@ -38,7 +38,7 @@ def campaign_charts(mean: xr.Dataset) -> list[Chart]:
 
     Parameters
     ----------
-    mean : of `mean_of_runs`
+    mean : result of `mean_of_runs`
     """
     charts = []
     for channel, file in numbered(mean, "channel"):

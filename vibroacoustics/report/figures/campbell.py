@@ -44,7 +44,7 @@ def campbell(
 
     Parameters
     ----------
-    results : of `run` at two speeds at least; needs `natural_frequency` (mode), Hz, and
+    results : results of `run` at two speeds at least; needs `natural_frequency` (mode), Hz, and
         `pressure_line`; with `shell_frequency` and `gas_frequency` these modes
     receiver : one of the microphones; default: that of the catalogue's noise
     option : one of the results
@@ -66,14 +66,14 @@ def campbell(
     x = Axis("Speed, rpm", limits=(float(speed.min() - room), float(speed.max() + room)))
     shaded = spans([each.range for each in avoided])
     panels: list[Panel] = []
-    for is_low, drawn in ((False, lines), (True, low_orders)):
+    for is_low, orders in ((False, lines), (True, low_orders)):
         of_panel, dashed = ([m for m in some if (m.kind == KINDS[0]) == is_low]
                             for some in (modes, others))  # fmt: skip
         if not (of_panel or is_low):
             continue
-        top = _highest(of_panel, drawn, is_low)
-        met = crossings(drawn, of_panel, speed, level.values)
-        rows = (_modes(of_panel, "-"), _modes(dashed, "--"), _lines(drawn, speed, top))
+        top = _highest(of_panel, orders, is_low)
+        met = crossings(orders, of_panel, speed, level.values)
+        rows = (_modes(of_panel, "-"), _modes(dashed, "--"), _lines(orders, speed, top))
         marks = (*shaded, *(m for row in rows for m in row), *_marks(met, all_alike=is_low))
         title = "" if panels else shortened(f"{microphone}, option {option}", 90)
         y = Axis("Frequency, Hz", limits=(0.0, top))

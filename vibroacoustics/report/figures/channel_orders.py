@@ -29,7 +29,7 @@ def recorded_order_charts(
 
     Parameters
     ----------
-    results : of `analyse_orders`
+    results : result of `analyse_orders`
     loudest : overall level and orders of every channel of a run-up with its map; else none
     """
     by_channel = {}
@@ -80,7 +80,7 @@ def order_spectrum(orders: xr.Dataset, channel: str | None = None) -> Chart:
 
     Parameters
     ----------
-    orders : of `analyse_orders`; needs `mean_order_spectrum` (channel, map_order), in
+    orders : result of `analyse_orders`; needs `mean_order_spectrum` (channel, map_order), in
         the channel's unit
     channel : one of the dataset's channels; default: the first
     """
@@ -109,7 +109,7 @@ def order_map(orders: xr.Dataset, channel: str | None = None) -> Chart:
 
     Parameters
     ----------
-    orders : of `analyse_orders`; needs `order_map` (channel, block, map_order), in the
+    orders : result of `analyse_orders`; needs `order_map` (channel, block, map_order), in the
         channel's unit
     channel : one of the dataset's channels; default: the first
     """
@@ -136,7 +136,7 @@ def tracked_orders(tracked: xr.Dataset, channel: str | None = None) -> Chart:
 
     Parameters
     ----------
-    tracked : of `track_orders`; needs `tracked_order` (channel, track_time, order)
+    tracked : result of `track_orders`; needs `tracked_order` (channel, track_time, order)
     channel : one of the dataset's channels; default: the first
     """
     of_channel, title, file = _of_channel(tracked, channel)
@@ -178,7 +178,7 @@ _COVERAGE: Final = 2.0
 def compared_order_charts(compared: xr.Dataset) -> list[Chart]:
     """Return a chart for each channel: both spectra at each speed, or each order over many speeds.
 
-    Channels without an order that both results have are left out.
+    Channels without an order that both results have are omitted.
     """
     has_any = compared["order_difference"].notnull().any(["speed", "order"])
     return [compared_orders(compared, name) for name in compared["channel"].values[has_any.values]]
@@ -192,7 +192,7 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Chart:
 
     Parameters
     ----------
-    compared : of `compare`; needs `channel_order` and `compared_order`
+    compared : result of `compare`; needs `channel_order` and `compared_order`
         (channel, speed, order), in the channel's unit
     channel : one of the dataset's channels; default: the first
     """
@@ -250,7 +250,7 @@ def order_differences(compared: xr.Dataset, channels: Sequence[str] = ()) -> Cha
 
     Parameters
     ----------
-    compared : of `compare`; needs `order_difference` (channel, speed, order), dB
+    compared : result of `compare`; needs `order_difference` (channel, speed, order), dB
     channels : at most six are drawn; default: the first with values
     """
     difference = compared["order_difference"]

@@ -37,13 +37,13 @@ def curves(dataset: xr.Dataset, name: str | None = None) -> Chart:
 
     Parameters
     ----------
-    dataset : of `vibroacoustics.curves`, also as read from its file; needs `name`
-    name : of the variable; default: the first
+    dataset : dataset of `vibroacoustics.curves`, also as read from its file; needs `name`
+    name : name of the variable; default: the first
     """
     name = str(next(iter(dataset), "")) if name is None else name
     if name not in dataset.data_vars or "read_in" not in dataset[name].attrs:
-        known = [str(key) for key, variable in dataset.items() if "read_in" in variable.attrs]
-        raise ParameterError(f"curve {name}: unknown; allowed {', '.join(known) or 'none'}")
+        names = [str(key) for key, variable in dataset.items() if "read_in" in variable.attrs]
+        raise ParameterError(f"curve {name}: unknown; allowed {', '.join(names) or 'none'}")
     curve = dataset[name]
     orbit = curve.attrs["picture"] == "orbit"
     named = curve if curve.ndim > 1 + orbit else curve.expand_dims("line")

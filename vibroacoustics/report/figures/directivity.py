@@ -28,7 +28,7 @@ def directivity(radiated: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    radiated : of `radiate`; needs `directivity_transfer_vector`
+    radiated : result of `radiate`; needs `directivity_transfer_vector`
         (polar_angle, azimuth, dof, line_frequency), Pa s/m
     """
     field = radiated["directivity_transfer_vector"].isel(line_frequency=-1)
@@ -102,7 +102,7 @@ def polar_levels(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `polar_level` (shown_option, polar_band, polar_plane,
+    results : results of `run`; needs `polar_level` (shown_option, polar_band, polar_plane,
         polar_direction), dB
     """
     dims = ("polar_band", "polar_plane", "shown_option", "polar_direction")

@@ -20,7 +20,7 @@ def room_map(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `room_map_level` (room_map_y, room_map_x), dB
+    results : results of `run`; needs `room_map_level` (room_map_y, room_map_x), dB
     """
     level, room = results["room_map_level"], parameters(results)["room"]
     shown = level.transpose("room_map_y", "room_map_x").values
@@ -65,7 +65,8 @@ def room_seam(results: xr.Dataset, listener: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `room_gain_waves` and `room_gain_diffuse` (listener, seam_band), dB
+    results : results of `run`; needs `room_gain_waves` and `room_gain_diffuse` (listener,
+        seam_band), dB
     listener : in the room; the first where none is named
     """
     name = chosen(results, "listener", listener)

@@ -47,16 +47,16 @@ def levels_over_speed(
 ) -> Chart:
     """A-weighted level over the speed, total and modelled: a line an option, of one its band.
 
-    Of a recording a line a weighting. Speeds to avoid are shaded. A recording without a run-up is
+    For a recording: a line a weighting. Speeds to avoid are shaded. A recording without a run-up is
     drawn over the time.
 
     Parameters
     ----------
-    results : of `run`, needs `level_total` (speed, option, receiver), dB; or of
+    results : results of `run`, needs `level_total` (speed, option, receiver), dB; or of
         `speed_frequency_map`, needs `block_level` (channel, block, weighting), dB
     receiver : microphone or channel of sound pressure; default: that of the catalogue's noise, or
         the first
-    options : of a study, the first with its band; default: the first eight
+    options : options of a study, the first with its band; default: the first eight
     beside : other results, whose lines are dashed
     beside_options : options of these
     """
@@ -98,7 +98,7 @@ def levels_over_speed(
             "levels_over_speed",
             f"A-weighted level at {microphone} over the speed, total and modelled, for every "
             "option.",
-            f"A-weighted level at {microphone}: total, with what is not modelled, and modelled "
+            f"A-weighted level at {microphone}: total with unmodelled noise, and modelled "
             f"sources alone.{_bands(results)} {SHADED}",
         )
     return Chart(*words, shown, wide=True)
@@ -112,7 +112,7 @@ def source_levels_over_speed(
 
     Parameters
     ----------
-    results : of `run`; needs `source_level` (speed, option, sound_source, receiver), dB
+    results : results of `run`; needs `source_level` (speed, option, sound_source, receiver), dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     option : one of the results
     """

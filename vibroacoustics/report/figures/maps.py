@@ -17,7 +17,7 @@ from ..charts.needs import needs
 from ..shown_speeds import few_speeds
 
 DEPTH_DB: Final = 40.0
-"""What is further below the loudest has the same colour, or is the middle of a polar chart."""
+"""Depth: what is further below the loudest has one colour, or is the centre of a polar chart."""
 SILENT_DB: Final = 60.0
 """A motion whose sound is this far below the loudest of its unit counts as silent."""
 UNIT_VELOCITY: Final = 1e-3
@@ -39,7 +39,7 @@ def unit_words(dof: str) -> str:
 
 
 def dof_title(dof: str) -> str:
-    """What moves and how fast, as the head of a panel."""
+    """Return the motion and its size as the head of a panel."""
     words = f": {DOF_WORDS[dof]}" if dof in DOF_WORDS else ""
     return f"{dof}{words}, {unit_words(dof)}"
 
@@ -70,7 +70,7 @@ def unit_level_map(radiated: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    radiated : of `radiate`; needs `map_transfer_vector`
+    radiated : result of `radiate`; needs `map_transfer_vector`
         (map_row, map_column, dof, line_frequency), Pa s/m
     """
     field = radiated["map_transfer_vector"].isel(line_frequency=-1)
@@ -101,7 +101,7 @@ def line_map(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `map_level` (speed, option, map_row, map_column), dB
+    results : results of `run`; needs `map_level` (speed, option, map_row, map_column), dB
     """
     level = few_speeds(results)["map_level"].sel(option=REFERENCE_OPTION)
     level = level.transpose("speed", "map_row", "map_column")
@@ -164,7 +164,8 @@ def transfer_vectors(radiated: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    radiated : of `radiate` or `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
+    radiated : result of `radiate` or `run`; needs `transfer_vector` (receiver, dof, frequency), Pa
+        s/m
     """
     dims = ("dof", "receiver", "frequency")
     field, error = radiated["transfer_vector"].transpose(*dims), None

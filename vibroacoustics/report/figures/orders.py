@@ -24,7 +24,7 @@ def force_over_revolution(results: xr.Dataset, speed_rpm: float | None = None) -
 
     Parameters
     ----------
-    results : of `run`; needs `force` (speed, option, source, axis, crank_angle), N
+    results : results of `run`; needs `force` (speed, option, source, axis, crank_angle), N
     speed_rpm : one of the results' speeds; default: the highest
     """
     speed = max(speeds(results)) if speed_rpm is None else chosen(results, "speed", speed_rpm)
@@ -67,7 +67,7 @@ def force_orders(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `force_amplitude` (speed, option, order), N
+    results : results of `run`; needs `force_amplitude` (speed, option, order), N
     """
     force = few_speeds(results)["force_amplitude"]
     return _of_force("force_orders", "Resultant force", force, "Force, N")
@@ -79,7 +79,7 @@ def foot_force_orders(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `foot_force_amplitude` (speed, option, foot, order), N
+    results : results of `run`; needs `foot_force_amplitude` (speed, option, foot, order), N
     """
     feet = few_speeds(results)["foot_force_amplitude"].max("foot")
     return _of_force("foot_force_orders", "Largest foot force", feet, "Force into a foot, N")
@@ -91,7 +91,7 @@ def level_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `order_level` (speed, option, receiver, order, weighting), dB
+    results : results of `run`; needs `order_level` (speed, option, receiver, order, weighting), dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
@@ -102,8 +102,8 @@ def level_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
     return Chart(
         "level_orders",
         f"A-weighted level of orders {named} at {mic} for every option and speed.",
-        f"A-weighted level of single orders at {mic}, dB re 20 µPa: 1× and the loudest without and "
-        f"with options, {named}. Orders below {rounding.fixed(floor_db, 0)} dB are not drawn.",
+        f"A-weighted level of orders {named} at {mic}, dB re 20 µPa. They are 1× and the loudest "
+        f"with and without options. Orders below {rounding.fixed(floor_db, 0)} dB are not drawn.",
         _dots(level.sel(order=loud), Axis("Level, dB(A)"), floor_db),
     )
 

@@ -29,18 +29,18 @@ def orders_over_speed(
 ) -> Chart:
     """Order cuts of a channel over the speed: a line an order.
 
-    Of sound pressure levels, dB re 20 µPa, unweighted. Of a study or a comparison the eight
+    Sound pressure levels are unweighted, dB re 20 µPa. A study or a comparison shows the eight
     strongest orders, after weighting by A where they are sound; of a comparison solid lines are the
     first result, dashed ones the second. With `order_limit` (of `check_limits`), limits are drawn
     in the colours of their orders.
 
     Parameters
     ----------
-    orders : of `analyse_orders`, needs `block_order_rms` (channel, block, order); of `compare`,
-        needs `compared_order_rms`; or of `run`, needs `pressure_line`
+    orders : result of `analyse_orders`, needs `block_order_rms` (channel, block, order); of
+        `compare`, needs `compared_order_rms`; or of `run`, needs `pressure_line`
     channel : named as in `compare`; default: of a study the microphone of the catalogue's noise,
         else the first
-    option : of a study
+    option : option of a study
     """
     cuts = order_cuts(orders, channel, option)
     words, by, title = "", ".", shortened(cuts.channel, 60)
@@ -99,14 +99,14 @@ def speed_frequency_map(
     """Level of a channel over speed and frequency, dB re 20 µPa or 1 unit peak, unweighted.
 
     Thin lines: shaft orders 1, 2, 5, 10 … Of a recording at a steady speed over the time instead.
-    Of a study the lines of all sources, without their noise.
+    For a study: the lines of all sources, without their noise.
 
     Parameters
     ----------
-    results : of `speed_frequency_map`, needs `speed_frequency_map` (channel, block,
+    results : results of `speed_frequency_map`, needs `speed_frequency_map` (channel, block,
         map_frequency); or of `run`, needs `pressure_line`
     channel : channel or microphone; default: the first, or that of the catalogue's noise
-    option : of a study
+    option : option of a study
     """
     plane = plane_of(results, channel, option)
     colours = level_image(plane.frequency_hz, plane.along, plane.level_db, plane.unit)

@@ -53,7 +53,7 @@ def leading(share: Array, count: int = LEADING) -> list[int]:
 def foot_orders(results: xr.Dataset, speed: float) -> list[int]:
     """Those of the first two orders at which a foot is pressed."""
     forces = abs(_forces(results, speed, [1, 2]).sum("source")).max(("foot", "axis"))
-    return [int(one) for one in forces["order"].values[forces.values > rounding.FORCE_FLOOR]]
+    return [int(order) for order in forces["order"].values[forces.values > rounding.FORCE_FLOOR]]
 
 
 def foot_forces(results: xr.Dataset, speed: float) -> xr.DataArray:
@@ -62,8 +62,8 @@ def foot_forces(results: xr.Dataset, speed: float) -> xr.DataArray:
 
 
 def _forces(results: xr.Dataset, speed: float, orders: list[int]) -> xr.DataArray:
-    at = {"speed": speed, "option": REFERENCE_OPTION, "order": orders}
-    return results["foot_force_order"].sel(at)
+    coordinates = {"speed": speed, "option": REFERENCE_OPTION, "order": orders}
+    return results["foot_force_order"].sel(coordinates)
 
 
 @needs("path_share")
@@ -74,7 +74,7 @@ def path_shares(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `path_share` (path_speed, option, path, receiver)
+    results : results of `run`; needs `path_share` (path_speed, option, path, receiver)
     receiver : a microphone; default: the catalogue's
     """
     name = chosen(results, "receiver", receiver or catalogue_receiver(results))

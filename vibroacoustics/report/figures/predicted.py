@@ -21,7 +21,7 @@ def blocked_force(blocked: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    blocked : of `blocked_forces`; needs `blocked_force`, `blocked_force_low`,
+    blocked : result of `blocked_forces`; needs `blocked_force`, `blocked_force_low`,
         `blocked_force_high` (force_point, frequency), N
     """
     panels = []
@@ -46,7 +46,7 @@ def blocked_validation(blocked: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    blocked : of `blocked_forces`; needs `validation_measured`, `validation_predicted`,
+    blocked : result of `blocked_forces`; needs `validation_measured`, `validation_predicted`,
         `validation_predicted_low`, `validation_predicted_high` (validation_point, frequency), dB
     """
     panels = []
@@ -81,7 +81,7 @@ def predicted_levels(predicted: xr.Dataset, receiver: str | None = None) -> Char
 
     Parameters
     ----------
-    predicted : of `predict`; needs `predicted_level`, `predicted_level_low`,
+    predicted : result of `predict`; needs `predicted_level`, `predicted_level_low`,
         `predicted_level_high` (option, receiver, frequency), dB
     receiver : one of the dataset's microphones; default: the first
     """

@@ -1,4 +1,4 @@
-"""Through the mounts to the feet, and from the housing to the sound at the microphones."""
+"""Charts of the mounts, and of the radiation from the housing to the microphones."""
 
 from typing import Final
 
@@ -36,7 +36,7 @@ def mount_transmissibility(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `mount_transmissibility` (axis, mount_frequency), 1
+    results : results of `run`; needs `mount_transmissibility` (axis, mount_frequency), 1
     """
     nominal, attaching, curves = abs(results["mount_transmissibility"]), [], []
     if "option_mount_transmissibility" in results:
@@ -89,8 +89,8 @@ def levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `level_total`, `level_modelled` (speed, option, receiver, …) and
-        `order_level`, dB
+    results : results of `run`; needs `level_total`, `level_modelled` (speed, option, receiver, …)
+        and `order_level`, dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
@@ -134,7 +134,7 @@ def transfer(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
+    results : results of `run`; needs `transfer_vector` (receiver, dof, frequency), Pa s/m
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
@@ -149,15 +149,15 @@ def transfer(results: xr.Dataset, receiver: str | None = None) -> Chart:
         )
         for title, unit in (("Translations", "Pa per m/s"), ("Rotations", "Pa per rad/s"))
     )
-    greens = ", with the closed-form Green's function"
+    greens = ", closed-form Green's function"
     if is_compared:
-        greens = ": coloured lines with k-Wave's Green's function, dotted ones with the closed form"
+        greens = ": k-Wave's Green's function coloured, closed form dotted"
     return Chart(
         f"transfer_{file_name(mic)}",
         f"Sound pressure at {mic} per velocity of the housing against frequency, for translations "
         f"and rotations{'; k-Wave and closed form' if is_compared else ''}.",
-        f"Sound pressure at {mic} per velocity of the housing{greens}. tx, ty, tz: motion along x, "
-        "y, z; rx, ry, rz: rotation about them; motions that do not radiate are omitted. "
+        f"Sound pressure at {mic} per velocity of the housing{greens}. Motions: tx, ty, tz along "
+        "x, y, z; rx, ry, rz about them. Motions that do not radiate are omitted. "
         f"{marked}: 1× at the speeds of the study. Other microphones: in "
         "results.nc.",
         panels,
@@ -186,7 +186,7 @@ def green_difference(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `green_difference` (receiver, frequency), dB
+    results : results of `run`; needs `green_difference` (receiver, frequency), dB
     """
     gap = computed_by_kwave(results)
     names = [wrapped(str(name), 24) for name in gap["receiver"].values]

@@ -29,7 +29,7 @@ def run_up_levels(orders: xr.Dataset, channel: str | None = None) -> Chart:
 
     Parameters
     ----------
-    orders : of `analyse_orders`; needs `order_map` (channel, block, map_order)
+    orders : result of `analyse_orders`; needs `order_map` (channel, block, map_order)
     channel : one of the dataset's channels; default: the first
     """
     curves = loudest_orders(orders, channel)

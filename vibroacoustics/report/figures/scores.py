@@ -1,4 +1,4 @@
-"""How the score of each option comes about."""
+"""Charts of the scores of the options."""
 
 from collections.abc import Iterable
 from itertools import cycle
@@ -25,7 +25,7 @@ def scores(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `criterion_value` (option, criterion), with scales and weights
+    results : results of `run`; needs `criterion_value` (option, criterion), with scales and weights
     """
     parts = contributions(results).transpose("criterion", "option")
     labels = [wrapped(str(part["criterion_label"].item()), 50) for part in parts]
@@ -49,7 +49,7 @@ def rank_acceptability(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `rank_acceptability` (criteria_weights, option, rank_position)
+    results : results of `run`; needs `rank_acceptability` (criteria_weights, option, rank_position)
     """
     probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
     ranks = probability.transpose("rank_position", "option")

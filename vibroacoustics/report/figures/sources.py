@@ -45,7 +45,8 @@ def source_third_octaves(
 
     Parameters
     ----------
-    results : of `run`; needs `source_band_level` (speed, option, sound_source, receiver, band), dB
+    results : results of `run`; needs `source_band_level` (speed, option, sound_source, receiver,
+        band), dB
     receiver : one of the microphones; default: that of the catalogue's noise
     option : one of the results
     speed_rpm : one of the results; default: that of the catalogue's noise
@@ -81,7 +82,7 @@ def option_third_octaves(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `total_band_level` (speed, option, receiver, noise_band), dB
+    results : results of `run`; needs `total_band_level` (speed, option, receiver, noise_band), dB
     """
     names = [REFERENCE_OPTION, *changing_options(results)]
     shown = few_speeds(results)
@@ -143,7 +144,7 @@ def baseline_third_octaves(results: xr.Dataset, receiver: str | None = None) -> 
 
     Parameters
     ----------
-    results : of `run` with a measured baseline; needs `baseline_band_level` (speed, option,
+    results : results of `run` with a measured baseline; needs `baseline_band_level` (speed, option,
         receiver, baseline_band), dB
     receiver : one of the results' microphones; default: the first with third octaves
     """

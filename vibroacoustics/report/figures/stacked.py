@@ -20,7 +20,7 @@ from ..charts.needs import needs
 from ..sections.sources.words import UNMODELLED
 
 DEPTH_DB: Final = 40.0
-"""From the highest bar down to the foot of all."""
+"""Depth from the highest bar down to the foot of all."""
 _THINNEST_DB: Final = 0.3
 """Sources without a longer part of any bar are not drawn."""
 _GREY: Final = "#b8bfc6"
@@ -32,7 +32,8 @@ def stacked_third_octaves(results: xr.Dataset, receiver: str | None = None) -> C
 
     Parameters
     ----------
-    results : of `run`; needs `band_energy` (shown_option, energy_part, receiver, noise_band), Pa²
+    results : results of `run`; needs `band_energy` (shown_option, energy_part, receiver,
+        noise_band), Pa²
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
@@ -52,7 +53,8 @@ def stacked_lines(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `line_energy` (shown_option, sound_source, receiver, line), Pa²
+    results : results of `run`; needs `line_energy` (shown_option, sound_source, receiver, line),
+        Pa²
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
@@ -128,7 +130,7 @@ def run_up_levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `run_up_level` (run_up_speed, receiver), dB, and its parts
+    results : results of `run`; needs `run_up_level` (run_up_speed, receiver), dB, and its parts
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
@@ -159,7 +161,8 @@ def run_up_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `run_up_order_level` (run_up_speed, receiver, run_up_order), dB
+    results : results of `run`; needs `run_up_order_level` (run_up_speed, receiver, run_up_order),
+        dB
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))

@@ -31,7 +31,7 @@ def stopping(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `stopping_force` (speed, axis, stopping_time), N, and its like
+    results : results of `run`; needs `stopping_force` (speed, axis, stopping_time), N, and its like
     """
     results, receiver = few_speeds(results), catalogue_receiver(results)
     force, tilting, roll = force_and_moments(results)
@@ -71,7 +71,7 @@ def stopping_order_map(results: xr.Dataset) -> Chart:
 
     Parameters
     ----------
-    results : of `run`; needs `stopping_order_map` (axis, stopping_block, map_order), N
+    results : results of `run`; needs `stopping_order_map` (axis, stopping_block, map_order), N
     """
     along_x = results["stopping_order_map"].sel(axis="x").transpose("stopping_block", "map_order")
     level = level_of_amplitude(along_x.values)

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 CHARTS: Final = "uPlot.iife.min.js"
-"""uPlot 1.6.32 by Leon Sorokin, under the MIT licence that stands beside it."""
+"""uPlot 1.6.32 by Leon Sorokin, under the MIT licence beside it."""
 SCRIPTS: Final = {
     "sliders": (
         "weighting.js", "levels.js", "sound.js", "abx.js", "charts.js", "panel.js", "sliders.js",
@@ -17,16 +17,19 @@ SCRIPTS: Final = {
     "run_up": ("weighting.js", "charts.js", "run_up_map.js", "run_up_cuts.js", "run_up.js",
                "run_up_line.js", "run_up_sound.js", "run_up_start.js"),
 }  # fmt: skip
-"""By the name of the panel."""
+"""Scripts by the name of the panel."""
 _STYLES: Final = {"sliders": (), "run_up": ("run_up.css",)}
 _LEFT_OUT: Final = b"<\\"
-"""Of the letters from ( to ~, so that the rest are 85 that mean nothing in HTML and in JSON."""
-_LETTERS: Final = np.array([one for one in range(ord("("), ord("~") + 1) if one not in _LEFT_OUT])
+"""Letters from ( to ~ that are not used, so that 85 remain that mean nothing in HTML and in
+JSON."""
+_LETTERS: Final = np.array(
+    [code for code in range(ord("("), ord("~") + 1) if code not in _LEFT_OUT]
+)
 
 
 @cache
 def unpacking_script() -> str:
-    """What unpacks and runs the other script of the page, with the licence of what is in there."""
+    """Return the script that unpacks and runs the other script of the page, with its licences."""
     return f"/*\nuPlot, which this unpacks:\n{_read('uPlot.LICENSE')}*/\n{_read('unpack.js')}"
 
 

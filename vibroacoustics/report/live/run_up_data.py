@@ -32,9 +32,9 @@ def run_up_data(orders: xr.Dataset, curves: LoudestOrders, sound: RunUpSound | N
 
     Parameters
     ----------
-    orders : of `analyse_orders`, with `order_map` and `block_level`
+    orders : result of `analyse_orders`, with `order_map` and `block_level`
     curves : overall level and loudest orders of the channel that is shown
-    sound : of this channel; None for none
+    sound : sound of this channel; None for none
     """
     of_channel = orders.sel(channel=curves.channel)
     blocks = shown_blocks(orders.sizes["block"], orders.sizes["map_order"])

@@ -28,11 +28,11 @@ class Section:
 
     Attributes
     ----------
-    name : of its address within the page
+    name : name in its address within the page
     title : heading, and entry in the contents
     blocks : makes what stands in it from the results, its pictures too
     applies : whether results have such a section
-    position : from top to bottom; a stranger's are the last
+    position : from top to bottom; those of third parties are the last
     folded : below its heading, to be opened by the reader
     tables : columns of numbers beside the page, by the name of their file
 

@@ -1,4 +1,4 @@
-"""Where the inputs come from, and what is not modelled."""
+"""Sources of the inputs, and neglected effects."""
 
 from typing import Any, Final
 
@@ -44,7 +44,7 @@ ELASTIC_SHELL: Final = (
 """Instead of RIGID_SHELL where sources drive the shell."""
 
 RIGID_FLOOR: Final = "rigid for the mounts and hard"
-YIELDING_FLOOR: Final = (
+COMPLIANT_FLOOR: Final = (
     "compliant under each foot by itself and silent; natural frequencies are those on a rigid "
     "floor. It is hard"
 )
@@ -58,26 +58,26 @@ NOT_MODELLED: Final = (
 
 
 def not_modelled(results: xr.Dataset) -> tuple[str, ...]:
-    """What the results leave out, one sentence or two each."""
+    """Effects that the results neglect, one sentence or two each."""
     of_shell = ELASTIC_SHELL if words(results)["shell_bends"] else RIGID_SHELL
     unmodelled = "in no level" if overall_noise(results) is None else "unmodelled noise"
     machine = parameters(results)["machine"]
-    gives_way = machine.get("floor") or machine.get("floor_mobility")
+    is_compliant = machine.get("floor") or machine.get("floor_mobility")
     everywhere = tuple(
-        text.format(floor=YIELDING_FLOOR if gives_way else RIGID_FLOOR, unmodelled=unmodelled)
+        text.format(floor=COMPLIANT_FLOOR if is_compliant else RIGID_FLOOR, unmodelled=unmodelled)
         for text in (*of_shell, *NOT_MODELLED)
     )
     return (*everywhere, *_mounts_held(machine), *words(results)["leaves_out"])
 
 
 def _mounts_held(machine: dict[str, Any]) -> tuple[str, ...]:
-    """Where the stiffness of mounts from files ends."""
+    """Ends of the stiffness of mounts from files."""
     feet = (machine.get("feet") or {}).values()
     tables = [machine.get("mount_stiffness"), *(foot and foot["stiffness"] for foot in feet)]
-    known = [table["frequency_hz"] for table in tables if table]
-    if not known:
+    frequencies = [table["frequency_hz"] for table in tables if table]
+    if not frequencies:
         return ()
-    lowest, highest = max(each[0] for each in known), min(each[-1] for each in known)
+    lowest, highest = max(each[0] for each in frequencies), min(each[-1] for each in frequencies)
     return (
         f"Stiffness and loss of the mounts are known from {lowest:g} to {highest:g} Hz, and "
         "constant below and above.",
@@ -126,8 +126,8 @@ def records_table(results: xr.Dataset) -> Table:
     return Table(f"Inputs {what}", head, tuple(rows), frozenset({0, 2, 4}))
 
 
-def remainder_sentence(results: xr.Dataset) -> str:
-    """How the part of the level that the model does not explain is fixed."""
+def unmodelled_sentence(results: xr.Dataset) -> str:
+    """Say how the unmodelled noise is determined."""
     noise = overall_noise(results)
     if noise is None:
         return growth_sentence(results)
@@ -137,9 +137,9 @@ def remainder_sentence(results: xr.Dataset) -> str:
         unmodelled = f"{band(results, 'level_unmodelled').ends(rounding.fixed)} dB(A) ({INTERVAL})"
     return (
         f"The {kind} level is {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
-        f"{noise['speed_rpm']:g} rpm{_point_words(results)}. What the model does not explain of it "
-        f"at {catalogue_receiver(results)} without a balancer is {unmodelled}: it is added as "
-        "energy at every option and microphone, spread as from a source at the machine. "
+        f"{noise['speed_rpm']:g} rpm{_point_words(results)}. Unmodelled noise at "
+        f"{catalogue_receiver(results)} without a balancer is {unmodelled}. It is added as energy "
+        "at every option and microphone, spread as from a source at the machine. "
         f"{growth_sentence(results)}"
     )
 
@@ -153,9 +153,9 @@ def discrepancy_sentence(results: xr.Dataset) -> str:
         f"{settings[f'{name}_deviation_db']:g} dB" for name in ("path", "source", "band", "added")
     )
     return (
-        f"Standard deviations of each sample from the model: {path} common to all sources, "
-        f"{source} of each source, {band_db} of each third octave of a source, {added} of what an "
-        "option adds. They are assumed, the same for all options, speeds and microphones."
+        f"Model deviations: {path} common to all sources, {source} of each source, {band_db} of "
+        f"its third octaves, {added} of an option. These standard deviations are assumed, the "
+        "same for all options, speeds and microphones."
     )
 
 
@@ -170,7 +170,8 @@ def _point_words(results: xr.Dataset) -> str:
 
 
 def structure_borne_sentence(results: xr.Dataset) -> str:
-    """What removing a line would buy, were it far louder through the feet than through the air."""
+    """Say what removing a line would buy, were it far louder through the feet than through the
+    air."""
     total = quoted_dba(results)
     gain = level_of_power(1.0 - power_of_level(-LOUD_LINE_BELOW_TOTAL_DB))
     return (
@@ -188,7 +189,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Bullets(tuple(not_modelled(results))),
         *([Text(structure_borne_sentence(results))] if overall_noise(results) else []),
         Heading("Unmodelled noise"),
-        Text(remainder_sentence(results)),
+        Text(unmodelled_sentence(results)),
         *([Heading("Model discrepancy")] if discrepancy else []),
         *discrepancy,
         Heading("Inputs"),
@@ -207,7 +208,7 @@ def _errata(results: xr.Dataset) -> list[Block]:
     """Errors in the source document."""
     errata = parameters(results)["machine"]["errata"]
     rows = tuple((entry["item"], entry["printed"], entry["finding"]) for entry in errata)
-    head = ("Item", "As printed", "Finding")
+    head = ("Item", "Printed", "Finding")
     return [Table("Errata of the source", head, rows, frozenset({0, 1, 2}))]
 
 

@@ -1,4 +1,4 @@
-"""The measured baseline: what options make of it, and what it cannot tell."""
+"""The measured baseline: what options make of it, and its limits."""
 
 from pathlib import PurePath
 from typing import Any, Final
@@ -22,7 +22,7 @@ from ..tables import Table
 from . import Section
 
 _TOLERANCE: Final = 0.02
-"""By which a speed may lie outside those that were measured."""
+"""Share by which a speed may lie outside those that were measured."""
 
 
 def baseline_of(results: xr.Dataset) -> dict[str, Any]:
@@ -34,23 +34,23 @@ def microphones(results: xr.Dataset) -> list[str]:
     """Those with a baseline, each once."""
     baseline = baseline_of(results)
     every = [*baseline.get("third_octaves", ()), *baseline.get("orders", ())]
-    return list(dict.fromkeys(one["microphone"] for one in every))
+    return list(dict.fromkeys(row["microphone"] for row in every))
 
 
 def summary(results: xr.Dataset) -> str:
-    """Where the baseline comes from and what is done with it."""
+    """Say where the baseline comes from and what is done with it."""
     files = ", ".join(PurePath(name).name for name in baseline_of(results)["file"])
     return (
         f"The sound of the machine without a balancer was measured at "
         f"{', '.join(microphones(results))} ({files}). There total level, orders and "
         "their changes are those measured, less what is modelled without a balancer, plus what is "
         "modelled with the option, band by band and order by order; they take the place of the "
-        "catalogue level."
+        "published level."
     )
 
 
 def limits(results: xr.Dataset) -> tuple[str, ...]:
-    """What the measurement covers, and what it cannot tell."""
+    """Say what the measurement covers, and its limits."""
     sentences = [_of_bands(results), _of_orders(results), _of_speeds(results)]
     sentences += [_of_model(results), _of_others(results), _of_samples(results)]
     return tuple(filter(None, sentences))
@@ -60,16 +60,16 @@ def _of_bands(results: xr.Dataset) -> str:
     rows = baseline_of(results).get("third_octaves", ())
     if not rows:
         return (
-            "Third octaves were not measured: beside the orders the remainder of the catalogue "
-            "level stands."
+            "Third octaves were not measured: beside the orders, the unmodelled noise of the "
+            "published level counts."
         )
-    covered = {one["microphone"]: (min(one["band_hz"]), max(one["band_hz"])) for one in rows}
+    covered = {row["microphone"]: (min(row["band_hz"]), max(row["band_hz"])) for row in rows}
     ranges = [f"{low:g} to {high:g} Hz at {name}" for name, (low, high) in covered.items()]
     share = not_measured(results)
     size = f", up to {percent(share)} of the energy of the total level" if share > 0.005 else ""
     return (
-        f"Third octaves: {', '.join(ranges)}; in other bands the remainder of the catalogue level "
-        f"stands{size}."
+        f"Third octaves: {', '.join(ranges)}; in other bands the unmodelled noise of the published "
+        f"level counts{size}."
     )
 
 
@@ -87,10 +87,10 @@ def _of_orders(results: xr.Dataset) -> str:
     if "baseline_order_phase" not in results:
         return "Orders were not measured apart: a tone counts as energy of its band, without phase."
     phase = results["baseline_order_phase"].values
-    known, by_phase = int(np.isfinite(phase).sum()), int(np.nansum(phase))
+    count, by_phase = int(np.isfinite(phase).sum()), int(np.nansum(phase))
     orders = ", ".join(f"{order:g}" for order in results["baseline_order"].values[:20])
     first = f"Orders {orders} were measured"
-    if by_phase == known:
+    if by_phase == count:
         return f"{first}, all with a phase that counts: they change as complex peaks."
     if baseline_of(results).get("tacho_angle_rad") is None:
         return (
@@ -99,7 +99,7 @@ def _of_orders(results: xr.Dataset) -> str:
             "not known."
         )
     return (
-        f"{first}; {by_phase} of {known} values (order, speed, microphone) have a phase that "
+        f"{first}; {by_phase} of {count} values (order, speed, microphone) have a phase that "
         "counts and change as complex peaks, the others as energies."
     )
 
@@ -108,19 +108,18 @@ def _of_speeds(results: xr.Dataset) -> str:
     """Speeds of the study that were measured, lie between, or outside."""
     sentences = []
     for name in microphones(results):
-        at = {f"{speed:g}": _position(results, name, speed) for speed in speeds(results)}
-        between = [speed for speed, position in at.items() if position == "between"]
-        outside = [speed for speed, position in at.items() if position == "outside"]
+        position_at = {f"{speed:g}": _position(results, name, speed) for speed in speeds(results)}
+        between = [speed for speed, position in position_at.items() if position == "between"]
+        outside = [speed for speed, position in position_at.items() if position == "outside"]
         if between:
             sentences.append(
-                f"At {name} levels at {', '.join(between)} rpm lie between measured speeds: on "
-                "straight lines of level and phase over speed, which a resonance between "
-                "them would not follow."
+                f"At {name} levels at {', '.join(between)} rpm are interpolated between measured "
+                "speeds, linearly in level and phase; a resonance between them is missed."
             )
         if outside:
             sentences.append(
                 f"At {name} nothing was measured at {', '.join(outside)} rpm: there the "
-                "remainder of the catalogue level stands, and levels are not to be set beside "
+                "unmodelled noise of the published level counts. Do not compare these levels with "
                 "those at other speeds."
             )
     return " ".join(sentences)
@@ -141,15 +140,19 @@ def _position(results: xr.Dataset, name: str, speed: float) -> str:
 
 
 def _of_model(results: xr.Dataset) -> str:
-    """Where the model is louder than what was measured."""
+    """Say where the model is louder than the measurement."""
     louder = (results["baseline_share"] > 1.0).any(["speed", "receiver"])
     bands = [f"{band:g}" for band in results["baseline_band"].values[louder.values]]
     texts = []
     if bands:
         texts.append(f"the third octaves at {', '.join(bands)} Hz")
     if "baseline_order_share" in results:
-        over = results["baseline_order_share"].where(results["baseline_order_phase"] == 0.0) > 1.0
-        louder_orders = results["baseline_order"].values[over.any(["speed", "receiver"]).values]
+        is_louder = (
+            results["baseline_order_share"].where(results["baseline_order_phase"] == 0.0) > 1.0
+        )
+        louder_orders = results["baseline_order"].values[
+            is_louder.any(["speed", "receiver"]).values
+        ]
         if louder_orders.size:
             texts.append(f"the orders {', '.join(f'{order:g}' for order in louder_orders)}")
     if not texts:
@@ -165,7 +168,7 @@ def _of_others(results: xr.Dataset) -> str:
     others = [name for name in names if name not in microphones(results)]
     if not others:
         return ""
-    return f"At {', '.join(others)} nothing was measured: there the catalogue level stands."
+    return f"At {', '.join(others)} nothing was measured: there the published level counts."
 
 
 def _of_samples(results: xr.Dataset) -> str:
@@ -173,28 +176,30 @@ def _of_samples(results: xr.Dataset) -> str:
         return ""
     tolerance = baseline_of(results).get("tolerance_db", 0.0)
     return (
-        f"Samples are weighed by what was measured, sure to ± {tolerance:g} dB: by the A-weighted "
+        f"Samples are weighted by the measurement, of ± {tolerance:g} dB: by the A-weighted "
         "level in the measured bands and orders at the lowest, a middle and the highest speed at "
         "each microphone, together as one measurement."
     )
 
 
 MOST_ORDERS: Final = 10
-"""Of the loudest, in a table."""
+"""Most orders in a table, the loudest ones."""
 
 
 def order_tables(results: xr.Dataset) -> list[Table]:
     """The loudest orders at the first microphone where any were measured, with every option."""
     if "baseline_order_level" not in results:
         return []
-    known = results["baseline_order_level"].notnull().any(["speed", "option", "baseline_order"])
-    name = str(results["receiver"].values[known.values][0])
+    is_measured = (
+        results["baseline_order_level"].notnull().any(["speed", "option", "baseline_order"])
+    )
+    name = str(results["receiver"].values[is_measured.values][0])
     here = few_speeds(results).sel(receiver=name)
     measured = here["baseline_order_level"].notnull().any(["option", "baseline_order"])
     return [
         _order_table(here.sel(speed=speed), name, speed)
-        for speed, there in zip(speeds(here), measured.values.tolist(), strict=True)
-        if there
+        for speed, has_values in zip(speeds(here), measured.values.tolist(), strict=True)
+        if has_values
     ]
 
 
@@ -208,12 +213,12 @@ def _order_table(here: xr.Dataset, name: str, speed: float) -> Table:
         (
             f"{order:g}",
             f"{order * shaft_frequency_hz(speed):.1f}",
-            "yes" if here["baseline_order_phase"].values[at] > 0.0 else "no",
-            rounding.level(float(measured[at])),
-            rounding.fixed(100.0 * float(here["baseline_order_share"].values[at]), 0),
-            *(rounding.level(float(level.sel(option=one).values[at])) for one in changed),
+            "yes" if here["baseline_order_phase"].values[index] > 0.0 else "no",
+            rounding.level(float(measured[index])),
+            rounding.fixed(100.0 * float(here["baseline_order_share"].values[index]), 0),
+            *(rounding.level(float(level.sel(option=option).values[index])) for option in changed),
         )
-        for at, order in zip(loudest, here["baseline_order"].values[loudest], strict=True)
+        for index, order in zip(loudest, here["baseline_order"].values[loudest], strict=True)
     )
     head = ("Order", "Hz", "phase", "measured", "modelled, % of energy", *changed)
     caption = f"Measured orders at {name}, {speed:g} rpm, and with each option, dB re 20 µPa"
@@ -221,13 +226,13 @@ def _order_table(here: xr.Dataset, name: str, speed: float) -> Table:
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    drawn = results["baseline_band_level"].notnull().any()
+    has_bands = results["baseline_band_level"].notnull().any()
     return [
         Text(summary(results)),
         Bullets(limits(results)),
         *chosen_speeds(results, "results.nc"),
         *order_tables(results),
-        *([Pictures((baseline_third_octaves(results),))] if drawn else []),
+        *([Pictures((baseline_third_octaves(results),))] if has_bands else []),
     ]
 
 

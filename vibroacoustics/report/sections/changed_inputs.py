@@ -1,4 +1,4 @@
-"""Which input or law would change the headlines of the first screen."""
+"""Inputs or laws that would change the headlines of the first screen."""
 
 from collections.abc import Sequence
 from typing import Final, NamedTuple
@@ -52,13 +52,13 @@ class Row(NamedTuple):
 
     Attributes
     ----------
-    name : of the alternative; `AS_REPORTED` for none
+    name : name of the alternative; `AS_REPORTED` for none
     sizes : effective sizes: samples of level and shares, and of changes by options
-    level : of the machine; None with too few samples
+    level : level of the machine; None with too few samples
     source : dominant source
-    share : of the energy, of this source; None with too few samples
+    share : share of the energy, of this source; None with too few samples
     changes : smallest and largest change by an option with its name; empty with too few samples
-    claims : what the headlines say, by headline, without numbers
+    claims : claims of the headlines, by headline, without numbers
     """
 
     name: str

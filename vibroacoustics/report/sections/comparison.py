@@ -88,10 +88,14 @@ def _tables(
     words = level_words(results)
     tables = []
     for speed, frequency in zip(speeds(shown), first_order_hz(shown), strict=True):
-        at = {"receiver": receiver, "speed": speed}
-        here = comparison(shown).sel(at)
+        coordinates = {"receiver": receiver, "speed": speed}
+        here = comparison(shown).sel(coordinates)
         rows = tuple(
-            (option, words[option], *(_cell(shown, each, here, option, at) for each in columns))
+            (
+                option,
+                words[option],
+                *(_cell(shown, each, here, option, coordinates) for each in columns),
+            )
             for option in options(shown)
         )
         caption = f"{speed:g} rpm (1× at {frequency:.1f} Hz), microphone {receiver}"
@@ -101,7 +105,11 @@ def _tables(
 
 
 def _cell(
-    results: xr.Dataset, column: Column, here: xr.Dataset, option: str, at: Mapping[str, Any]
+    results: xr.Dataset,
+    column: Column,
+    here: xr.Dataset,
+    option: str,
+    coordinates: Mapping[str, Any],
 ) -> Cell:
     """Value with its interval; a change of a silent level is none."""
 
@@ -117,7 +125,9 @@ def _cell(
     if not column.variable:
         return write(float(here[column.name].sel(option=option)))
     unit = _UNITS.get(column.name.rsplit("_", 1)[-1], "")
-    return number(results, column.variable, write, unit, **{"option": option, **at, **column.at})
+    return number(
+        results, column.variable, write, unit, **{"option": option, **coordinates, **column.at}
+    )
 
 
 def level_words(results: xr.Dataset) -> dict[str, str]:

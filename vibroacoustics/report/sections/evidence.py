@@ -39,7 +39,7 @@ def agreement_sentence(results: xr.Dataset) -> str:
         UNDECIDED: f"is too uncertain to be compared with the published {published}",
     }[level.verdict]
     return (
-        f"The modelled level before any published datum {words}: E = "
+        f"The modelled level before any published datum {words}. Error E = "
         f"{rounding.signed(level.error)} dB, u = {rounding.fixed(level.uncertainty)} dB."
     )
 
@@ -129,9 +129,9 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         evidence_table(results),
         Text(
             "E is simulation minus data, u the root of the sum of squared standard uncertainties "
-            "of numerics, inputs and data (ASME V&V 20). They agree within a tolerance T where "
-            f"|E| + {ONE_SIDED:g} u ≤ T ({LEVEL_TOLERANCE_DB:g} dB, {percent(FORCE_TOLERANCE)} of "
-            f"a force) and differ where |E| > {COVERAGE:g} u.",
+            "of numerics, inputs and data (ASME V&V 20). Both agree where "
+            f"|E| + {ONE_SIDED:g} u ≤ T, and differ where |E| > {COVERAGE:g} u. The tolerance T is "
+            f"{LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)} of a force.",
             "note",
         ),
         *([conflict_table(results)] if "datum_tail" in results else []),

@@ -16,10 +16,17 @@ from . import Section
 
 def figures_data(results: xr.Dataset) -> dict[str, DataTable]:
     """Return every reported figure by option and speed."""
-    known, figures = words(results), results["reported_figure"]
+    words_of_figures, figures = words(results), results["reported_figure"]
     columns = {name: figures[name] for name in ("option", "figure", "speed")}
     rows = [
-        (option, name, labels.name(name, known), labels.unit(name, known) or "1", speed, value)
+        (
+            option,
+            name,
+            labels.name(name, words_of_figures),
+            labels.unit(name, words_of_figures) or "1",
+            speed,
+            value,
+        )
         for option, name, speed, value in zip(
             *data_table(tuple(columns), {**columns, "value": figures}).values(), strict=True
         )
@@ -44,7 +51,7 @@ register(Section("forces", "Force over a revolution", _blocks, position=50.0, ta
 
 def _orders(results: xr.Dataset) -> list[Block]:
     return [
-        Text(f"{words(results)['orders']} A missing marker means a value too small to draw."),
+        Text(f"{words(results)['orders']} A missing marker means a value too small to show."),
         *chosen_speeds(results, "results.nc"),
         Pictures((force_orders(results), foot_force_orders(results), level_orders(results))),
     ]

@@ -1,4 +1,4 @@
-"""In the room: how loud the machine is at listeners, by which path, and what changes it."""
+"""Section on the room: level at listeners, by which path, and what changes it."""
 
 from typing import Final
 
@@ -15,12 +15,12 @@ from ..blocks import Block, Details, Pictures, Text
 from ..figures.in_room import room_map, room_seam
 from ..tables import DataTable, Table, long_table
 from . import Section, hold
-from .structure_borne import carrier, ranged
+from .structure_borne import UNCERTAIN, carrier, ranged
 from .tones import NO_LOUDNESS
 
 SONE_HEAD: Final = "Loudness, sone (diffuse field)"
-SEAM_DB: Final = 2.0
-"""Difference of the two methods that is told."""
+CROSSOVER_DB: Final = 2.0
+"""Difference of the two methods that is reported."""
 _HOW: Final = (
     "Loudness by ISO 532-1 (Zwicker, diffuse field) is that of airborne and structure-borne sound "
     "together at the level in the table."
@@ -36,9 +36,9 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(room_sentence(results), "strong"),
         room_table(results, loudest),
         Text(power_sentence(results)),
-        Text(seam_sentence(results)),
+        Text(crossover_sentence(results)),
         Pictures((room_map(results), room_seam(results, loudest))),
-        Details("Both methods at every listener", (seam_table(results),)),
+        Details("Both methods at every listener", (crossover_table(results),)),
         *(Details("Absorption of walls and furniture", (table,)) for table in absorption(results)),
         Text(
             "Below the crossover frequency sound is a wave field, above it direct sound and the "
@@ -61,11 +61,11 @@ def sones(results: xr.Dataset, listener: str) -> list[str]:
     if "loudness_in_room" not in results:
         return []
     here = results["loudness_in_room"].sel(speed=nearest_speed(results), listener=listener)
-    return [rounding.fixed(one) for one in here.values.tolist()] if here.notnull().all() else []
+    return [rounding.fixed(value) for value in here.values.tolist()] if here.notnull().all() else []
 
 
 def _loudness_words(results: xr.Dataset) -> str:
-    """How the loudness is computed, or what it needs."""
+    """Words on how the loudness is computed, or what it needs."""
     if not hold("room_pressure_line", "noise_band_level")(results):
         return ""
     return _HOW if "loudness_in_room" in results else NO_LOUDNESS
@@ -82,7 +82,7 @@ def loudest_listener(results: xr.Dataset) -> str:
 
 
 def room_sentence(results: xr.Dataset) -> str:
-    """How loud the machine is in the room, which path carries it, which option changes that."""
+    """Say how loud the machine is in the room, which path dominates, which option changes it."""
     name = loudest_listener(results)
     level = _both(results, name)
     limits = [
@@ -99,7 +99,8 @@ def room_sentence(results: xr.Dataset) -> str:
 
 
 def room_table(results: xr.Dataset, listener: str) -> Table:
-    """Of every option the level by air, by the feet and both, loudness, against the limits."""
+    """Return the levels of every option, airborne, structure-borne and both, loudness, and the
+    limits."""
     plate = "room_plate_level" in results
     loud, limits = sones(results, listener), _limits(results)
     head = ["Option", "By air, dB(A)"]
@@ -111,12 +112,12 @@ def room_table(results: xr.Dataset, listener: str) -> Table:
     rows = []
     for number, option in enumerate(options(results)):
         here = {"option": option, "listener": listener, "speed": nearest_speed(results)}
-        both = _both(results, listener, option)
+        total = _both(results, listener, option)
         cells = [option, band(results, "room_level", **here).middle_and_ends(rounding.level)]
-        cells += [_plate(results, listener, option), rounding.level(both)] if plate else []
+        cells += [_plate(results, listener, option), rounding.level(total)] if plate else []
         cells += loud[number : number + 1]
         cells += [_carrier(results, listener, option)] if plate else []
-        over_db = [both - limit for limit in limits.values()]
+        over_db = [total - limit for limit in limits.values()]
         cells += ["met" if db <= 0.0 else f"missed by {rounding.fixed(db)} dB" for db in over_db]
         rows.append(tuple(cells))
     caption = f"{listener}, {nearest_speed(results):g} rpm: level of the machine in the room"
@@ -124,7 +125,7 @@ def room_table(results: xr.Dataset, listener: str) -> Table:
     return Table(caption, tuple(head), tuple(rows), words)
 
 
-def seam_table(results: xr.Dataset) -> Table:
+def crossover_table(results: xr.Dataset) -> Table:
     """Waves less diffuse field of the power in the open at every listener, in third octaves."""
     difference = results["room_gain_difference"].transpose("listener", "seam_band").values
     named = dict(zip(listeners(results), difference, strict=True))
@@ -134,8 +135,8 @@ def seam_table(results: xr.Dataset) -> Table:
     return Table("Waves less diffuse field of the power in the open, dB", head, rows)
 
 
-def seam_sentence(results: xr.Dataset) -> str:
-    """Where the two methods differ by more than is to be passed over, and what follows of it."""
+def crossover_sentence(results: xr.Dataset) -> str:
+    """Say where the two methods differ by more than is to be passed over, and what follows."""
     gain = results["room_place_gain"]
     alone = (results["room_gain_difference"] - gain).transpose("listener", "seam_band")
     at_one = [
@@ -147,7 +148,7 @@ def seam_sentence(results: xr.Dataset) -> str:
     none = "no third octave"
     return (
         "Waves and the diffuse field of the power in the open differ by more than "
-        f"{SEAM_DB:g} dB, in the mean over {len(listeners(results))} listeners, at "
+        f"{CROSSOVER_DB:g} dB, in the mean over {len(listeners(results))} listeners, at "
         f"{', '.join(_large_differences(gain)) or none}. The mean is taken for what the place does "
         f"to the machine's power and given to the diffuse field; above the waves {above} dB, "
         "where single third octaves may be 5 dB off (assumed). "
@@ -158,7 +159,7 @@ def seam_sentence(results: xr.Dataset) -> str:
 def _large_differences(gain: xr.DataArray) -> list[str]:
     """Third octaves where a difference over them, dB, counts."""
     pairs = zip(gain["seam_band"].values.tolist(), gain.values.tolist(), strict=True)
-    return [f"{hz:g} Hz ({rounding.signed(db)} dB)" for hz, db in pairs if abs(db) > SEAM_DB]
+    return [f"{hz:g} Hz ({rounding.signed(db)} dB)" for hz, db in pairs if abs(db) > CROSSOVER_DB]
 
 
 def absorption(results: xr.Dataset) -> list[Table]:
@@ -175,8 +176,8 @@ def absorption(results: xr.Dataset) -> list[Table]:
             for end in ("_requested", "")
         )
         row = tuple(
-            f"{one:.2f} → {rounding.NOTHING if np.isnan(other) else f'{other:.2f}'}"
-            for one, other in zip(requested, in_waves, strict=True)
+            f"{wanted:.2f} → {rounding.NOTHING if np.isnan(other) else f'{other:.2f}'}"
+            for wanted, other in zip(requested, in_waves, strict=True)
         )
         rows.setdefault(row, []).append(str(surface).partition(".")[2])
     head = ("Surfaces", *(f"{octave:g} Hz" for octave in results["room_octave"].values))
@@ -202,8 +203,8 @@ def power_sentence(results: xr.Dataset) -> str:
 
 
 def _value(results: xr.Dataset, name: str, listener: str, option: str = REFERENCE_OPTION) -> float:
-    at = {"option": option, "listener": listener, "speed": nearest_speed(results)}
-    return estimate(results, name, **at).value
+    coordinates = {"option": option, "listener": listener, "speed": nearest_speed(results)}
+    return estimate(results, name, **coordinates).value
 
 
 def _level(results: xr.Dataset, name: str, listener: str, option: str = REFERENCE_OPTION) -> str:
@@ -217,18 +218,17 @@ def _both(results: xr.Dataset, listener: str, option: str = REFERENCE_OPTION) ->
 
 def _carrier(results: xr.Dataset, listener: str, option: str = REFERENCE_OPTION) -> str:
     names = ("room_level", "room_plate_level_low", "room_plate_level_high")
-    which = carrier(*(_value(results, name, listener, option) for name in names))
-    return "the feet" if which == "the plate" else which
+    return carrier(*(_value(results, name, listener, option) for name in names))
 
 
 def _carrier_words(results: xr.Dataset, listener: str) -> str:
     level = _level(results, "room_level", listener)
     if "room_plate_level" not in results:
-        return f"it comes by air, {level} dB(A)"
+        return f"all of it is airborne, {level} dB(A)"
     which = _carrier(results, listener)
-    verdict = "which carries it is not sure" if which == "not sure" else f"{which} carries it"
+    verdict = "it is uncertain which dominates" if which == UNCERTAIN else f"{which} dominates"
     plate = _plate(results, listener)
-    return f"by air {level} dB(A), by the feet and the plate {plate} dB(A); {verdict}"
+    return f"airborne {level} dB(A), structure-borne {plate} dB(A); {verdict}"
 
 
 def _best(results: xr.Dataset, listener: str) -> str:
@@ -239,7 +239,7 @@ def _best(results: xr.Dataset, listener: str) -> str:
     change = each[least] - _both(results, listener)
     if change > -_LEAST_DB:
         return "; no option changes that."
-    return f"; {least} takes most off it, {rounding.signed(change)} dB."
+    return f"; {least} lowers it most, {rounding.signed(change)} dB."
 
 
 def _limits(results: xr.Dataset) -> dict[str, float]:

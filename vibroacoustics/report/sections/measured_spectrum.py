@@ -1,4 +1,4 @@
-"""What the user's measured third octaves settled of the sources, and where the model differs."""
+"""Evidence of the user's measured third octaves on the sources, and where the model differs."""
 
 from typing import Any, Final
 

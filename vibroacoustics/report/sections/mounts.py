@@ -96,7 +96,7 @@ def block_table(results: xr.Dataset) -> Table | None:
 
 
 def isolation_sentence(results: xr.Dataset) -> str:
-    """How the 1x line lies to the natural frequencies."""
+    """Compare the 1x line with the natural frequencies."""
     shaft, modes = first_order_hz(results), results["natural_frequency"].values
     where = f"1× lies at {rounding.span(shaft, rounding.fixed)} Hz"
     highest = rounding.fixed(float(modes.max()))

@@ -52,7 +52,7 @@ def has_motions(results: xr.Dataset) -> bool:
 
 
 def relation(share: float, alone_db: float, total_db: float) -> str:
-    """How a path lies to the sum: share √(total/alone) is the cosine between the two."""
+    """Name the phase of a path to the sum: share √(total/alone) is the cosine between the two."""
     cosine = float(np.clip(share * amplitude_of_level(total_db - alone_db), -1.0, 1.0))
     words = next(text for least, text in _RELATIONS if cosine >= least)
     return f"{words} ({rounding.signed(cosine, 2)})"
@@ -94,12 +94,12 @@ _ORDERS: Final = 6
 
 def paths_table(results: xr.Dataset, receiver: str) -> Table:
     """The leading paths of the A-weighted level."""
-    there = at_path_speed(results, receiver)
-    share, alone = there["path_share"].values, there["path_level"].values
-    at = at_catalogue(results, receiver=receiver, speed=path_speed(results))
-    total = float(a_weighted(results["level_modelled"]).sel(at))
-    bands = there["path_band_share"].transpose("path", "band")
-    energy = np.abs(bands.values) * power_of_level(there["modelled_band_level"].values)
+    at_speed = at_path_speed(results, receiver)
+    share, alone = at_speed["path_share"].values, at_speed["path_level"].values
+    coordinates = at_catalogue(results, receiver=receiver, speed=path_speed(results))
+    total = float(a_weighted(results["level_modelled"]).sel(coordinates))
+    bands = at_speed["path_band_share"].transpose("path", "band")
+    energy = np.abs(bands.values) * power_of_level(at_speed["modelled_band_level"].values)
     rows = tuple(
         (
             *path_words(results, row),
@@ -120,14 +120,14 @@ def paths_table(results: xr.Dataset, receiver: str) -> Table:
 
 def orders_table(results: xr.Dataset, receiver: str) -> Table:
     """The leading paths of each of the loudest orders."""
-    there = at_path_speed(results, receiver)["path_pressure"].transpose("path", "path_order")
-    level = sound_pressure_level(there.values.sum(axis=0))
+    pressure = at_path_speed(results, receiver)["path_pressure"].transpose("path", "path_order")
+    level = sound_pressure_level(pressure.values.sum(axis=0))
     loudest = np.argsort(-level, kind="stable")[:_ORDERS]
     rows = []
-    for at in sorted(at for at in loudest if level[at] >= rounding.LEVEL_FLOOR_DB):
-        share = phasor_shares(there.values[:, at])
-        order, first = f"{there['path_order'].values[at]:g}×", int(np.argmax(share))
-        rows.append((order, rounding.level(float(level[at])), with_share(results, first, share)))
+    for index in sorted(index for index in loudest if level[index] >= rounding.LEVEL_FLOOR_DB):
+        share = phasor_shares(pressure.values[:, index])
+        order, first = f"{pressure['path_order'].values[index]:g}×", int(np.argmax(share))
+        rows.append((order, rounding.level(float(level[index])), with_share(results, first, share)))
     head = ("Order", "Level, dB", "Path with the largest share")
     return Table(f"{receiver}: loudest orders", head, tuple(rows), frozenset({0, 2}))
 

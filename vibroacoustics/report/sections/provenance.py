@@ -1,4 +1,4 @@
-"""Where the results come from: software, versions, hashes, time."""
+"""Provenance of the results: software, versions, hashes, time."""
 
 import json
 from typing import Any, Final

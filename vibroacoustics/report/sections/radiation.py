@@ -1,4 +1,4 @@
-"""From the motion of the housing to the sound at the microphones."""
+"""Section on radiation, from the motion of the housing to the sound at the microphones."""
 
 import json
 
@@ -21,7 +21,7 @@ from . import Section
 
 
 def receivers_table(results: xr.Dataset) -> Table:
-    """Where the microphones stand."""
+    """Return the positions of the microphones."""
     receivers = parameters(results)["receivers"]
     methods = receiver_methods(results)
     rows = tuple(
@@ -37,15 +37,15 @@ def receivers_table(results: xr.Dataset) -> Table:
 
 
 def line_difference_sentence(results: xr.Dataset) -> str:
-    """How far k-Wave moves the level of the 1x line."""
+    """Say how far k-Wave changes the level of the 1x line."""
     if "line_difference" not in results:
         return ""
     line = results["order_level"].sel(order=1, weighting="Z")
     gap = abs(results["line_difference"]).where(line > rounding.LEVEL_FLOOR_DB)
     return (
-        "The level of the 1× line differs by at most "
-        f"{rounding.fixed(float(gap.max().fillna(0.0)), 3)} dB between the two, over all "
-        "options, speeds and microphones where the line is not silent."
+        "The level of the 1× line differs between the two by at most "
+        f"{rounding.fixed(float(gap.max().fillna(0.0)), 3)} dB at all audible options, speeds and "
+        "microphones."
     )
 
 
@@ -57,17 +57,17 @@ def grid_error_sentence(results: xr.Dataset) -> str:
     if not error.size:
         return "The transfer vectors are silent."
     half, most = (_hundredth_above(float(np.quantile(error, share))) for share in (0.5, 0.95))
-    how = "Two grids estimate the error of what is extrapolated from them"
+    how = "Error by two grids"
     if "boundary_elements" in json.loads(results.attrs.get("radiation") or "{}"):
-        how = "Two meshes of boundary elements estimate the error of the finer one"
+        how = "Error of the finer of two meshes of boundary elements"
     return (
-        f"{how}: below {half} dB in half, below {most} dB in "
-        "95 % of the microphones, motions and frequencies within 20 dB of the loudest microphone."
+        f"{how}: below {half} dB in half, below {most} dB in 95 % of all cases. Cases count within "
+        "20 dB of the loudest microphone."
     )
 
 
 def _hundredth_above(value: float) -> str:
-    """What a value is below of, so that a small error never reads as none."""
+    """Upper bound in hundredths, so that a small error never reads as none."""
     return rounding.fixed((np.floor(100.0 * value) + 1.0) / 100.0, 2)
 
 

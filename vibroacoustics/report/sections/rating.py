@@ -41,7 +41,7 @@ def rating_sentence(results: xr.Dataset, window: str, among: str = "") -> str:
 
     Parameters
     ----------
-    results : of a run
+    results : results of a run
     window : name
     among : words that set the window beside others
     """

@@ -1,4 +1,4 @@
-"""Why the verdict is as it is, and what each option does."""
+"""Reasons for the verdict, and the effect of each option."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -22,7 +22,7 @@ from ..blocks import Block, Text
 from ..columns import column
 from ..option_verdict import OptionVerdict, option_verdicts
 from ..quantities import FOOT_FORCE, FORCE, MOMENT
-from ..remainder import growth_sentence, measured_rpm, remainder_band
+from ..remainder import growth_sentence, measured_rpm, unmodelled_level
 from ..shown_speeds import many_speeds
 from ..tables import Table
 from . import Section
@@ -37,7 +37,7 @@ def reasons(results: xr.Dataset) -> list[str]:
     """Return forces and level without an option, and what limits the effect of the options."""
     texts = [_as_it_is(results)]
     if not has_sources(results):
-        texts += [_remainder(results), not_sampled_sentence(results)]
+        texts += [_unmodelled(results), not_sampled_sentence(results)]
     return [*filter(None, texts)]
 
 
@@ -46,7 +46,8 @@ def options_table(verdicts: Sequence[OptionVerdict]) -> Table | None:
     if not verdicts:
         return None
     rows = tuple(
-        (one.option, one.judgement, one.reason, " ".join(one.sentences)) for one in verdicts
+        (verdict.option, verdict.judgement, verdict.reason, " ".join(verdict.sentences))
+        for verdict in verdicts
     )
     head = ("Option", "Verdict", "Because", "Remarks")
     return Table("Each option against no balancer", head, rows, frozenset({0, 1, 2, 3}))
@@ -64,7 +65,7 @@ def _as_it_is(results: xr.Dataset) -> str:
     twice = "0 N" if force_n < rounding.FORCE_FLOOR else FORCE.write(force_n)
     body = "block on its springs" if "block_velocity_order" in results else "housing"
     return (
-        f"Without a balancer the moving parts excite the {body} at 1× with {shaken}. "
+        f"Without a balancer the 1× force and moment on the {body} are {shaken}. "
         f"The largest 2× force is {twice}, the largest 1× "
         f"foot force {FOOT_FORCE.write(float(reference['foot_force_1x_n'].max()))}. At "
         f"{reference['receiver'].item()} the 1× line is "
@@ -73,7 +74,7 @@ def _as_it_is(results: xr.Dataset) -> str:
 
 
 def _shaken_by_speed(results: xr.Dataset, reference: xr.Dataset) -> str:
-    return ", ".join(
+    return "; ".join(
         f"{FORCE.write(force)} and {MOMENT.write(moment)} at {speed:g} rpm ({frequency:.1f} Hz)"
         for speed, frequency, force, moment in zip(
             speeds(results),
@@ -95,15 +96,19 @@ def _shaken_over_the_speeds(results: xr.Dataset, reference: xr.Dataset) -> str:
     )
 
 
-def _remainder(results: xr.Dataset) -> str:
-    """Why the total hardly follows the line; that there is none where nothing is published."""
+def _unmodelled(results: xr.Dataset) -> str:
+    """Say why the total hardly follows the line, or that no level is published."""
     if overall_noise(results) is None and measured_rpm(results) is None:
         return growth_sentence(results)
     receiver = catalogue_receiver(results)
     modelled = float(column(results, "level_modelled_dba").sel(receiver=receiver).max())
     speed = measured_rpm(results)
-    at = at_catalogue(results, speed=speed)
-    total = quoted_dba(results) if speed is None else float(results["level_total"].sel(at).round(1))
+    coordinates = at_catalogue(results, speed=speed)
+    total = (
+        quoted_dba(results)
+        if speed is None
+        else float(results["level_total"].sel(coordinates).round(1))
+    )
     gap = total - modelled
     carried = (
         f"all shaft orders together reach at most {rounding.level(modelled)} dB(A) at {receiver}, "
@@ -113,10 +118,10 @@ def _remainder(results: xr.Dataset) -> str:
         "option, above the level of the machine"
     )
     if speed is not None:
-        rest = remainder_band(results, speed).middle_text(rounding.fixed)
+        unmodelled = unmodelled_level(results, speed).middle_text(rounding.fixed)
         assumed = not_measured(results) > _HALF
         how = "most of it assumed in bands that were not measured" if assumed else "as measured"
-        what, growth = f"The rest, {how}, {rest}", ""
+        what, growth = f"The rest, {how}, {unmodelled}", ""
     else:
         speed, growth = quoted_speed(results), f" {growth_sentence(results)}"
         what = f"The rest, {rounding.fixed(results['level_unmodelled'].item())}"

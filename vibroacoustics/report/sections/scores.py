@@ -1,4 +1,4 @@
-"""How the options rank, and the published scores."""
+"""Section on the ranks of the options, and the published scores."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -42,14 +42,14 @@ def scores_data(results: xr.Dataset) -> DataTable:
         for number in probability["rank_position"].values:
             of_rank = probability.sel(rank_position=number)
             columns[f"share_of_rank_{number:g}"] = of_rank.values.tolist()
-    words = {one.option: one for one in option_verdicts(results)}
+    words = {verdict.option: verdict for verdict in option_verdicts(results)}
     for column, name in (("verdict", "judgement"), ("because", "reason")):
         columns[column] = [getattr(words.get(each), name, "") for each in options(results)]
     return columns
 
 
 def criteria_table(results: xr.Dataset) -> Table:
-    """What is scored: weight, and the values that count as best and worst."""
+    """Return the criteria: weight, and the values that count as best and worst."""
     names = ("criterion_label", "criterion_unit", "weight", "criterion_best", "criterion_worst")
     every = zip(*(results[name].values.tolist() for name in names), strict=True)
     rows = tuple(
@@ -68,11 +68,11 @@ def scores_table(results: xr.Dataset) -> Table:
     for method in _names(results, "scoring_method"):
         scores, ranks = (results[name].sel(scoring_method=method) for name in ("score", "rank"))
         name = labels.name(method)
-        columns[f"{name}, score 0 to 1"] = [rounding.fixed(one, 2) for one in scores.values]
-        columns[f"{name}, rank"] = [rounding.fixed(one, 0) for one in ranks.values]
+        columns[f"{name}, score 0 to 1"] = [rounding.fixed(score, 2) for score in scores.values]
+        columns[f"{name}, rank"] = [rounding.fixed(rank, 0) for rank in ranks.values]
     first = results["first_place_share"].values
     columns["First, whatever the weights"] = [f"{100.0 * share:.1f} %" for share in first]
-    rows = tuple(tuple(column[at] for column in columns.values()) for at in order)
+    rows = tuple(tuple(column[index] for column in columns.values()) for index in order)
     return Table("Scores and ranks, best first by the first method", tuple(columns), rows)
 
 
@@ -94,7 +94,11 @@ def criteria_of_advantage(results: xr.Dataset, option: str, other: str) -> list[
     better, worse = utilities(values.transpose("option", "criterion").values, *scale)
     lead = results["weight"].values * (better - worse)
     labels_of = results["criterion_label"].values
-    return [str(labels_of[at]) for at in np.argsort(-lead, kind="stable") if lead[at] > ROUNDING]
+    return [
+        str(labels_of[index])
+        for index in np.argsort(-lead, kind="stable")
+        if lead[index] > ROUNDING
+    ]
 
 
 def wrong_sums(results: xr.Dataset) -> list[str]:
@@ -110,15 +114,15 @@ def _names(results: xr.Dataset, dim: str) -> list[str]:
 
 
 def acceptability_words(results: xr.Dataset, winners: Sequence[str]) -> str:
-    """How sure the first rank is; files of older versions have it by the weights alone."""
+    """Say how sure the first rank is; files of older versions have it by the weights alone."""
     whatever = 100.0 * float(results["first_place_share"].sel(option=winners).sum())
     if "rank_acceptability" not in results or not has_samples(results):
-        return f", and in {whatever:.0f} % of the weightings sampled at random"
+        return f". It is first with {whatever:.0f} % of random weights"
     first = results["rank_acceptability"].isel(rank_position=0).sel(option=winners).sum("option")
     by_study = 100.0 * float(first.sel({"criteria_weights": OF_THE_STUDY}))
     return (
-        f": by these weights in {by_study:.0f} % of the samples, and with samples and weights at "
-        f"random in {whatever:.0f} %"
+        f". It is first in {by_study:.0f} % of the samples with these weights, in {whatever:.0f} % "
+        "with random weights"
     )
 
 
@@ -136,7 +140,7 @@ def too_close_words(results: xr.Dataset) -> str:
 
 
 def ranking_sentence(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> str:
-    """Which option the study's weights prefer, and how sure that is."""
+    """Say which option the study's weights prefer, and how sure that is."""
     method = str(results["scoring_method"].values[0])
     of_method = results[["score", "rank"]].sel({"scoring_method": method})
     rank = dict(zip(options(results), of_method["rank"].values.tolist(), strict=True))
@@ -156,11 +160,12 @@ def ranking_sentence(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> 
 
 
 def _behind(results: xr.Dataset, option: str) -> str:
-    """By which criteria an option that betters forces or sound falls behind the reference."""
+    """Name the criteria by which an option that betters forces or sound falls behind the
+    reference."""
     criteria = criteria_of_advantage(results, REFERENCE_OPTION, option)
     return (
-        f" {option} ranks below {REFERENCE_OPTION} all the same: {REFERENCE_OPTION} scores better "
-        f"in {' and '.join(map(_inside_a_sentence, criteria))}."
+        f" {option} ranks below {REFERENCE_OPTION}, which scores better in "
+        f"{' and '.join(map(_inside_a_sentence, criteria))}."
     )
 
 
@@ -199,7 +204,7 @@ def _published(results: xr.Dataset) -> list[Block]:
     if not wrong:
         return []
     source = parameters(results)["scoring"]["published"]["source"]
-    return [Text(f"Published scores: the printed sum does not add up for {wrong} ({source})")]
+    return [Text(f"The printed sum of the published scores is wrong for {wrong}. Source: {source}")]
 
 
 register(Section("scores", "Scores", _blocks, position=90.0, tables=_data))

@@ -1,4 +1,4 @@
-"""What a hammer test of the shell tells: before and after."""
+"""Results of a hammer test of the shell: before and after."""
 
 from collections.abc import Callable, Iterator
 from typing import Final
@@ -32,7 +32,7 @@ GIVEN_UP: Final = 20.0
 
 
 def test_sentence(results: xr.Dataset) -> str:
-    """What was measured and with which tolerances it is compared."""
+    """Say what was measured and with which tolerances it is compared."""
     about = results["shell_likelihood"].attrs
     unused = f"; {about['unused']} others have nodes without a name" if about["unused"] else ""
     return (
@@ -49,14 +49,14 @@ def test_sentence(results: xr.Dataset) -> str:
 def peaks_sentence(results: xr.Dataset) -> str:
     """The clear peaks with their loss factors."""
     if "shell_peak_loss" not in results:
-        return "The mobilities have no clear peak: frequencies and loss factors tell nothing."
+        return "The mobilities have no clear peak: frequencies and loss factors cannot be read."
     pairs = zip(results["shell_peak"].values, results["shell_peak_loss"].values, strict=True)
     peaks = ", ".join(f"{peak:.0f} Hz ({100.0 * loss:.2g} %)" for peak, loss in pairs)
     return f"Clear peaks, with loss factor: {peaks}."
 
 
 def samples_sentence(results: xr.Dataset) -> str:
-    """How many samples were held against the test, and how many equal ones remain."""
+    """Say how many samples were weighted by the test, and how many equal ones remain."""
     weight = results["shell_likelihood"].values
     effective = effective_number(weight)
     few = " That is few: bands after the test are rough." if effective < GIVEN_UP else ""
@@ -108,8 +108,8 @@ def _band(values: Array, weight: Array, write: Callable[[float], str]) -> str:
     values, weight = values[finite], weight[finite]
     if not values.size:
         return rounding.NOTHING
-    known = weighted_estimate(values, weight)
-    return written(known, effective_number(weight)).middle_and_ends(write)
+    interval = weighted_estimate(values, weight)
+    return written(interval, effective_number(weight)).middle_and_ends(write)
 
 
 def _narrowed(values: Array, weight: Array) -> float:

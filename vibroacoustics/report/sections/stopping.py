@@ -1,4 +1,4 @@
-"""What happens when the machine is switched off, against steady running."""
+"""Section on switching off, compared with steady running."""
 
 from typing import Final
 
@@ -19,12 +19,12 @@ from .sources.words import LINE_FIGURE
 
 
 def sentences(results: xr.Dataset) -> tuple[str, ...]:
-    """What the stop does, its order map, and what is left out."""
+    """Forces and levels of the stop, its order map, and neglected effects."""
     return (_finding(results), *_turned_back(results), _map_sentence(results), _limits(results))
 
 
 def _greatest(over_time: xr.DataArray) -> tuple[Array, Array]:
-    """Before switch-off and from then on, shape (speed,)."""
+    """Greatest values before switch-off and from then on, shape (speed,)."""
     time = over_time["stopping_time"]
     parts = (over_time.where(during).max("stopping_time") for during in (time < 0.0, time >= 0.0))
     before, after = (np.asarray(part.values) for part in parts)
@@ -42,15 +42,15 @@ def _finding(results: xr.Dataset) -> str:
         f"{whose} off at {speeds(results)[speed]:g} rpm the shaft comes to rest in "
         f"{rounding.significant(results['stopping_duration'].values[speed])} s, after "
         f"{rounding.fixed(results['stopping_revolutions'].values[speed])} revolutions. The largest "
-        f"force into a foot is {rounding.significant(stopping[speed])} N, against "
-        f"{rounding.significant(steady[speed])} N in steady running without torque ripple and "
-        f"{rounding.significant(_line_foot_force_n(results, speed))} N by the motor's torque at "
-        "twice the line frequency. "
+        f"force into a foot is {rounding.significant(stopping[speed])} N. In steady running "
+        f"without torque ripple it is {rounding.significant(steady[speed])} N. The motor's torque "
+        "at twice the line frequency makes "
+        f"{rounding.significant(_line_foot_force_n(results, speed))} N. "
     ) + _loudest(results.isel(speed=speed))
 
 
 def _loudest(results: xr.Dataset) -> str:
-    """Of one speed."""
+    """Sentence on the loudest stop at one speed."""
     level = results["stopping_fast_maximum_level"].sel(stopping_phase=list(_PHASES))
     rise = np.subtract(*level.values[::-1])
     most, loudest = int(np.argmax(rise)), int(np.argmax(level.values[1]))
@@ -85,13 +85,13 @@ def _limits(results: xr.Dataset) -> str:
     return (
         f"Assumed: the orbiting set turns by {rounding.fixed(np.degrees(stop['shift_rad']))}° "
         f"against its counterweights within {rounding.significant(1e3 * stop['shift_duration_s'])} "
-        f"ms; the gas keeps {rounding.fixed(100.0 * stop['gas_share_ratio'], 0)} % of its torque "
+        f"ms. The gas keeps {rounding.fixed(100.0 * stop['gas_share_ratio'], 0)} % of its torque "
         f"until the shaft is at rest; the motor's torque ends at once. {left_out}"
     )
 
 
 def _turned_back(results: xr.Dataset) -> tuple[str, ...]:
-    """What follows the first rest, where it is computed."""
+    """Say what follows the first rest, where it is computed."""
     if "stopping_brake_force" not in results:
         return ()
     angle = np.degrees(results["stopping_turned_back_angle"].values)

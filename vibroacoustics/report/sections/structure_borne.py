@@ -26,6 +26,7 @@ _OF_LINES: Final = [
     *(f"structure_borne_line_{name}" for name in ("level", "low", "high")), "tone_frequency",
     "structure_borne_input_power", "structure_borne_power",
 ]  # fmt: skip
+UNCERTAIN: Final = "uncertain"
 _LEAST_DB: Final = 0.1
 """Smaller changes are none."""
 
@@ -33,7 +34,8 @@ _LEAST_DB: Final = 0.1
 def first_order_levels(
     results: xr.Dataset, receiver: str, option: str
 ) -> tuple[float, float, float, float]:
-    """A-weighted level of 1× by air, by the plate, and what 5 % and 95 % of plates stay below."""
+    """A-weighted level of 1×, airborne and structure-borne, with the 5 % and 95 % quantiles of
+    plates."""
     by_air = _value(results, "order_level", receiver, option, order=1)
     by_plate, low, high = (
         _value(results, f"structure_borne_line_{name}", receiver, option, line="order 1")
@@ -43,29 +45,28 @@ def first_order_levels(
 
 
 def carrier(by_air: float, low: float, high: float) -> str:
-    """Which way carries a level."""
+    """Name the path that dominates a level."""
     if by_air < low:
-        return "the plate"
-    return "the air" if by_air > high else "not sure"
+        return "structure-borne sound"
+    return "airborne sound" if by_air > high else UNCERTAIN
 
 
-def way_sentence(results: xr.Dataset, receiver: str) -> str:
-    """How loud 1× is by air and by the plate, which carries it, which option changes that."""
+def dominant_path_sentence(results: xr.Dataset, receiver: str) -> str:
+    """Say how loud 1× is, airborne and structure-borne, which path dominates, which option changes
+    it."""
     by_air, by_plate, low, high = first_order_levels(results, receiver, REFERENCE_OPTION)
     which = carrier(by_air, low, high)
-    verdict = (
-        "which of them carries it is not sure" if which == "not sure" else f"{which} carries it"
-    )
+    verdict = "it is uncertain which dominates" if which == UNCERTAIN else f"{which} dominates"
     return (
         f"At {receiver} and {nearest_speed(results):g} rpm without a balancer 1× is "
-        f"{rounding.level(by_air)} dB(A) by air and {rounding.level(by_plate)} dB(A) "
-        f"({_span(low, high)} with 90 %) by the feet and the plate: {verdict}."
+        f"{rounding.level(by_air)} dB(A) airborne and {rounding.level(by_plate)} dB(A) "
+        f"({_span(low, high)} with 90 %) structure-borne: {verdict}."
         f"{_best(results, receiver, by_plate)}"
     )
 
 
-def ways_table(results: xr.Dataset, receiver: str) -> Table:
-    """Of every option 1× and all lines, by air and by the plate."""
+def both_paths_table(results: xr.Dataset, receiver: str) -> Table:
+    """Return 1× and all lines of every option, airborne and structure-borne."""
     rows = []
     for option in options(results):
         by_air, by_plate, low, high = first_order_levels(results, receiver, option)
@@ -73,18 +74,18 @@ def ways_table(results: xr.Dataset, receiver: str) -> Table:
             _value(results, f"structure_borne_level{end}", receiver, option)
             for end in ("", "_low", "_high")
         )
-        all_by_air, both = (
+        all_by_air, total_words = (
             rounding.level(_value(results, name, receiver, option))
             for name in ("level_total", "level_both_ways")
         )
         first = (rounding.level(by_air), ranged(by_plate, low, high), carrier(by_air, low, high))
-        rows.append((option, *first, all_by_air, ranged(*total), both))
+        rows.append((option, *first, all_by_air, ranged(*total), total_words))
     head = (
-        "Option", "1× by air, dB(A)", "1× by the plate, dB(A)", "1× carried by",
-        "All by air, dB(A)", "All by the plate, dB(A)", "Both, dB(A)",
+        "Option", "1× airborne, dB(A)", "1× structure-borne, dB(A)", "1× dominated by",
+        "All airborne, dB(A)", "All structure-borne, dB(A)", "Both, dB(A)",
     )  # fmt: skip
     caption = (
-        f"{receiver}, {nearest_speed(results):g} rpm: by air, and by the feet and the plate under "
+        f"{receiver}, {nearest_speed(results):g} rpm: airborne, and structure-borne under "
         "them with the span of 90 % of such plates"
     )
     return Table(caption, head, tuple(rows), frozenset({0, 3}))
@@ -92,15 +93,15 @@ def ways_table(results: xr.Dataset, receiver: str) -> Table:
 
 def plate_lines_table(results: xr.Dataset, receiver: str) -> Table:
     """The loudest lines of the plate without a balancer, with the powers."""
-    at = at_catalogue(results, receiver=receiver, speed=nearest_speed(results))
-    there = a_weighted(results[_OF_LINES].sel(at))
-    level = there["structure_borne_line_level"].values
+    coordinates = at_catalogue(results, receiver=receiver, speed=nearest_speed(results))
+    lines = a_weighted(results[_OF_LINES].sel(coordinates))
+    level = lines["structure_borne_line_level"].values
     loudest = np.argsort(-level, kind="stable")[:_LINES]
     rows = []
     for number in sorted(row for row in loudest if level[row] >= rounding.LEVEL_FLOOR_DB):
-        line = str(there["line"].values[number])
+        line = str(lines["line"].values[number])
         db, low, high, hertz, power_in, power = (
-            float(there[name].values[number]) for name in _OF_LINES
+            float(lines[name].values[number]) for name in _OF_LINES
         )
         order = line.removeprefix("order ")
         rows.append(
@@ -117,22 +118,27 @@ def plate_lines_table(results: xr.Dataset, receiver: str) -> Table:
     return Table(f"{where}: lines of the plate", head, tuple(rows))
 
 
-def _value(results: xr.Dataset, name: str, receiver: str, option: str, **at: str | int) -> float:
+def _value(
+    results: xr.Dataset, name: str, receiver: str, option: str, **coordinates: str | int
+) -> float:
     at_speed = {"receiver": receiver, "option": option, "speed": nearest_speed(results)}
-    return estimate(results, name, weighting="A", **at_speed, **at).value
+    return estimate(results, name, weighting="A", **at_speed, **coordinates).value
 
 
 def _best(results: xr.Dataset, receiver: str, by_plate: float) -> str:
-    """The option that leaves least of 1× by the plate."""
-    each = {one: first_order_levels(results, receiver, one)[1] for one in balancers(results)}
+    """Option with the lowest structure-borne 1×."""
+    each = {
+        balancer: first_order_levels(results, receiver, balancer)[1]
+        for balancer in balancers(results)
+    }
     if not each or by_plate < rounding.LEVEL_FLOOR_DB:
         return ""
     least = min(each, key=lambda option: each[option])
     if each[least] > by_plate - _LEAST_DB:
-        return " No option takes anything off it."
+        return " No option lowers it."
     change = rounding.level_change(each[least] - by_plate, each[least], by_plate)
     text = change if change == "silent" else f"{change} dB"
-    return f" By the plate {least} leaves least of it: {text}."
+    return f" The lowest structure-borne 1× is that of {least}: {text}."
 
 
 def _span(low: float, high: float) -> str:
@@ -149,7 +155,7 @@ def ranged(level: float, low: float, high: float) -> str:
 def _blocks(results: xr.Dataset) -> list[Block]:
     receiver = catalogue_receiver(results)
     return [
-        Text(way_sentence(results, receiver), "strong"),
+        Text(dominant_path_sentence(results, receiver), "strong"),
         Text(
             "The feet excite a plate, whose near field and bending waves radiate. Levels of the "
             "plate are those of its mean power, with the interval of 90 % of such plates. They are "
@@ -157,7 +163,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
             "transmission into the building.",
             "note",
         ),
-        ways_table(results, receiver),
+        both_paths_table(results, receiver),
         plate_lines_table(results, receiver),
         Text("Other microphones and speeds are in structure_borne.csv.", "note"),
     ]

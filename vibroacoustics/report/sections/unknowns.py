@@ -80,7 +80,7 @@ def dotted(item: Mapping[str, Any]) -> str:
 
 
 def _projection(results: xr.Dataset) -> str:
-    """How far natural frequencies by projection are off."""
+    """Say how far natural frequencies by projection are off."""
     if "projection_error" not in results:
         return ""
     errors = results["projection_error"]
@@ -130,8 +130,9 @@ def resolved_sentence(results: xr.Dataset) -> str:
         for name, count in zip(shares["knowledge"].values, counts, strict=True)
     ]
     return (
-        f"Resolved shares in the variance of the modelled level at {catalogue_receiver(results)}, "
-        f"of {shares.sizes['uncertain_parameter']} uncertain parameters: {', '.join(words)}."
+        "Resolved shares in the variance are of the modelled level at "
+        f"{catalogue_receiver(results)}. Their numbers, of {shares.sizes['uncertain_parameter']} "
+        f"parameters: {', '.join(words)}."
     )
 
 
@@ -141,19 +142,19 @@ def unknowns_table(results: xr.Dataset, among: Collection[str] | None = None) ->
     All of them, or those among some dotted names in SI.
     """
     shares = results["level_share"]
-    seen = resolved(results, "level_share")
+    is_resolved = resolved(results, "level_share")
     knowledge = [str(name) for name in shares["knowledge"].values]
-    columns = [number for number in range(len(knowledge)) if seen[number].any()]
-    largest = np.where(seen, shares.values, 0.0).max(axis=0)
+    columns = [number for number in range(len(knowledge)) if is_resolved[number].any()]
+    largest = np.where(is_resolved, shares.values, 0.0).max(axis=0)
     names = [str(name) for name in shares["uncertain_parameter"].values]
     rows = tuple(
         (
-            with_unit(named(names[at]), file_unit(results, names[at])[0]),
-            *(_values(results, names[at], number) for number in range(-1, len(knowledge) - 1)),
-            *(share_words(results, "level_share", number, at) for number in columns),
+            with_unit(named(names[index]), file_unit(results, names[index])[0]),
+            *(_values(results, names[index], number) for number in range(-1, len(knowledge) - 1)),
+            *(share_words(results, "level_share", number, index) for number in columns),
         )
-        for at in np.argsort(-largest, kind="stable").tolist()
-        if largest[at] > 0.0 and (among is None or names[at] in among)
+        for index in np.argsort(-largest, kind="stable").tolist()
+        if largest[index] > 0.0 and (among is None or names[index] in among)
     )
     if not rows:
         return None
@@ -229,8 +230,8 @@ def _values(results: xr.Dataset, name: str, prior: int) -> str:
         return rounding.NOTHING
     values = ensemble.value.sel(uncertain_parameter=name).values / file_unit(results, name)[1]
     weight = ensemble.before if prior < 0 else ensemble.weight[prior]
-    known = written(weighted_estimate(values, weight), effective_number(weight))
-    return known.middle_and_ends(rounding.three_digits)
+    interval = written(weighted_estimate(values, weight), effective_number(weight))
+    return interval.middle_and_ends(rounding.three_digits)
 
 
 def _knowledge(results: xr.Dataset, name: str) -> str:

@@ -50,9 +50,9 @@ class Avoided(NamedTuple):
 
     Attributes
     ----------
-    option : of the study
+    option : option of the study
     quantity : LEVEL or FOOT_FORCE
-    range : of speeds
+    range : range of speeds
     line : name of the strongest line at the maximum
     line_hz : its frequency
     mode : nearest to it; none where none is near
@@ -115,7 +115,7 @@ def recorded_speeds_to_avoid(speed_rpm: Array, level_db: Array, bins: int = BINS
 
     Parameters
     ----------
-    speed_rpm, level_db : of the blocks, shape (block,)
+    speed_rpm, level_db : speed and level of the blocks, shape (block,)
     bins : steps
     """
     edges = np.linspace(speed_rpm.min(), speed_rpm.max(), bins + 1)
@@ -128,7 +128,7 @@ def recorded_speeds_to_avoid(speed_rpm: Array, level_db: Array, bins: int = BINS
 
 
 def _falls_to(speed_rpm: Array, level_db: Array) -> float:
-    """Where the level is so far below the first one, going on from case; linear in between."""
+    """Speed at which the level has fallen so far, going on from case; linear in between."""
     wanted = level_db[0] - WITHIN_DB
     after = int(np.argmax(level_db <= wanted))
     share = (level_db[after - 1] - wanted) / (level_db[after - 1] - level_db[after])

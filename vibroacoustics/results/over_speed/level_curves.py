@@ -22,7 +22,7 @@ class LevelCurve(NamedTuple):
 
     Attributes
     ----------
-    label : of what
+    label : label of the channel or source
     speed_rpm : rising, shape (point,)
     level_db : shape (point,)
     band_db : ends of the interval, shape (2, point); none without samples

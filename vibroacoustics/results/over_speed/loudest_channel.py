@@ -17,7 +17,7 @@ class LoudestChannel(NamedTuple):
 
     Attributes
     ----------
-    curves : of the channel
+    curves : curves of the channel
     overall_db, overall_rpm : greatest overall level and its speed; None where it has none
     order, order_db, order_rpm : loudest order, its greatest level and the speed of that
     channels : number of channels with the same unit
@@ -41,7 +41,7 @@ def orders_at_speeds(results: xr.Dataset) -> list[LoudestOrders]:
 
     Parameters
     ----------
-    results : of `analyse_orders`
+    results : result of `analyse_orders`
     """
     speed_rpm, order = results["speed"].values, results["order"].values
     gain = a_weighted_power(order, speed_rpm)
@@ -66,7 +66,7 @@ def loudest_channel(curves: Sequence[LoudestOrders]) -> LoudestChannel:
 
     Parameters
     ----------
-    curves : of all channels, at least one
+    curves : curves of all channels, at least one
     """
     units = [each.unit for each in curves]
     unit = "Pa" if "Pa" in units else units[0]

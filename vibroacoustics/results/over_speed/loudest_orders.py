@@ -23,12 +23,13 @@ class LoudestOrders(NamedTuple):
 
     Attributes
     ----------
-    channel, unit : of what
-    speed_rpm : of the blocks, rising, shape (block,)
+    channel, unit : channel and its unit
+    speed_rpm : speed of the blocks, rising, shape (block,)
     order : loudest orders, rising, shape (order,)
     level_db : in the orders' bands, shape (order, block); of sound pressure A-weighted at the
         orders' frequencies, dB re 20 µPa; of others dB re 1 unit, root mean square
-    overall_db : of all frequencies, A-weighted, shape (block,); none where it is no sound pressure
+    overall_db : level of all frequencies, A-weighted, shape (block,); none where it is no sound
+        pressure
     """
 
     channel: str
@@ -61,8 +62,8 @@ def band_power(power: Array, map_order: Array, order: Array, band_order: float) 
 
     Parameters
     ----------
-    power : of the lines, shape (block, line)
-    map_order : of the lines, evenly spaced from 0, shape (line,)
+    power : power of the lines, shape (block, line)
+    map_order : order of the lines, evenly spaced from 0, shape (line,)
     order : middles of the bands, shape (order,)
     band_order : width of the bands, orders
     """
@@ -80,8 +81,8 @@ def standing_out(mean_power: Array, map_order: Array, band_order: float) -> Arra
 
     Parameters
     ----------
-    mean_power : of the lines, shape (line,)
-    map_order : of the lines, evenly spaced from 0, shape (line,)
+    mean_power : mean power of the lines, shape (line,)
+    map_order : order of the lines, evenly spaced from 0, shape (line,)
     band_order : width of the bands, orders; the first and last half of it are omitted
     """
     reach = max(round(band_order / map_order[1]), 1)
@@ -108,7 +109,7 @@ def loudest_orders(
 
     Parameters
     ----------
-    orders : of `analyse_orders`; needs `order_map` and, of sound pressure, `block_level`
+    orders : result of `analyse_orders`; needs `order_map` and, of sound pressure, `block_level`
     channel : one of the dataset's channels; default: the first
     gain : `a_weighted_power` of the map, if it is known
 

@@ -21,7 +21,7 @@ class Mode(NamedTuple):
 
     Attributes
     ----------
-    kind : of KINDS
+    kind : kind, one of KINDS
     name : within its kind
     frequency_hz : without loss
     """
@@ -38,7 +38,7 @@ class Mode(NamedTuple):
 
 
 class Crossing(NamedTuple):
-    """Where a line meets a mode; its level there, of the modelled one, dB."""
+    """Crossing of a line and a mode; its level there, of the modelled one, dB."""
 
     line: SoundLine
     mode: Mode
@@ -47,7 +47,8 @@ class Crossing(NamedTuple):
 
 
 def modes_of(results: xr.Dataset) -> list[Mode]:
-    """On the mounts, of the shell (with its frame), of gas, with the nominal values."""
+    """Return the modes on the mounts, of the shell (with its frame) and of gas, with nominal
+    values."""
     kept_in = {"mounts": ("natural_frequency", "mode"), "shell": ("shell_frequency", "shell_mode"),
                 "gas": ("gas_frequency", "gas_mode")}  # fmt: skip
     modes = [

@@ -25,10 +25,10 @@ class OrderCuts(NamedTuple):
 
     Attributes
     ----------
-    channel, unit : of what
+    channel, unit : channel and its unit
     speed_rpm : rising, shape (point,)
     order : shape (order,)
-    rms : of one result or of two that are compared, shape (result, order, point)
+    rms : RMS of one result or of two that are compared, shape (result, order, point)
     limits : RMS, shape (order, point); none where there are none
     """
 
@@ -54,9 +54,10 @@ def order_cuts(
 
     Parameters
     ----------
-    orders : of `run`, `analyse_orders` or `compare`
-    channel : as in `compare`; default: of a study the microphone of its catalogue, else the first
-    option : of a study
+    orders : result of `run`, `analyse_orders` or `compare`
+    channel : channel, see `compare`; default: of a study the microphone of its published level,
+        else the first
+    option : option of a study
 
     Raises
     ------

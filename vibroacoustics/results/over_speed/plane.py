@@ -18,7 +18,7 @@ MOST_COLUMNS: Final = 600
 MOST_ROWS: Final = 300
 """Largest numbers of a map: more would be finer than a picture."""
 CLOSE_RATIO: Final = 0.1
-"""Between speeds no further apart than this, lines of a study are drawn through, level and
+"""Ratio of speeds between which lines of a study are drawn through, level and
 frequency linear."""
 
 
@@ -27,7 +27,7 @@ class Plane(NamedTuple):
 
     Attributes
     ----------
-    title : of what
+    title : title of the map
     frequency_hz : shape (column,)
     along : rising speed, rpm, or time, s, shape (row,)
     is_speed : whether it is speed
@@ -119,7 +119,7 @@ def _at_rows(values: Array, rows: Array) -> Array:
 
 
 def _fewer(plane: Plane) -> Plane:
-    """No more rows and columns than a picture shows."""
+    """Return a plane with no more rows and columns than a picture shows."""
     level, along = _loudest(plane.level_db, plane.along, MOST_ROWS)
     level, frequency = _loudest(level.T, plane.frequency_hz, MOST_COLUMNS + 1)
     return plane._replace(level_db=level.T, along=along, frequency_hz=frequency)

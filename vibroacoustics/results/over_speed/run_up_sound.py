@@ -13,9 +13,9 @@ class RunUpSound(NamedTuple):
 
     Attributes
     ----------
-    channel, unit : of what
+    channel, unit : channel and its unit
     start_s : time of the first sample and of the first envelope value, s
-    sample_rate_hz : of the residual
+    sample_rate_hz : sample rate of the residual
     residual : signal without the orders, shape (sample,), in the unit
     order : shape (order,)
     envelope_rate_hz : values of an envelope a second

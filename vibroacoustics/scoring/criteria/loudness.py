@@ -11,7 +11,7 @@ from ...study.criterion import Criterion
 class Loudness(Criterion):
     """Loudness (ISO 532-1), mean of the microphones.
 
-    Worst over the speeds; of the values as given.
+    Worst over the speeds, with nominal values.
     """
 
     name = "loudness_sone"

@@ -11,7 +11,7 @@ from ...study.criterion import Criterion
 class Sharpness(Criterion):
     """Sharpness (DIN 45692), mean of the microphones.
 
-    Worst over the speeds; of the values as given.
+    Worst over the speeds, with nominal values.
     """
 
     name = "sharpness_acum"

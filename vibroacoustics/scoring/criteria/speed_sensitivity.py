@@ -1,4 +1,4 @@
-"""How far the benefit depends on the speed."""
+"""Dependence of the benefit on the speed."""
 
 from typing import Final
 
@@ -11,7 +11,7 @@ from ...results.estimates import in_samples
 from ...study.criterion import Criterion
 
 SMALLEST_RATIO: Final = 1e-6
-"""Below -120 dB is rounding."""
+"""Smallest ratio: below -120 dB is rounding."""
 
 
 @register

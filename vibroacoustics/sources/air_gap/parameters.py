@@ -11,7 +11,7 @@ ANGLE = Field(default=0.0, ge=-2.0 * pi, le=2.0 * pi)
 
 
 class AirGap(Parameters):
-    """Flux density, slots, eccentricity. Windings' steps and saturation are left out."""
+    """Flux density, slots, eccentricity. Windings' steps and saturation are neglected."""
 
     flux_density_t: float = Field(gt=0.0, le=3.0)
     """Peak of the fundamental wave that turns forwards."""
@@ -22,10 +22,10 @@ class AirGap(Parameters):
     """Wave of the permeance by the slots over its mean."""
     rotor_slot_ratio: float = RATIO
     static_eccentricity_ratio: float = RATIO
-    """Of a rotor whose middle stands off the stator's, over the gap."""
+    """Offset of the rotor's middle from the stator's, over the gap."""
     static_angle_rad: float = ANGLE
-    """Of the narrowest gap, from x."""
+    """Angle of the narrowest gap, from x."""
     dynamic_eccentricity_ratio: float = RATIO
-    """Of a rotor whose middle circles the stator's, over the gap."""
+    """Radius of the circle of the rotor's middle about the stator's, over the gap."""
     dynamic_angle_rad: float = ANGLE
-    """Of the narrowest gap ahead of the crank pin."""
+    """Angle of the narrowest gap ahead of the crank pin."""

@@ -40,17 +40,18 @@ def cosine(wave: Wave, amplitude: complex) -> dict[Wave, complex]:
     return {wave: 0.5 * amplitude, against: 0.5 * amplitude.conjugate()}
 
 
-def product(one: Waves, other: Waves) -> dict[Wave, complex]:
+def product(first: Waves, other: Waves) -> dict[Wave, complex]:
     """Product of two fields."""
     total: defaultdict[Wave, complex] = defaultdict(complex)
-    for (n, line, shaft), value in one.items():
+    for (n, line, shaft), value in first.items():
         for (m, other_line, other_shaft), factor in other.items():
             total[Wave(n + m, line + other_line, shaft + other_shaft)] += value * factor
     return dict(total)
 
 
 def permeance(gap: AirGap, stator_slots: int, rotor_slots: int | None) -> dict[Wave, complex]:
-    """Of the gap over its mean: slots of stator and rotor, static and dynamic eccentricity.
+    """Permeance of the gap over its mean: slots of stator and rotor, static and dynamic
+    eccentricity.
 
     First order of each, multiplied (Gieras, Wang & Lai, Noise of Polyphase Electric Motors, 2006,
     chapter 2). The middle of a slot stands at angle zero.
@@ -60,14 +61,14 @@ def permeance(gap: AirGap, stator_slots: int, rotor_slots: int | None) -> dict[W
     gap : sizes of the waves
     stator_slots, rotor_slots : their numbers; none for a rotor without
     """
-    one = {Wave(0, 0, 0): 1.0 + 0j}
-    stator = one | cosine(Wave(stator_slots, 0, 0), -gap.stator_slot_ratio + 0j)
+    unity = {Wave(0, 0, 0): 1.0 + 0j}
+    stator = unity | cosine(Wave(stator_slots, 0, 0), -gap.stator_slot_ratio + 0j)
     static = cosine(Wave(1, 0, 0), _turned(gap.static_eccentricity_ratio, gap.static_angle_rad))
     dynamic = cosine(Wave(1, 0, 1), _turned(gap.dynamic_eccentricity_ratio, gap.dynamic_angle_rad))
-    factors = [stator, one | static | dynamic]
+    factors = [stator, unity | static | dynamic]
     if rotor_slots is not None:
         rotor = cosine(Wave(rotor_slots, 0, rotor_slots), -gap.rotor_slot_ratio + 0j)
-        factors.append(one | rotor)
+        factors.append(unity | rotor)
     return reduce(product, factors)
 
 
@@ -94,7 +95,7 @@ def stress_pa(flux_t: Waves) -> dict[Wave, complex]:
 
 
 NO_STRESS = 1e-6
-"""Of the largest wave: smaller ones are left out."""
+"""Share of the largest wave: smaller ones are neglected."""
 
 
 PORTS = (BEARING_HOUSING, LOWER_BEARING, STATOR, STATOR_YOKE)
@@ -118,7 +119,7 @@ def loads_of_stress(
     stress_pa : complex peaks by wave
     yoke : bore, length
     shaft : bearings and rotor
-    height_m : of the middle of the stack, at which the rotor is pulled too
+    height_m : mid-height of the stack, at which the rotor is pulled too
     """
     largest = max(map(abs, stress_pa.values()), default=0.0)
     pulled = _pull(shaft, height_m)
@@ -128,14 +129,14 @@ def loads_of_stress(
     for (around, line, shaft_turns), stress in stress_pa.items():
         if abs(stress) < NO_STRESS * largest:
             continue
-        at = line, shaft_turns
+        key = line, shaft_turns
         parts = np.array([1.0, -1j * np.sign(around)])  # with cos nθ and with sin nθ
         if abs(around) == 1:
             for port, per_force in pulled.items():
-                loads[at][port] += across * stress * (per_force @ parts)
+                loads[key][port] += across * stress * (per_force @ parts)
         elif abs(around) in YOKE_ORDERS:
             first = 2 * YOKE_ORDERS.index(abs(around))
-            loads[at][STATOR_YOKE][first : first + 2] -= per_stress * stress * parts
+            loads[key][STATOR_YOKE][first : first + 2] -= per_stress * stress * parts
     return dict(loads)
 
 
@@ -144,7 +145,7 @@ def _none() -> dict[Port, ComplexArray]:
 
 
 def _pull(shaft: ScrollShaft, height_m: float) -> dict[Port, Array]:
-    """On the parts per force on the rotor along x and y, shape (component, 2)."""
+    """Pull on the parts per force on the rotor along x and y, shape (component, 2)."""
     share = shaft.rotor_height_m / shaft.main_bearing_height_m
     lower_m = height_m - shaft.rotor_height_m
     loads: dict[Port, Array] = {}

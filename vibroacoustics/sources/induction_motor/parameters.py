@@ -13,7 +13,7 @@ class CapacitorMotor(Parameters):
     """A single-phase motor with a capacitor before its auxiliary winding.
 
     Resistances and reactances are per phase at line frequency, those of the rotor and of
-    magnetising referred to the main winding; core loss is left out.
+    magnetising referred to the main winding; core loss is neglected.
     """
 
     line_voltage_v: float = Field(gt=0.0, le=1e5)
@@ -42,4 +42,4 @@ class CapacitorMotor(Parameters):
 
 class TurningRotor(Parameters):
     inertia_kg_m2: float = Field(gt=0.0, le=1e3)
-    """About the shaft's axis, of all that turns with it."""
+    """Inertia about the shaft's axis, of all that turns with it."""

@@ -33,9 +33,9 @@ class OperatingPoint:
 
     Attributes
     ----------
-    slip : of the forward field
+    slip : slip of the forward field
     main_current_a, auxiliary_current_a : complex peaks
-    forward_current_a, backward_current_a : of the two fields, in turns of the main winding
+    forward_current_a, backward_current_a : currents of the two fields, in turns of the main winding
     torque_n_m : mean, in the air gap
     pulsating_torque_n_m : complex peak at twice the line frequency
     input_power_w : from the line
@@ -142,7 +142,7 @@ def supply_frequency_hz(rated: CapacitorMotor, speed_rpm: float, torque_n_m: flo
     Parameters
     ----------
     rated : with the values of its line frequency
-    speed_rpm : of the shaft
+    speed_rpm : speed of the shaft
     torque_n_m : mean load against the rotation
 
     Raises

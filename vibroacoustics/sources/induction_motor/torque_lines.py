@@ -19,7 +19,7 @@ class TwoAxisMotor:
     ----------
     at_rest, per_speed : A and B, shape (5, 5)
     input_vector : b per volt of the line, shape (5,)
-    torque_form : Q, symmetric, N m
+    torque_form : Q, symmetric, shape (5, 5), N m
     line_rad_per_s : angular frequency of the line
     voltage_v : peak of the line voltage
     """
@@ -47,7 +47,7 @@ class TwoAxisMotor:
 
 @dataclass(frozen=True)
 class SpeedResponse:
-    """Motor torque per complex peak of a swing of the speed at ν, N m s, in the shape of ν.
+    """Motor torque per complex peak of a swing of the speed at ν, N m s, shape (...) of ν.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class TorqueLine(NamedTuple):
     motor_torque_n_m : on the rotor; the stator, and with it the housing, gets the opposite
     roll_moment_n_m : on the housing about z by change of the rotor's momentum, -J Ω̇: reaction of
         the motor and of the load together
-    speed_swing_rad_per_s : of the rotor
+    speed_swing_rad_per_s : swing of the speed of the rotor
     """
 
     name: str
@@ -87,7 +87,7 @@ class TorqueLines:
 
     Attributes
     ----------
-    operating_point : of the motor at the mean load
+    operating_point : operating point of the motor at the mean load
     speed_rad_per_s : mean speed
     shaft : orders of the load, phases against crank angle zero
     line : twice and four times the line frequency, against the maximum of the line voltage
@@ -107,7 +107,7 @@ class RotorInMotor:
 
     Attributes
     ----------
-    operating_point : of the motor
+    operating_point : operating point of the motor
     motor : its two-axis equations
     twice_line_hz : twice the line frequency
     speed_rad_per_s : mean
@@ -175,7 +175,7 @@ def torque_lines(rotor: RotorInMotor, ripple_n_m: ComplexArray) -> TorqueLines:
     Parameters
     ----------
     rotor : under the mean load
-    ripple_n_m : load torque against the rotation, complex peak of orders 1, 2, …
+    ripple_n_m : load torque against the rotation, complex peak of orders 1, 2, …, shape (order,)
     """
     point, speed, twice = rotor.operating_point, rotor.speed_rad_per_s, rotor.twice_line_hz
     orders = np.arange(1, ripple_n_m.size + 1)

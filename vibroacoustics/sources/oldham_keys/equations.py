@@ -44,7 +44,8 @@ class Coupling(NamedTuple):
 
 
 class Drive(NamedTuple):
-    """What the shaft's angle sets: its sine and cosine, force on the ring, moment on the scroll."""
+    """Values that the shaft's angle sets: sine and cosine, force on the ring, moment on the
+    scroll."""
 
     sine: float
     cosine: float
@@ -54,7 +55,7 @@ class Drive(NamedTuple):
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def drive_at(time: float, c: Coupling) -> Drive:
-    """At a time from crank angle zero, s; the same for all motions at this time."""
+    """Return the drive at a time from crank angle zero, s; equal for all motions at this time."""
     angle = c.angular_speed * time
     force, moment = spline_value(c.ring_force, angle), spline_value(c.moment, angle)
     return Drive(np.sin(angle), np.cos(angle), force, moment)
@@ -68,7 +69,7 @@ def key_motion(drive: Drive, position: Array, rate: Array, c: Coupling, keys: Ar
 
     Parameters
     ----------
-    drive : of the time
+    drive : drive at the time
     position, rate : coordinates and their rates, shape (4,)
     c : constants
     keys : shape (4, 4); it is changed
@@ -110,7 +111,7 @@ def accelerations(drive: Drive, keys: Array, c: Coupling, result: Array) -> None
 
     Parameters
     ----------
-    drive : of the time
+    drive : drive at the time
     keys : with the forces, shape (4, 4)
     c : constants
     result : shape (4,); it is changed

@@ -51,8 +51,8 @@ def deflected(
     ----------
     target : deflection without film force, m
     guess : first try, m
-    gap, speed : of the undeformed faces and of their approach, m and m/s
-    step : of the implicit stage, s
+    gap, speed : gap of the undeformed faces and their speed of approach, m and m/s
+    step : step of the implicit stage, s
     face : constants
     """
     low, high = max(-gap, 0.0), min(target, face.layer - gap)
@@ -118,8 +118,8 @@ def deflect(shifts: Array, deflections: Array, impacts: Array, step: float, c: C
 
     Parameters
     ----------
-    shifts : of the keys before the step and after it, shape (2, 4), m
-    deflections : of the two faces of each key, shape (2, 4), m; they are changed
+    shifts : shifts of the keys before the step and after it, shape (2, 4), m
+    deflections : deflections of the two faces of each key, shape (2, 4), m; they are changed
     impacts : shape (4,); set to 1 where a key passes the position of an undeformed face
     step : s
     c : constants
@@ -141,9 +141,9 @@ def key_forces(drive: Drive, rate: Array, deflections: Array, c: Coupling, keys:
 
     Parameters
     ----------
-    drive : of the time
+    drive : drive at the time
     rate : rates of the coordinates, shape (4,)
-    deflections : of the two faces of each key, shape (2, 4), m
+    deflections : deflections of the two faces of each key, shape (2, 4), m
     c : constants
     keys : with the motion of the keys, shape (4, 4); it is changed
     """
@@ -174,7 +174,7 @@ def integrate(
     Parameters
     ----------
     motion : at the start, see `POSITION`, shape (3, 4); it is changed to that at the end
-    deflections : of the two faces of each key, shape (2, 4), m; likewise
+    deflections : deflections of the two faces of each key, shape (2, 4), m; they are changed
     first : intervals from crank angle zero to the start
     samples : number of intervals
     sample_interval : s

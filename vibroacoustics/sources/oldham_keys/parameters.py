@@ -42,6 +42,6 @@ class OldhamKeys(Parameters):
     friction_ratio: float = Field(ge=0.0, le=0.5)
     """Coulomb friction along the slot over the force of contact."""
     ring_inertia_kg_m2: float = INERTIA
-    """About the shaft's direction, through the ring's centre of mass."""
+    """Inertia about the shaft's direction, through the ring's centre of mass."""
     scroll_inertia_kg_m2: float = INERTIA
-    """Of the part that the ring keeps from turning, about its centre."""
+    """Inertia of the part that the ring keeps from turning, about its centre."""

@@ -18,15 +18,15 @@ from .integration import integrate
 from .parameters import OldhamKeys
 
 SETTLING_REVOLUTIONS: Final = 4
-"""Left out: from the start in the middle of the slots. At rated load, at all corners of the assumed
+"""Omitted: from the start midway in the slots. At rated load, at all corners of the assumed
 ranges, forces are then within 2e-8 N of those after ten."""
 REPEATED: Final = 1e-4
 """Change of forces from one revolution to the next, of the largest, below which they repeat; the
 one that follows is a fifth of it or less. A tenth of it changes no level by more than 0.003 dB."""
 SAMPLE_RATE_HZ: Final = 1e5
-"""At least; of an unloaded ring's 14 N rms at 3500 rpm 0.13 N rms lie above 32 kHz."""
+"""Least sample rate; of an unloaded ring's 14 N rms at 3500 rpm 0.13 N rms lie above 32 kHz."""
 MOST_STEPS: Final = 1000
-"""Between two samples; some seven are usual."""
+"""Most steps between two samples; some seven are usual."""
 STEP_RATIO: Final = 0.2
 """Step times the highest angular frequency of contact; a dry rebound is then right to 0.001 in the
 mean and to 0.01 whatever the phase of the steps."""
@@ -47,14 +47,14 @@ SOURCE: Final = "four keys with clearance, film and friction, our equations"
 
 @dataclass(frozen=True)
 class KeyForces:
-    """What keys and slots do to each other over whole revolutions from crank angle zero.
+    """Forces between keys and slots over whole revolutions from crank angle zero.
 
     Keys 0 and 1 are in the scroll's slots, at y = ±R of the ring; 2 and 3 in the housing's, at
     x = ±R.
 
     Attributes
     ----------
-    speed_rpm : of the shaft, constant
+    speed_rpm : speed of the shaft, constant
     revolutions : their number
     normal_n : force on each key across its slot, shape (4, samples); along x for keys 0 and 1,
         along y for 2 and 3
@@ -129,7 +129,7 @@ def steady_key_forces(
     speed_rpm : constant speed of the shaft
     moment_n_m : turns the scroll about its centre, counter-clockwise as the shaft turns, over
         uniform crank angles from zero, shape (samples,), or one value in (1,)
-    ring_force_n : of a balancer on the ring along x, sampled alike
+    ring_force_n : force of a balancer on the ring along x, at the same samples, shape (samples,)
     revolutions : to be returned, after those in which the motion settles; only one of those that
         repeat exactly
 
@@ -269,7 +269,7 @@ def contact_loss_speed_rpm(
     Parameters
     ----------
     keys : their radius and friction
-    ring_mass_kg : what moves with the ring along its stroke; a pendulum or a sprung mass may
+    ring_mass_kg : mass that moves with the ring along its stroke; a pendulum or a sprung mass may
         multiply it
     stroke_m : r, amplitude
     moment_n_m : M_z over uniform crank angles from zero, shape (samples,), or one value in (1,)
@@ -294,7 +294,7 @@ def oldham_key_curves(forces: KeyForces) -> Iterator[Curve]:
 
     Parameters
     ----------
-    forces : of one revolution or more, of which the first is shown
+    forces : forces of one revolution or more, of which the first is shown
     """
     samples = forces.normal_n.shape[-1] // forces.revolutions
     angle = angle_axis(forces.crank_angle[:samples])

@@ -10,7 +10,7 @@ from ...base.errors import ParameterError
 def split_periodic(force_n: Array, revolutions: int) -> tuple[Array, Array]:
     """Split forces into their mean revolution and the rest, which does not repeat.
 
-    Of a force that never repeats the mean keeps 1/revolutions of the power.
+    When a force never repeats, the mean keeps 1/revolutions of the power.
 
     Parameters
     ----------

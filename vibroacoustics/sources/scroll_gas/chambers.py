@@ -23,12 +23,12 @@ def contacts_at_opening(wraps: ScrollWraps) -> tuple[float, float]:
 
 
 def pair_volume_m3(wraps: ScrollWraps, since_opening: Array) -> Array:
-    """Both pockets of an opened pair until they are one with the chamber, m³.
+    """Volume of both pockets of an opened pair until they are one with the chamber, m³.
 
     Parameters
     ----------
     wraps : geometry
-    since_opening : crank angle, 0 to π, rad
+    since_opening : crank angle, 0 to π, shape (...), rad
     """
     outer, _ = contacts_at_opening(wraps)
     mean = outer - np.pi - since_opening
@@ -42,7 +42,7 @@ def chamber_volume_m3(wraps: ScrollWraps, at_opening_m3: float, since_opening: A
     ----------
     wraps : geometry
     at_opening_m3 : its volume when a pair opens
-    since_opening : crank angle, 0 to 2π, rad
+    since_opening : crank angle, 0 to 2π, shape (...), rad
     """
     outer, inner = contacts_at_opening(wraps)
     ends_at = np.where(since_opening < np.pi, inner, outer) - since_opening
@@ -50,13 +50,13 @@ def chamber_volume_m3(wraps: ScrollWraps, at_opening_m3: float, since_opening: A
 
 
 def least_chamber_volume_m3(wraps: ScrollWraps) -> float:
-    """What a chamber must exceed when a pair opens, so that gas is left in it throughout, m³.
+    """Return the least chamber volume when a pair opens, so that gas remains in it, m³.
 
     The chamber shrinks until its contacts reach t = 0, or until it is one with the pair.
     """
     _, inner = contacts_at_opening(wraps)
-    left = max(inner - np.pi, 0.0)
-    return 0.5 * swept_volume_m3(wraps) * (inner**2 - left**2)
+    inner_turn = max(inner - np.pi, 0.0)
+    return 0.5 * swept_volume_m3(wraps) * (inner**2 - inner_turn**2)
 
 
 def full_gap_area_m2(wraps: ScrollWraps) -> float:

@@ -19,11 +19,11 @@ from .pressures import OpenedGas, TrappedGas, pocket_pressure
 from .suction import SuctionFlow
 
 AFTER_OPENING: Final = np.pi / 3.0
-"""How far the pressure of a pocket is shown beyond its opening, rad."""
+"""Angle to which the pressure of a pocket is shown beyond its opening, rad."""
 AFTER_CLOSING: Final = np.pi / 18.0
-"""From where a suction pocket is shown, rad: before, the gap's length exceeds its own."""
+"""Angle from which a suction pocket is shown, rad: before, the gap's length exceeds its own."""
 HIGHEST_HZ: Final = 4000.0
-"""Of plane waves in the chamber, roughly, and of what the radiation takes."""
+"""Highest frequency of plane waves in the chamber, roughly, and of what the radiation takes."""
 
 
 def scroll_gas_curves(
@@ -39,7 +39,7 @@ def scroll_gas_curves(
     wraps : geometry, m and rad
     gas : pressures in Pa and polytropic index
     opened : gas after the opening, where it has inertia
-    filling : of the suction pockets, where it has inertia
+    filling : filling of the suction pockets, where it has inertia
     """
     yield from _of_a_pocket(wraps, gas, opened)
     if opened is not None:
@@ -117,17 +117,19 @@ def _of_the_filling(filling: SuctionFlow) -> Iterator[Curve]:
     """Pressure and flow of a pair of suction pockets."""
     angle = np.linspace(AFTER_CLOSING, 2.0 * np.pi, CRANK_ANGLES + 1, dtype=np.float64)
     axis = angle_axis(angle, "filling_angle", "Crank angle since the pocket before has closed")
-    for name, label, course, unit in (
+    for name, label, history, unit in (
         ("suction_pressure", "Pressure in a suction pocket", filling.pocket_pa, "bar"),
         ("suction_flow", "Mass flow into a pair of suction pockets", filling.flow_kg_per_s,
          "kg_per_s"),
     ):  # fmt: skip
-        at_angle = np.interp(angle, filling.since_closing, course)
+        at_angle = np.interp(angle, filling.since_closing, history)
         yield Curve(name, label, at_angle, (axis,), unit, "derived: unsteady flow through the gap")
 
 
-def _at(opened: OpenedGas, angle: Array, courses: Mapping[str, Array]) -> Array:
-    return np.array([np.interp(angle, opened.since_opening, one) for one in courses.values()])
+def _at(opened: OpenedGas, angle: Array, histories: Mapping[str, Array]) -> Array:
+    return np.array(
+        [np.interp(angle, opened.since_opening, history) for history in histories.values()]
+    )
 
 
 def _since_closing(angle: Array) -> CurveAxis:
@@ -194,11 +196,11 @@ def discharge_line_curves(
     spectrum = order_spectrum(at_shell, int(orders[-1]))
     spectrum[0] = 0.0
     behind = spectrum * pressure_ratio(through, impedance)
-    courses = {"at the shell": spectrum, "behind the muffler": behind}
+    histories = {"at the shell": spectrum, "behind the muffler": behind}
     yield Curve(
         "tube_pressure", "Pulsation in the discharge tube",
-        np.array([_over_angle(one, angle) for one in courses.values()]),
-        (CurveAxis("tube_at", list(courses)),
+        np.array([_over_angle(history, angle) for history in histories.values()]),
+        (CurveAxis("tube_at", list(histories)),
          angle_axis(angle, "opening_angle", "Crank angle since a pocket has opened")),
         "bar", "derived: plane waves in tube and chamber",
     )  # fmt: skip
@@ -213,6 +215,6 @@ def discharge_line_curves(
 
 
 def _over_angle(spectrum: ComplexArray, angle: Array) -> Array:
-    """Course of complex peaks by order."""
+    """Complex peaks by order."""
     turning = np.exp(1j * np.outer(np.arange(spectrum.size), angle))
     return np.asarray((spectrum @ turning).real)

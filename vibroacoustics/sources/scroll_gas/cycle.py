@@ -20,7 +20,7 @@ class ScrollGasCycle:
 
     Attributes
     ----------
-    crank_angle : of the crank pin from x, shape (samples,), rad
+    crank_angle : angle of the crank pin from x, shape (samples,), rad
     orbit_radius_m : radius of the orbiting scroll's circle
     tangential_force_n : against the motion of the orbiting scroll, shape (samples,)
     radial_force_n : towards the axis of the fixed scroll, apart from the flanks' contacts, shape
@@ -110,8 +110,8 @@ def scroll_gas_cycle(
         np.sum(step * area_inside(wraps, contact), axis=0),
     ])  # fmt: skip
     if opened is not None and opened.filling is not None:
-        over = outer[0] - gas.suction_pressure_pa
-        forces += over * _of_suction_pockets(wraps, since_closing)
+        overpressure = outer[0] - gas.suction_pressure_pa
+        forces += overpressure * _of_suction_pockets(wraps, since_closing)
     return ScrollGasCycle(
         crank_angle=crank_angle,
         orbit_radius_m=wraps.orbit_radius_m,
@@ -131,11 +131,11 @@ def _of_suction_pockets(wraps: ScrollWraps, since_closing: Array) -> Array:
     end = float(contact_angle(wraps, np.zeros(())))
     cosine, sine = np.cos(since_closing), np.sin(since_closing)
     width = 2.0 * wraps.base_radius_m * wraps.height_m
-    moved = 2.0 * wraps.base_radius_m * wraps.orbit_radius_m * (1.0 - cosine - end * sine)
+    swept_area = 2.0 * wraps.base_radius_m * wraps.orbit_radius_m * (1.0 - cosine - end * sine)
     return np.stack([
         width * (end * cosine - sine),
         width * (cosine + end * sine),
-        area_inside(wraps, np.asarray(end)) + moved,
+        area_inside(wraps, np.asarray(end)) + swept_area,
     ])  # fmt: skip
 
 

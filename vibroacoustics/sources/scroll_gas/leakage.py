@@ -20,18 +20,18 @@ TURN: Final = 2.0 * np.pi
 STEPS: Final = 512
 """A turn; four times as many change no pressure by more than 1e-5 of itself."""
 ALMOST: Final = 1e-6
-"""Of a step."""
+"""Share of a step."""
 FIRST_TURNS: Final = 4
-"""Beside gas at the discharge pressure, from which the opening's turns begin."""
+"""Turns beside gas at the discharge pressure, from which the opening's turns begin."""
 
 
 class PocketTurn(NamedTuple):
-    """What a turn of the closed pockets does to the opened pair."""
+    """Effect of a turn of the closed pockets on the opened pair."""
 
     opens_with: float
     """Mass of a pair at its opening, over that of one without leakage."""
     leak_kg_per_s: Array
-    """Out of the opened pair and the chamber that it becomes, over a turn."""
+    """Leakage out of the opened pair and the chamber that it becomes, over a turn."""
 
 
 class TightPockets:
@@ -42,11 +42,11 @@ class TightPockets:
         self.first = PocketTurn(closing_ratio(gas, filling), np.zeros(2))
 
     def turn(self, opened_pa: Array) -> PocketTurn:
-        """As each turn."""
+        """Return the turn; all turns are equal."""
         return self.first
 
     def trapped(self) -> TrappedGas | None:
-        """None where they close with gas at the suction pressure."""
+        """Return None where they close with gas at the suction pressure."""
         if not self._fills:
             return None
         angle = np.array([0.0, self._opens])
@@ -97,7 +97,7 @@ class LeakingPockets:
         return self._angle[: -2 * STEPS]
 
     def _mass(self, opens_with: float) -> float:
-        """Of a pair without leakage, kg: that the gas of one that opens is the opening's."""
+        """Mass of a pair without leakage, kg: that the gas of one that opens is the opening's."""
         c = self._opening
         pressure = self._built_in * opens_with**self._index
         density = c.density * (pressure / c.pressure) ** (1.0 / c.stiffness_exponent)
@@ -114,7 +114,7 @@ class LeakingPockets:
         return PocketTurn(float(self._ratios[0, -1]), self._leaks[0])
 
     def trapped(self) -> TrappedGas:
-        """Of the last turn."""
+        """Gas trapped in the last turn."""
         angle = self._angle[::2]
         ratio, leak = (
             np.append(rows[::-1, :-1].ravel(), rows[0, -1]) for rows in (self._ratios, self._leaks)
@@ -130,13 +130,13 @@ class LeakingPockets:
 
 
 def gap_area_m2(wraps: ScrollWraps, leakage: ScrollLeakage, since_closing: Array) -> Array:
-    """Of the gaps at a pair of contacts, at tips and flanks, m².
+    """Return the area of the gaps at a pair of contacts, at tips and flanks, m².
 
     Parameters
     ----------
     wraps : geometry
     leakage : gaps
-    since_closing : crank angle since the closing of the pocket inside, rad
+    since_closing : crank angle since the closing of the pocket inside, shape (...), rad
     """
     contact = np.maximum(contact_angle(wraps, since_closing), contacts_at_opening(wraps)[1])
     tips = np.pi * wraps.base_radius_m * contact * leakage.tip_gap_m
@@ -147,5 +147,5 @@ def closing_ratio(gas: ScrollGas, filling: SuctionFlow | None) -> float:
     """Mass that a pocket closes with, over that at the suction pressure."""
     if filling is None:
         return 1.0
-    over = float(filling.pocket_pa[-1]) / gas.suction_pressure_pa
-    return float(over ** (1.0 / gas.polytropic_index))
+    ratio = float(filling.pocket_pa[-1]) / gas.suction_pressure_pa
+    return float(ratio ** (1.0 / gas.polytropic_index))

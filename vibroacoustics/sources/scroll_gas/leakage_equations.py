@@ -12,27 +12,29 @@ import numpy as np
 from ...base.arrays import Array
 
 ALMOST: Final = 1e-12
-"""Of κ - 1, below which a gas counts as isothermal."""
+"""Value of κ - 1 below which a gas counts as isothermal."""
 
 
 class LeakingPairs(NamedTuple):
     """Pairs over the crank angle since the opening of pair 0, at half steps.
 
-    Courses run from `pairs` + 1 turns before an opening to it, those of contacts a turn further.
+    Time histories run from `pairs` + 1 turns before an opening to it, those of contacts a turn
+    further.
     """
 
     pairs: int
     """Closed ones at most."""
     steps: int
-    """Of a turn."""
+    """Steps of a turn."""
     closes_at: float
     """Half step at which a pair closes; before, the base pressure is that of suction pockets."""
     base_pa: Array
     """Pressure without leakage."""
     volume_m3: Array
-    """Of both pockets."""
+    """Volume of both pockets."""
     area_m2: Array
-    """Of the gaps at the outer contacts, with their losses; zero before the pair has closed."""
+    """Area of the gaps at the outer contacts, with their losses; zero before the pair has
+    closed."""
     polytropic_index: float
     suction_density: float
     isentropic_exponent: float
@@ -78,20 +80,20 @@ def leaks_at(
     Parameters
     ----------
     half : half steps since the opening
-    ratio : masses of the pairs 1 to `pairs`, over `mass`
-    mass : of a pair without leakage, kg
+    ratio : masses of the pairs 1 to `pairs`, over `mass`, shape (pairs,)
+    mass : mass of a pair without leakage, kg
     opened : pressure and density of pair 0
     p : pairs
     leak : shape (pairs + 1,); it is changed
     """
     inner_pa, inner = opened
     for j in range(p.pairs + 1):
-        at = (p.pairs - j) * 2 * p.steps + half
-        outer_pa, outer = p.base_pa[at], p.suction_density
-        if at >= p.closes_at:
+        number = (p.pairs - j) * 2 * p.steps + half
+        outer_pa, outer = p.base_pa[number], p.suction_density
+        if number >= p.closes_at:
             outer_pa *= ratio[j] ** p.polytropic_index
-            outer = ratio[j] * mass / p.volume_m3[at]
-        area = p.area_m2[at + 2 * p.steps]
+            outer = ratio[j] * mass / p.volume_m3[number]
+        area = p.area_m2[number + 2 * p.steps]
         leak[j] = 0.0
         if area > 0.0:
             flow = nozzle_flow(inner_pa, outer_pa, inner, outer, p.isentropic_exponent)
@@ -107,9 +109,9 @@ def leaking_turn(
 
     Parameters
     ----------
-    start : masses of the pairs 1 to `pairs` at the opening, over `mass`
-    mass : of a pair without leakage, kg
-    opened_pa, opened_density : of pair 0 at half steps, shape (2 steps + 1,)
+    start : masses of the pairs 1 to `pairs` at the opening, over `mass`, shape (pairs,)
+    mass : mass of a pair without leakage, kg
+    opened_pa, opened_density : pressure and density of pair 0 at half steps, shape (2 steps + 1,)
     p : pairs
 
     Returns

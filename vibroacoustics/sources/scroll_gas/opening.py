@@ -1,4 +1,4 @@
-"""The opening of a pocket: pressures and flow of the gas over a turn, in its steady course."""
+"""The opening of a pocket: pressures and flow of the gas over a turn, in its steady cycle."""
 
 import math
 from collections.abc import Callable
@@ -35,7 +35,8 @@ STEPS: Final = 2048
 """A turn at least; 200 000 change no pressure by more than 1e-5 of the discharge pressure, no flow
 by more than 5e-4 of its mean."""
 STEPS_PER_S: Final = 50_000.0
-"""At least, as the gas swings in its passages at some kHz, however slowly the shaft turns."""
+"""Least number of steps a second: the gas swings in its passages at some kHz, however slow the
+shaft."""
 MOST_TURNS: Final = 200
 REPEATED: Final = 1e-5
 """Change of the state over a turn, of its own size, below which it repeats."""
@@ -89,7 +90,7 @@ def opening_constants(
 
 
 def why_no_opening(wraps: ScrollWraps, gas: ScrollGas, opening: ScrollOpening) -> str | None:
-    """Why a pocket cannot open with inertia, at any speed; None where it can."""
+    """Say why a pocket cannot open with inertia, at any speed; None where it can."""
     try:
         opening_constants(wraps, gas, opening, speed_rpm=60.0)
     except ParameterError as error:
@@ -114,16 +115,16 @@ def steady_opening(
     gas : pressures, polytropic index and state at discharge
     opening : passages and volumes
     speed_rpm : constant
-    steps : of a turn, an even number; none for as many as the gas needs
+    steps : number of steps of a turn, even; none for as many as the gas needs
     leakage : gaps between the pockets; none where they are tight
-    filling : of the suction pockets; none where they are at the suction pressure
+    filling : filling of the suction pockets; none where they are at the suction pressure
 
     Raises
     ------
     ParameterError
-        As `opening_constants`.
+        See `opening_constants`.
     SolverError
-        The gas does not come to a course that repeats.
+        The gas does not come to a periodic solution.
     """
     constants = opening_constants(wraps, gas, opening, speed_rpm)
     steps = steps or steps_of_turn(speed_rpm)
@@ -171,9 +172,9 @@ def _steady_turn(
     before, beside = None, pockets.first
     for _ in range(MOST_TURNS):
         start[PAIR], mass = opening_pair(beside.opens_with)
-        at = np.linspace(0.0, 2.0 * steps, beside.leak_kg_per_s.size)
+        half_step = np.linspace(0.0, 2.0 * steps, beside.leak_kg_per_s.size)
         mean = mass * frequency - float(beside.leak_kg_per_s[:-1].mean())
-        leak = np.interp(half_steps, at, beside.leak_kg_per_s)
+        leak = np.interp(half_steps, half_step, beside.leak_kg_per_s)
         states = one_turn(start, steps, leak, constants._replace(mean_flow=mean))
         change = (states[kept, -1] - states[kept, 0]) / size
         if not np.all(np.isfinite(change)):
@@ -191,5 +192,5 @@ def _steady_turn(
             start[kept] += ratio / (1.0 - ratio) * change * size
         before = None
     raise SolverError(
-        "opening: the pressures after a pocket opens do not come to a course that repeats"
+        "opening: the pressures after a pocket opens do not come to a periodic solution"
     )

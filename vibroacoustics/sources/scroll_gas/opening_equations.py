@@ -109,8 +109,8 @@ def opening_rate(
 def join(state: Array, c: OpeningConstants) -> None:
     """Make pair and chamber one after half a turn: their mass is kept, the jet is lost."""
     pair = 2.0 * np.pi * c.swept_volume * (c.outer_contact - 2.0 * np.pi)
-    left = (c.inner_contact - np.pi) ** 2 - c.inner_contact**2
-    chamber = c.chamber_volume + 0.5 * c.swept_volume * left
+    open_share = (c.inner_contact - np.pi) ** 2 - c.inner_contact**2
+    chamber = c.chamber_volume + 0.5 * c.swept_volume * open_share
     mass = pair * density(state[PAIR], c) + chamber * density(state[CHAMBER], c)
     rho = mass / (pair + chamber)
     state[CHAMBER] = c.pressure * (rho / c.density) ** c.stiffness_exponent
@@ -124,7 +124,7 @@ def one_turn(start: Array, steps: int, leak: Array, c: OpeningConstants) -> Arra
     Parameters
     ----------
     start : shape (5,)
-    steps : of the turn, an even number
+    steps : number of steps of the turn, even
     leak : out of pair and chamber at half steps, shape (2 steps + 1,), kg/s
     c : constants
 

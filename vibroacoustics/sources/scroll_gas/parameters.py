@@ -75,8 +75,8 @@ class ScrollGas(Parameters):
     """Crank angle over which an opened pocket comes to the discharge pressure; 0 is at once. Of
     the law of that name only."""
     opening_law: Literal["equalisation-angle", "inertia"] = "equalisation-angle"
-    """How an opened pocket comes to the discharge pressure: by the angle above, or by the flow out
-    of it, with the table `opening`."""
+    """Law by which an opened pocket comes to the discharge pressure: by the angle above, or by the
+    flow out of it, with the table `opening`."""
     discharge_density_kg_per_m3: float | None = Field(default=None, gt=0.0, le=2000.0)
     discharge_sound_speed_m_per_s: float | None = Field(default=None, ge=50.0, le=2000.0)
 
@@ -126,9 +126,9 @@ class ScrollOpening(Parameters):
     port_length_m: float = Field(ge=1e-3, le=0.2)
     port_diameter_m: float = Field(ge=2e-3, le=0.1)
     discharge_coefficient_ratio: float = Field(ge=0.3, le=1.0)
-    """Of gap and port."""
+    """Discharge coefficient of gap and port."""
     chamber_volume_m3: float = Field(gt=0.0, le=1e-3)
-    """When a pocket opens; it shrinks at first."""
+    """Volume of the chamber when a pocket opens; it shrinks at first."""
     plenum_volume_m3: float = Field(ge=1e-5, le=0.1)
     tube_diameter_m: float = Field(ge=2e-3, le=0.2)
     """Inner, of the discharge tube."""
@@ -138,11 +138,11 @@ class ScrollLeakage(Parameters):
     """Gaps through which gas flows back from pocket to pocket, for the law `inertia`."""
 
     tip_gap_m: float = Field(ge=0.0, le=1e-3)
-    """Between the tip of a wrap and the plate of the other scroll."""
+    """Gap between the tip of a wrap and the plate of the other scroll."""
     flank_gap_m: float = Field(ge=0.0, le=1e-3)
-    """Between two flanks at their contact."""
+    """Gap between two flanks at their contact."""
     flow_ratio: float = Field(gt=0.0, le=1.0)
-    """Of the flow without losses through either gap."""
+    """Share of the flow without losses through either gap."""
 
 
 class SuctionPockets(Parameters):

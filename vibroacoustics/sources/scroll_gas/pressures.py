@@ -18,11 +18,11 @@ class TrappedGas:
     Attributes
     ----------
     since_closing : crank angle, from 0 to the opening, shape (steps,), rad
-    mass_ratio : mass over that which the pair would hold from constant suction pressure without
-        leakage
-    contact_angle : crank angle since the closing of the outer contacts, from 0 to a turn after the
-        opening, when they open too, rad
-    leak_kg_per_s : outwards across both of them, over `contact_angle`
+    mass_ratio : shape (steps,): mass over that which the pair would hold from constant suction
+        pressure without leakage
+    contact_angle : shape (contact steps,): crank angle since the closing of the outer contacts,
+        from 0 to a turn after the opening, when they open too, rad
+    leak_kg_per_s : flow outwards across both of them, shape of `contact_angle`
     """
 
     since_closing: Array
@@ -33,7 +33,8 @@ class TrappedGas:
 
 @dataclass(frozen=True)
 class OpenedGas:
-    """Gas at the discharge over a turn from the opening of a pair of pockets.
+    """Gas at the discharge over a turn from the opening of a pair of pockets, shape (steps + 1,)
+    each.
 
     Attributes
     ----------
@@ -44,7 +45,7 @@ class OpenedGas:
     gap_flow_kg_per_s : from pair to chamber; zero after half a turn
     port_flow_kg_per_s : from chamber to plenum
     trapped : gas of the closed pockets where they leak or fill with inertia; else none
-    filling : of the suction pockets where their pressure acts; else none
+    filling : filling of the suction pockets where their pressure acts; else none
     """
 
     since_opening: Array
@@ -114,7 +115,8 @@ def _before_opening(
 
 
 def polytropic_pressure_pa(wraps: ScrollWraps, gas: ScrollGas, angle_since_closing: Array) -> Array:
-    """Of a pocket that neither leaks nor fills with inertia, constant after the opening, Pa."""
+    """Pressure of a pocket that neither leaks nor fills with inertia, constant after the opening,
+    Pa."""
     volume = pocket_volume(wraps, np.clip(angle_since_closing, 0.0, wraps.opening_angle_rad))
     ratio = pocket_volume(wraps, np.zeros(())) / volume
     return np.asarray(gas.suction_pressure_pa * ratio**gas.polytropic_index)
@@ -122,5 +124,7 @@ def polytropic_pressure_pa(wraps: ScrollWraps, gas: ScrollGas, angle_since_closi
 
 def _over_equalisation_angle(gas: ScrollGas, compressed: Array, since_opening: Array) -> Array:
     width = max(gas.equalisation_angle_rad, OPENED_BEFORE)
-    left = 0.5 + 0.5 * np.cos(np.pi * np.minimum(since_opening / width, 1.0))
-    return np.asarray(gas.discharge_pressure_pa + left * (compressed - gas.discharge_pressure_pa))
+    remaining = 0.5 + 0.5 * np.cos(np.pi * np.minimum(since_opening / width, 1.0))
+    return np.asarray(
+        gas.discharge_pressure_pa + remaining * (compressed - gas.discharge_pressure_pa)
+    )

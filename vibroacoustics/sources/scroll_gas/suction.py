@@ -28,7 +28,7 @@ PRESSURE, FLOW = range(2)
 
 @dataclass(frozen=True)
 class SuctionFlow:
-    """Filling of a pair of pockets.
+    """Filling of a pair of pockets, shape (steps + 1,) each.
 
     Attributes
     ----------
@@ -86,8 +86,8 @@ def suction_flow(
     Parameters
     ----------
     wraps : geometry
-    gap_length_m : of the gap with the gas that moves along
-    discharge_coefficient : of the gap
+    gap_length_m : length of the gap with the gas that moves along
+    discharge_coefficient : discharge coefficient of the gap
     gas : pressure, density and speed of sound outside, Pa, kg/m³, m/s
     speed_rpm : constant
     """
@@ -117,7 +117,7 @@ def suction_flow(
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def volume_and_swelling(angle: float, c: FillingConstants) -> tuple[float, float]:
-    """Of one pocket, m³ and m³/rad."""
+    """Volume of one pocket and its rate, m³ and m³/rad."""
     inner, sine, cosine = c.outer_contact - angle, np.sin(angle), np.cos(angle)
     crescent = 0.5 * (c.outer_contact**2 - inner**2) - c.outer_contact * sine - cosine + 1.0
     swelling = inner - c.outer_contact * cosine + sine

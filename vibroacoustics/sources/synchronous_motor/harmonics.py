@@ -14,7 +14,7 @@ from ...base.errors import ParameterError
 from .parameters import SynchronousMotor
 
 LARGEST_MODULATION = {"sine": 1.0, "space-vector": 2.0 / np.sqrt(3.0)}
-"""Of a carrier period that the reference may fill."""
+"""Largest part of a carrier period that the reference may fill."""
 
 
 @dataclass(frozen=True)
@@ -23,8 +23,8 @@ class OperatingPoint:
 
     Attributes
     ----------
-    speed_rad_per_s : of the shaft
-    electrical_rad_per_s : of the voltages, pole pairs times the speed
+    speed_rad_per_s : speed of the shaft
+    electrical_rad_per_s : angular frequency of the voltages, pole pairs times the speed
     emf_v, current_a : by harmonic
     voltage_v : fundamental at the terminals
     modulation_ratio : its size over half the voltage of the link
@@ -102,7 +102,7 @@ def torque_harmonics(
 ) -> ComplexArray:
     """Torque (e_a i_a + e_b i_b + e_c i_c)/Ω by harmonic of the electrical frequency, N m.
 
-    As space vectors, 3/(2Ω) Re Σ e_k i_m* e^{j(k-m)θ}, where harmonics 5, 11, … turn backwards:
+    With space vectors, 3/(2Ω) Re Σ e_k i_m* e^{j(k-m)θ}, where harmonics 5, 11, … turn backwards:
     only multiples of six are left (Krause, Wasynczuk & Sudhoff, Analysis of Electric Machinery,
     2nd ed., 3.3: power in turning variables).
 
@@ -132,7 +132,8 @@ def _rotor_frame(phasors: Mapping[int, complex]) -> dict[int, complex]:
 
 
 def _space_vectors(phasors: Mapping[int, complex]) -> dict[int, complex]:
-    """By signed harmonic: those that turn backwards are conjugate, at minus their number."""
+    """Space vectors by signed harmonic: those that turn backwards are conjugate, at minus their
+    number."""
     return {
         k if k % 3 == 1 else -k: value if k % 3 == 1 else np.conj(value)
         for k, value in phasors.items()
@@ -187,8 +188,8 @@ def pair_currents(
     backward = motor.phase_resistance_ohm + 1j * slow * mean
     to_forward, to_backward = 1j * fast * half, 1j * slow * half
     determinant = forward * backward - to_forward * to_backward
-    one = (backward * first - to_forward * second) / determinant
-    return one, (forward * second - to_backward * first) / determinant
+    forward_current = (backward * first - to_forward * second) / determinant
+    return forward_current, (forward * second - to_backward * first) / determinant
 
 
 def fundamental_voltage_v(motor: SynchronousMotor, omega: float, current_a: complex) -> complex:
@@ -213,9 +214,9 @@ def reluctance_torque(
     mean and complex peaks, shape (highest + 1,)
     """
     torque = np.zeros(highest + 1, dtype=complex)
-    for h, one in rotor_frame_a.items():
+    for h, current in rotor_frame_a.items():
         for m, other in rotor_frame_a.items():
-            product = -1.5j * motor.pole_pairs * motor.saliency_h * one * other
+            product = -1.5j * motor.pole_pairs * motor.saliency_h * current * other
             if abs(h + m) <= highest:
                 torque[abs(h + m)] += product if h + m >= 0 else np.conj(product)
     torque[0] = torque[0].real

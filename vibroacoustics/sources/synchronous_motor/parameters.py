@@ -13,13 +13,13 @@ RATIO = Field(default=0.0, ge=-1.0, le=1.0)
 class SynchronousMotor(Parameters):
     """Magnets on or in the rotor, three phases in star, a fundamental of current that is held.
 
-    Resistance and inductance are per phase. Saturation and core loss are left out; the current's
+    Resistance and inductance are per phase. Saturation and core loss are neglected; the current's
     control holds its fundamental and answers to nothing else.
     """
 
     pole_pairs: int = Field(ge=1, le=50)
     slots: int = Field(ge=3, le=500)
-    """Of the stator."""
+    """Slots of the stator."""
     flux_linkage_vs: float = Field(gt=0.0, le=1e3)
     """Peak of the magnets' flux through a phase, fundamental."""
     fifth_ratio: float = RATIO
@@ -34,7 +34,7 @@ class SynchronousMotor(Parameters):
     """Inductance of the quadrature axis over that of the direct one, which is the magnets': 1 with
     magnets on the rotor's surface, more with magnets in it."""
     current_advance_rad: float = Field(default=0.0, ge=-1.4, le=1.4)
-    """By which the fundamental of the current leads the voltage of the magnets."""
+    """Angle by which the fundamental of the current leads the voltage of the magnets."""
     cogging_torque_n_m: float = Field(ge=0.0, le=1e4)
     """Peak of its first order, without current."""
     cogging_second_ratio: float = RATIO
@@ -44,7 +44,7 @@ class SynchronousMotor(Parameters):
     modulation: Literal["sine", "space-vector"]
     """Reference that the triangular carrier is compared with."""
     dead_time_s: float = Field(ge=0.0, le=1e-3)
-    """In which both switches of a leg are off."""
+    """Time in which both switches of a leg are off."""
 
     @property
     def emf_ratios(self) -> dict[int, float]:
@@ -59,7 +59,7 @@ class SynchronousMotor(Parameters):
 
     @property
     def cogging_order(self) -> int:
-        """Of the shaft: the least common multiple of slots and poles."""
+        """Order of the shaft: the least common multiple of slots and poles."""
         return math.lcm(self.slots, 2 * self.pole_pairs)
 
     def contradictions(self) -> Contradictions:

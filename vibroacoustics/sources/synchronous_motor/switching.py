@@ -13,7 +13,7 @@ from .harmonics import OperatingPoint, pair_currents
 from .parameters import SynchronousMotor
 
 SAMPLES: Final = 1024
-"""Of the reference; the series is exact to rounding for a sine."""
+"""Samples of the reference; the series is exact to rounding for a sine."""
 BASEBAND: Final = 16
 """Multiples of the electrical frequency about those of the carrier that are kept."""
 
@@ -27,7 +27,7 @@ class Sideband(NamedTuple):
 
 
 def reference(modulation: str, ratio: float, angle: Array) -> Array:
-    """What a leg shall give, over half the voltage of the link; shape of the angle.
+    """Return the reference of a leg, over half the voltage of the link; shape of the angle.
 
     Space-vector modulation centres the three legs: minus half of the largest and the least.
     """
@@ -69,13 +69,13 @@ def sidebands(
     f_s ± 3 f_e of the carrier, 2 f_s and 2 f_s ± 6 f_e of twice the carrier are the first. In a
     salient rotor the two that it sees at one frequency drive one another, and make a reluctance
     torque with the fundamental. Below half the switching frequency the control of the current acts
-    on them: they are left out.
+    on them: they are omitted.
 
     Parameters
     ----------
     motor : link, carrier, circuit
     point : fundamental of voltage, current and magnets
-    highest_hz : torques above are left out
+    highest_hz : highest frequency of the torques, Hz
     """
     electrical = point.electrical_rad_per_s
     switching = 2.0 * np.pi * motor.switching_frequency_hz
@@ -87,10 +87,10 @@ def sidebands(
             if offset % 3 == 0:
                 waves = [
                     (
-                        voltages.get(offset + way, 0.0),
-                        carrier * switching + (offset + way) * electrical,
+                        voltages.get(offset + side, 0.0),
+                        carrier * switching + (offset + side) * electrical,
                     )
-                    for way in (1, -1)
+                    for side in (1, -1)
                 ]
                 if any(voltage for voltage, _ in waves):
                     currents = pair_currents(motor, waves[0], waves[1])
@@ -103,7 +103,7 @@ def sidebands(
 
 
 def _voltages(motor: SynchronousMotor, point: OperatingPoint, carrier: int) -> dict[int, complex]:
-    """Of a phase about a multiple of the carrier, by n, V; those that count."""
+    """Voltages of a phase about a multiple of the carrier, by n, V; those that count."""
     size = leg_harmonics(motor.modulation, point.modulation_ratio, carrier)
     turned, half = float(np.angle(point.voltage_v)), 0.5 * motor.dc_link_voltage_v
     electrical_hz = point.electrical_rad_per_s / (2.0 * np.pi)
@@ -117,9 +117,9 @@ def _voltages(motor: SynchronousMotor, point: OperatingPoint, carrier: int) -> d
 def _torque(
     motor: SynchronousMotor, point: OperatingPoint, currents: tuple[complex, complex]
 ) -> complex:
-    """Of a forward and a backward current with the magnets and, in the salient rotor, with the
-    fundamental of the current. The phasor of a backward wave is conjugate in space, and so is its
-    torque's."""
+    """Torque of a forward and a backward current with the magnets and, in the salient rotor, with
+    the fundamental of the current. The phasor of a backward wave is conjugate in space, and so is
+    its torque's."""
     forwards, backwards = currents
     held = point.current_a[1]
     magnets = 1.5 * abs(point.emf_v[1]) / point.speed_rad_per_s * (forwards + backwards)

@@ -36,7 +36,7 @@ _STEPS: Final[Schema] = {
 
 
 def study_schema() -> Schema:
-    """Of a study's file, which may extend another."""
+    """Return the schema of a study's file, which may extend another."""
     raw = Study.model_json_schema(schema_generator=FileSchema)
     machine = raw["properties"]["machine"]
     for name in FILLED_IN:
@@ -86,7 +86,7 @@ def _with_automatic(properties: Schema, fields: Iterable[str]) -> None:
 
 
 def machine_schema() -> Schema:
-    """Of a machine's file."""
+    """Return the schema of a machine's file."""
     raw = Study.model_json_schema(schema_generator=FileSchema)
     machine = raw["properties"]["machine"]
     made = by_kind(_kinds(machine))
@@ -105,10 +105,10 @@ def _any_machine(machine: Schema) -> Schema:
     """Values of a machine of any kind, which stand in place of its own."""
     of_kinds: dict[str, list[Schema]] = {}
     for part in machine["anyOf"]:
-        for name, one in in_file(part)["properties"].items():
-            known = of_kinds.setdefault(name, [])
-            if name != "kind" and one not in known:
-                known.append(one)
+        for name, schema in in_file(part)["properties"].items():
+            schemas = of_kinds.setdefault(name, [])
+            if name != "kind" and schema not in schemas:
+                schemas.append(schema)
     alternatives = {name: ones for name, ones in of_kinds.items() if ones}
     return _table(
         {
@@ -142,6 +142,6 @@ def _with_judgements(options: Schema) -> None:
 
 
 def _finished(title: str, schema: Schema) -> Schema:
-    """With title and draft in front, and what every value may carry."""
+    """Schema with title and draft in front, and what every value may carry."""
     definitions = {**schema["$defs"], "source": SOURCE, "range": RANGE}
     return {"$schema": DRAFT, "title": title, "type": "object", **schema, "$defs": definitions}

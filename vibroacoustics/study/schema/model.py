@@ -1,4 +1,4 @@
-"""From the schema of a model in SI to that of the file that fills it."""
+"""Schema of a file from the schema of the model, in SI, that it fills."""
 
 from typing import Any, Final
 
@@ -11,7 +11,8 @@ _OBJECT: Final = ("properties", "additionalProperties")
 
 
 class FileSchema(GenerateJsonSchema):
-    """Of tables as files write them: keys in any unit, nothing that is filled in by the reader."""
+    """Schema of tables as files write them: keys in any unit, nothing that is filled in by the
+    reader."""
 
     def model_schema(self, schema: Any) -> Schema:
         """A model without the fields that are read from a file, and without examples in Python."""
@@ -34,7 +35,7 @@ def in_file(schema: Any) -> Any:
 
     Parameters
     ----------
-    schema : as pydantic makes it
+    schema : schema that pydantic makes
     """
     if isinstance(schema, list):
         return [in_file(part) for part in schema]
@@ -63,9 +64,10 @@ def _table(schema: Schema) -> Schema:
 
 
 def _choice(schema: Schema) -> Schema:
-    """Tables of several kinds by their `kind`, so that a wrong key is told at its line; else any.
+    """Tables of several kinds by their `kind`, so that a wrong key is reported at its line; else
+    any.
 
-    What may be absent in a model is left out in a file, never null.
+    What may be absent in a model is absent in a file, never null.
     """
     parts = [part for part in schema["anyOf"] if part.get("type") != "null"]
     words = {"description": schema["description"]} if "description" in schema else {}

@@ -18,7 +18,7 @@ def keys_of(field: str, schema: Schema) -> Iterator[tuple[str, Schema]]:
     Parameters
     ----------
     field : such as `stroke_m`
-    schema : of the field's value in SI
+    schema : schema of the field's value in SI
     """
     stem, unit = split_key(field)
     if unit is None or not _is_numeric(schema):
@@ -39,7 +39,7 @@ def scaled(schema: Schema, factor: float) -> Schema:
     """
     limits = {key: float(f"{schema[key] / factor:.{_DIGITS}g}") for key in _LIMITS if key in schema}
     inner: Schema = {
-        key: [scaled(one, factor) for one in schema[key]] for key in _INNER if key in schema
+        key: [scaled(inner, factor) for inner in schema[key]] for key in _INNER if key in schema
     }
     items = {"items": scaled(schema["items"], factor)} if "items" in schema else {}
     return {**schema, **limits, **inner, **items}
@@ -54,7 +54,7 @@ def sourced(schema: Schema) -> Schema:
         "required": ["value", "source"],
         "additionalProperties": False,
         "properties": {
-            "value": {key: one for key, one in schema.items() if key != "description"},
+            "value": {key: value for key, value in schema.items() if key != "description"},
             "source": {"$ref": "#/$defs/source"},
             "range": {"$ref": "#/$defs/range"},
         },
@@ -70,9 +70,9 @@ def sourced(schema: Schema) -> Schema:
 def _of_like_items(schema: Schema) -> Schema:
     """A list of a few like items by `items`, which older language servers know, too."""
     first, *others = schema.get("prefixItems", [None])
-    if first is None or any(one != first for one in others):
+    if first is None or any(other_schema != first for other_schema in others):
         return schema
-    return {**{key: one for key, one in schema.items() if key != "prefixItems"}, "items": first}
+    return {**{key: value for key, value in schema.items() if key != "prefixItems"}, "items": first}
 
 
 SOURCE: Final[Schema] = {"type": "string", "minLength": 1, "description": "Document, or assumed"}
@@ -94,7 +94,7 @@ def _is_numeric(schema: Schema) -> bool:
 
 
 def _is_value(schema: Schema) -> bool:
-    """No table and no reference to one."""
+    """Whether it is no table and no reference to one."""
     if "anyOf" in schema:
         return all(map(_is_value, schema["anyOf"]))
     return "$ref" not in schema and schema.get("type", "object") != "object"

@@ -41,7 +41,9 @@ def matrices(profile: Profile, order: int) -> tuple[Array, Array]:
     elements = profile.elements
     points = profile.nodes.reshape(-1, 2)[elements]
     radius = points[..., 0] @ shapes.T
-    jacobian = np.stack([np.swapaxes(points, 1, 2) @ one.T for one in (across, along)], axis=1)
+    jacobian = np.stack(
+        [np.swapaxes(points, 1, 2) @ derivative.T for derivative in (across, along)], axis=1
+    )
     jacobian = np.moveaxis(jacobian, 3, 1)
     volume = squared_around(order) * weight * radius * np.linalg.det(jacobian)
     local = np.stack([across, along], axis=1)
@@ -51,14 +53,15 @@ def matrices(profile: Profile, order: int) -> tuple[Array, Array]:
     mass = np.einsum("eg,ga,gb->eab", volume, shapes, shapes)
     count = profile.radius.size * (2 * profile.rows + 1)
     total = np.zeros((2, count, count))
-    at = (elements[:, :, None], elements[:, None, :])
-    np.add.at(total[0], at, stiffness)
-    np.add.at(total[1], at, mass)
+    indices = (elements[:, :, None], elements[:, None, :])
+    np.add.at(total[0], indices, stiffness)
+    np.add.at(total[1], indices, mass)
     return total[0], total[1]
 
 
 def interpolation(profile: Profile, radius_m: float, height_m: float) -> Array:
-    """What each node adds at a place of the space, shape (node,); places beyond are on its edge."""
+    """Return the weight of each node at a point of the space, shape (node,); points beyond are on
+    its edge."""
     ends = profile.radius[::2]
     column = int(np.clip(np.searchsorted(ends, radius_m) - 1, 0, ends.size - 2))
     across = _within(profile.radius[2 * column : 2 * column + 3], radius_m)

@@ -61,8 +61,8 @@ class GasInShell:
     ----------
     profile : the space
     under_cap : see `WallPressure`
-    meridian : of the wall
-    modes : of the wall
+    meridian : meridian of the wall
+    modes : modes of the wall
     """
 
     profile: Profile
@@ -128,7 +128,7 @@ class GasInShell:
 
     @cached_property
     def _on_wall(self) -> tuple[dict[Around, tuple[IndexArray, Array]], ...]:
-        """Of each order by twin: modes of the wall, force on these per pressure of a node,
+        """Coupling of each order by twin: modes of the wall, force on these per pressure of a node,
         (node, mode)."""
         load = WallPressure(self.profile, self.under_cap)
         arounds = dict.fromkeys(mode.around for mode in self.modes)

@@ -12,9 +12,9 @@ from .elements import matrices
 from .profile import Profile
 
 MODES: Final = 12
-"""Of each order; what higher ones do is in the attachment mode."""
+"""Modes of each order; what higher ones do is in the attachment mode."""
 _UNIFORM: Final = 1e-6
-"""Of the largest k² of the order; below it a mode is the uniform pressure."""
+"""Share of the largest k² of the order; below it a mode is the uniform pressure."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class GasOrder:
         return np.maximum(squares, 0.0), shapes
 
     def with_attachment(self, source: Array) -> tuple[Array, Array]:
-        """The modes and the steady response to a source that they leave out, as one more.
+        """The modes and the steady response to a source that they lack, as one more.
 
         It is orthogonal to the modes in stiffness and mass, so it acts as one (Craig & Bampton
         1968, of structures; attachment mode). None where the source drives no pressure.
@@ -50,15 +50,15 @@ class GasOrder:
         source : its share of each node, shape (node,)
         """
         squares, shapes = self.modes
-        given, (response, its_mass) = source[self._free], self._steady
-        left = given - self._moved @ (shapes[self._free].T @ given)
-        steady = response @ given
-        size = float(steady @ its_mass @ given)
-        if size <= 0.0 or not np.any(given):
+        free_source, (response, its_mass) = source[self._free], self._steady
+        remaining = free_source - self._moved @ (shapes[self._free].T @ free_source)
+        steady = response @ free_source
+        size = float(steady @ its_mass @ free_source)
+        if size <= 0.0 or not np.any(free_source):
             return squares, shapes
         column = np.zeros((self._count, 1))
         column[self._free, 0] = steady / np.sqrt(size)
-        square = float(steady @ left) / size  # the stiffness makes of it what is left
+        square = float(steady @ remaining) / size  # the stiffness makes of it what is left
         return np.append(squares, square), np.hstack([shapes, column])
 
     @cached_property
@@ -78,9 +78,9 @@ class GasOrder:
 
     @cached_property
     def _matrices(self) -> tuple[Array, Array]:
-        at = np.ix_(self._free, self._free)
+        indices = np.ix_(self._free, self._free)
         stiffness, mass = matrices(self.profile, self.order)
-        return stiffness[at], mass[at]
+        return stiffness[indices], mass[indices]
 
     @cached_property
     def _steady(self) -> tuple[Array, Array]:
@@ -91,9 +91,9 @@ class GasOrder:
         """
         stiffness, mass = self._matrices
         squares, shapes = self.modes
-        free, moved = shapes[self._free], self._moved
-        uniform = moved[:, squares < _UNIFORM * squares[-1]]
+        free, boundary = shapes[self._free], self._moved
+        uniform = boundary[:, squares < _UNIFORM * squares[-1]]
         held = cho_factor(stiffness + squares[-1] * uniform @ uniform.T)
-        response = cho_solve(held, np.eye(len(mass)) - moved @ free.T)
-        response -= free @ (moved.T @ response)
+        response = cho_solve(held, np.eye(len(mass)) - boundary @ free.T)
+        response -= free @ (boundary.T @ response)
         return response, mass @ response

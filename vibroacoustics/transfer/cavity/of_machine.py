@@ -23,7 +23,7 @@ def gas_of(machine: Machine, path: ShellPath) -> Mapping[str, DrivenGas]:
     Parameters
     ----------
     machine : their tables
-    path : modes of the wall as given; it keeps the modes of the gas
+    path : modes of the nominal wall; it keeps the modes of the gas
 
     Raises
     ------
@@ -39,7 +39,7 @@ def gas_of(machine: Machine, path: ShellPath) -> Mapping[str, DrivenGas]:
 
 
 def spaces_of(machine: Machine, path: ShellPath) -> Mapping[str, GasInShell]:
-    """The same spaces, whatever drives them; parameters and errors as of `gas_of`."""
+    """Return these spaces, whatever drives them; parameters and errors of `gas_of`."""
     spaces = {}
     if machine.has_table(DischargeDome):
         depth = machine.table(DischargeDome).depth_m
@@ -82,7 +82,7 @@ def _under_cap(shell: Shell, thickness_m: float, depth_m: float) -> Profile:
 
 
 def _thickness(path: ShellPath) -> float:
-    """Of the wall as given: gas lies within its inner surface."""
+    """Thickness of the nominal wall: gas lies within its inner surface."""
     if path.wall is None:
         raise ParameterError("shell_modes: measured modes and gas in the shell do not go together")
     return path.wall.shell.structure.thickness_m

@@ -10,7 +10,7 @@ from ...base.arrays import Array, IndexArray
 DISC: Final = (14, 8)
 """Elements across and along the axis; modes of a flat disc below 4.5 kHz are right to 3e-4."""
 ANNULUS: Final = (6, 14)
-"""The same of an annulus, which is narrow and high."""
+"""Elements of an annulus, which is narrow and high."""
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Profile:
 
     Attributes
     ----------
-    radius : of the nodes' columns, ends and middles of elements in turn, rising, shape
+    radius : radius of the nodes' columns, ends and middles of elements in turn, rising, shape
         (2 columns + 1,), m
     lower, upper : heights of the faces there, shape (2 columns + 1,), m
     rows : elements between them
@@ -51,9 +51,9 @@ def disc_profile(radius_m: float, cap_height_m: float, depth_m: float, floor_z_m
 
     Parameters
     ----------
-    radius_m : of the wall
-    cap_height_m : of the cap over its rim; 0 is flat
-    depth_m : of the floor under the rim
+    radius_m : radius of the wall
+    cap_height_m : height of the cap over its rim; 0 is flat
+    depth_m : depth of the floor under the rim
     floor_z_m : height of the floor
     """
     angle = np.linspace(0.0, 0.5 * np.pi, 2 * DISC[0] + 1)

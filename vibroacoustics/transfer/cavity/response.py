@@ -38,7 +38,7 @@ class DrivenGas:
 
         Parameters
         ----------
-        density, sound_speed : of the gas, kg/m³ and m/s
+        density, sound_speed : density and speed of sound of the gas, kg/m³ and m/s
         frequency_hz : above zero, shape (frequency,)
         drive : jω Q φ(source) of a volume flow, ω² C x of the wall; shape (mode, load, frequency)
         """
@@ -64,7 +64,7 @@ class DrivenGas:
 
         Parameters
         ----------
-        density, sound_speed : of the gas, kg/m³ and m/s
+        density, sound_speed : density and speed of sound of the gas, kg/m³ and m/s
         frequency_hz : shape (frequency,)
         """
         forces = np.zeros((self.on_wall.shape[1], frequency_hz.size), dtype=complex)

@@ -44,11 +44,11 @@ class WallPressure:
     def _add_outwards(self, total: Array, meridian: Meridian, order: int, line: IndexArray) -> None:
         """∫ p u·n dS along a line of nodes whose right side is outside."""
         point, step, weights = self._along(line)
-        freedoms, moved = interpolation(meridian, point)
+        dofs, shapes = interpolation(meridian, point)
         normal = np.stack([step[:, 1], -step[:, 0]], axis=1)
         circle = squared_around(order) * point[:, 0]
-        force = np.einsum("pd,pda,p->pa", normal, moved[:, :2], circle)
-        np.add.at(total, (freedoms[:, :, None], line), force[:, :, None] * weights[:, None])
+        force = np.einsum("pd,pda,p->pa", normal, shapes[:, :2], circle)
+        np.add.at(total, (dofs[:, :, None], line), force[:, :, None] * weights[:, None])
 
     def _add_partition(
         self, total: Array, meridian: Meridian, order: int, line: IndexArray
@@ -56,10 +56,10 @@ class WallPressure:
         """Downwards on a plate that goes with the wall's height, or tilts with it."""
         point, step, weights = self._along(line)
         rim = self.profile.nodes[-1, :1]
-        freedoms, moved = interpolation(meridian, rim)
+        dofs, shapes = interpolation(meridian, rim)
         leverage = (point[:, 0] / rim[0, 0]) ** order
         force = squared_around(order) * weights.T @ (step[:, 0] * point[:, 0] * leverage)
-        total[np.ix_(freedoms[0], line)] -= np.outer(moved[0, 1], force)
+        total[np.ix_(dofs[0], line)] -= np.outer(shapes[0, 1], force)
 
     def _along(self, line: IndexArray) -> tuple[Array, Array, Array]:
         """Gauss points on a line: place, step (point, 2), and what each node adds (point, node)."""

@@ -25,8 +25,8 @@ class Bearing:
     Attributes
     ----------
     part : that carries the shaft here or that the shaft carries
-    node : of the shaft
-    film : of oil
+    node : node of the shaft
+    film : film of oil
     metal_stiffness : in series, with loss, N/m
     """
 

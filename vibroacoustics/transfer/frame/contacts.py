@@ -20,7 +20,7 @@ class Contacts:
     ----------
     joints : their places on the wall
     parts : that the joints hold
-    radius_m : of the wall
+    radius_m : radius of the wall
     stiffness : with loss, shape (contact,), N/m
     """
 
@@ -48,14 +48,14 @@ def contacts_of(frame: Frame, structure: ShellStructure, radius_m: float) -> Con
     ----------
     frame : stiffness, legs of the lower bearing
     structure : joints of the other parts
-    radius_m : of the wall
+    radius_m : radius of the wall
     """
-    given = frame.contacts
+    contact_stiffness = frame.contacts
     every: Sequence[tuple[Port, Joint, float]] = (
-        (BEARING_HOUSING, structure.bearing_housing, given.weld_n_per_m),
-        (LOWER_BEARING, frame.legs, given.leg_n_per_m),
-        (FIXED_SCROLL, structure.fixed_scroll, given.seal_n_per_m),
-        (STATOR, structure.stator, given.land_n_per_m),
+        (BEARING_HOUSING, structure.bearing_housing, contact_stiffness.weld_n_per_m),
+        (LOWER_BEARING, frame.legs, contact_stiffness.leg_n_per_m),
+        (FIXED_SCROLL, structure.fixed_scroll, contact_stiffness.seal_n_per_m),
+        (STATOR, structure.stator, contact_stiffness.land_n_per_m),
     )
     held = [each for each in every if each[2] > 0.0]
     stiffness = np.repeat([each[2] for each in held], [3 * each[1].welds for each in held])
@@ -75,17 +75,17 @@ def rigid_rows(joint: Joint, radius_m: float) -> Array:
     Parameters
     ----------
     joint : welds
-    radius_m : of the wall
+    radius_m : radius of the wall
     """
     angle, z = weld_angles(joint), joint.height_m
     mean = np.sinc(joint.spread_rad / (2.0 * np.pi))
     cosine, sine = mean * np.cos(angle), mean * np.sin(angle)
-    none, one = np.zeros_like(angle), np.ones_like(angle)
+    none, unit = np.zeros_like(angle), np.ones_like(angle)
     rows = np.array(
         [
             [cosine, sine, none, -z * sine, z * cosine, none],
-            [none, none, one, radius_m * sine, -radius_m * cosine, none],
-            [-sine, cosine, none, -z * cosine, -z * sine, radius_m * one],
+            [none, none, unit, radius_m * sine, -radius_m * cosine, none],
+            [-sine, cosine, none, -z * cosine, -z * sine, radius_m * unit],
         ]
     )
     return np.asarray(rows.transpose(2, 0, 1).reshape(-1, 6))

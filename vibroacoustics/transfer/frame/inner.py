@@ -7,7 +7,7 @@ from scipy.linalg import block_diag
 
 from ...base.arrays import Array, ComplexArray
 from ...machine.frame import PARTS, Frame, RoundPart
-from ...mechanics.beam_rotor import NODE_FREEDOMS
+from ...mechanics.beam_rotor import NODE_DOFS
 from ...mechanics.bushings import RigidBody, motion_at
 from ...mechanics.critical_speed import FreeShaft
 from ...mechanics.ports import WRENCH
@@ -17,12 +17,13 @@ from .contacts import Contacts
 from .natural import Elastic
 from .springs import springs_of
 
-BODY_FREEDOMS = len(WRENCH) * len(PARTS)
+BODY_DOFS = len(WRENCH) * len(PARTS)
 
 
 @dataclass(frozen=True)
 class InnerSet:
-    """Five bodies, six freedoms each about their middles, then the shaft's nodes, x, y, θx, θy.
+    """Five bodies, six degrees of freedom each about their middles, then the shaft's nodes, x, y,
+    θx, θy.
 
     Attributes
     ----------
@@ -31,8 +32,8 @@ class InnerSet:
     bearings : between shaft and bodies
     gaps : motion at the contacts with the shell, then of the bodies at the bearings less that of
         the shaft, along x and y, per freedom, shape (contact and bearing's direction, freedom)
-    loads : on the freedoms per load on each part, shape (freedom, part times component)
-    rigid : freedoms per motion of all about the centre of mass, shape (freedom, 6)
+    loads : loads on the degrees of freedom per load on each part, shape (dof, part times component)
+    rigid : displacement per motion of all about the centre of mass, shape (dof, 6)
     """
 
     bodies: Elastic
@@ -79,10 +80,10 @@ def inner_set(frame: Frame, shaft: FreeShaft, contacts: Contacts) -> InnerSet:
     held = Isolation(tuple(bodies), springs_of(frame))
     to_middle = np.stack([motion_at(middle, np.zeros(3)) for middle in middles])
     nodes = shaft.rotor.mass.shape[0]
-    loads = np.zeros((BODY_FREEDOMS + nodes, BODY_FREEDOMS))
+    loads = np.zeros((BODY_DOFS + nodes, BODY_DOFS))
     # A wrench about the origin works on the motion there, which a body's own motion makes.
-    loads[:BODY_FREEDOMS] = block_diag(*np.linalg.inv(to_middle).transpose(0, 2, 1))
-    at_contacts = np.zeros((len(contacts.part), BODY_FREEDOMS + nodes))
+    loads[:BODY_DOFS] = block_diag(*np.linalg.inv(to_middle).transpose(0, 2, 1))
+    at_contacts = np.zeros((len(contacts.part), BODY_DOFS + nodes))
     for row, (part, rigid) in enumerate(zip(contacts.part, contacts.rigid, strict=True)):
         first = len(WRENCH) * part
         at_contacts[row, first : first + 6] = rigid @ np.linalg.inv(to_middle[part])
@@ -106,8 +107,8 @@ def _body(name: str, part: RoundPart) -> RigidBody:
 
 def _at_bearing(bearing: Bearing, heights: Array, middles: list[Array]) -> Array:
     """Motion of the part less that of the shaft along x and y per freedom, shape (2, freedom)."""
-    between = np.zeros((2, BODY_FREEDOMS + NODE_FREEDOMS * heights.size))
-    number, node = PARTS.index(bearing.part), BODY_FREEDOMS + NODE_FREEDOMS * bearing.node
+    between = np.zeros((2, BODY_DOFS + NODE_DOFS * heights.size))
+    number, node = PARTS.index(bearing.part), BODY_DOFS + NODE_DOFS * bearing.node
     first = len(WRENCH) * number
     point = np.array([0.0, 0.0, heights[bearing.node]])
     between[:, first : first + 6] = motion_at(point, middles[number])[:2]
@@ -117,7 +118,7 @@ def _at_bearing(bearing: Bearing, heights: Array, middles: list[Array]) -> Array
 
 def _shaft_rigid(heights: Array) -> Array:
     """Freedoms of the nodes per motion about the origin, shape (freedom, 6)."""
-    rows = np.zeros((heights.size, NODE_FREEDOMS, 6))
+    rows = np.zeros((heights.size, NODE_DOFS, 6))
     rows[:, [0, 1, 2, 3], [0, 1, 3, 4]] = 1.0
     rows[:, 0, 4], rows[:, 1, 3] = heights, -heights
     return rows.reshape(-1, 6)

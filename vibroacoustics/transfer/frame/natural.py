@@ -10,7 +10,7 @@ from scipy.linalg import block_diag, eigh
 from ...base.arrays import Array, ComplexArray
 
 _FREE: Final = 1e-13
-"""Of the largest ω²; below it a motion strains nothing: rounding is some 1e-16."""
+"""Share of the largest ω²; below it a motion strains nothing: rounding is some 1e-16."""
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Elastic:
     Attributes
     ----------
     mass, stiffness : shape (freedom, freedom)
-    loss_factor_ratio : of the stiffness
+    loss_factor_ratio : loss factor of the stiffness
     """
 
     mass: Array
@@ -35,7 +35,7 @@ class NaturalMotions:
     Attributes
     ----------
     squares : ω² of each with loss, shape (motion,), rad²/s²; zero of those without strain
-    shapes : displacement of the freedoms in each, shape (freedom, motion)
+    shapes : displacement of the degrees of freedom in each, shape (dof, motion)
     """
 
     squares: ComplexArray
@@ -43,7 +43,7 @@ class NaturalMotions:
 
 
 def natural_motions(*systems: Elastic) -> NaturalMotions:
-    """Eigenvectors of K x = ω² M x of systems apart, their freedoms one after another."""
+    """Eigenvectors of K x = ω² M x of systems apart, their degrees of freedom one after another."""
     squares, shapes = zip(*(_motions(system) for system in systems), strict=True)
     return NaturalMotions(np.concatenate(squares), block_diag(*shapes))
 

@@ -65,15 +65,15 @@ def frame_on_shell(machine: Machine, path: ShellPath) -> FrameOnShell | None:
 
 def _residual(path: ShellPath, wall: ProjectedModes, contacts: Contacts, driven: Array) -> Array:
     """Steady flexibility at the contacts without that of the path's modes."""
-    given, rows = wall.shell, path.rows
-    modes = [given.modes[row] for row in rows]
+    shell, rows = wall.shell, path.rows
+    modes = [shell.modes[row] for row in rows]
     stiffness = np.array(
         [mode.modal_mass_kg * (2.0 * np.pi * mode.frequency_hz) ** 2 for mode in modes]
     )
-    left = wall.flexibility.at(contacts.joints) - driven[rows].T @ (
+    residual = wall.flexibility.at_joints(contacts.joints) - driven[rows].T @ (
         driven[rows] / stiffness[:, None]
     )
-    return np.asarray(left * local_flexibility_factor(given.structure, path.structure))
+    return np.asarray(residual * local_flexibility_factor(shell.structure, path.structure))
 
 
 def _machine_mass(housing: Housing) -> Array:

@@ -39,12 +39,12 @@ class FrameOnShell:
     Attributes
     ----------
     inner : the parts
-    contacts : of the parts with the shell
-    modal_forces : of the shell's modes per force on a contact, shape (mode, contact)
-    residual : steady flexibility that the modes leave out, shape (contact, contact), m/N
-    natural_hz, modal_mass_kg : of the modes, shape (mode,)
-    loss_factor_ratio : of the shell
-    machine_mass : of all, shape (6, 6), kg and kg m²
+    contacts : contacts of the parts with the shell
+    modal_forces : forces on the shell's modes per force on a contact, shape (mode, contact)
+    residual : steady flexibility that the modes lack, shape (contact, contact), m/N
+    natural_hz, modal_mass_kg : natural frequency and modal mass of the modes, shape (mode,)
+    loss_factor_ratio : loss factor of the shell
+    machine_mass : mass of the machine, shape (6, 6), kg and kg m²
     """
 
     inner: InnerSet
@@ -58,7 +58,7 @@ class FrameOnShell:
 
     @property
     def shell_mass(self) -> Array:
-        """Of what moves with the shell as a rigid body, shape (6, 6), kg and kg m²."""
+        """Mass of what moves with the shell as a rigid body, shape (6, 6), kg and kg m²."""
         return self.machine_mass - self.inner.rigid_mass
 
     def sound(
@@ -72,9 +72,10 @@ class FrameOnShell:
         ----------
         modes : pressure per velocity of the shell's modes, shape (receiver, mode, frequency),
             Pa s/m
-        rigid : of its six rigid motions about the centre of mass, alike, Pa s/m and Pa s/rad
+        rigid : pressure of its six rigid motions about the centre of mass, shape (receiver, 6,
+        frequency), Pa s/m and Pa s/rad
         frequency_hz : shape (frequency,)
-        gain : of the modes' pressure
+        gain : gain of the modes' pressure
         """
         turning = 2j * np.pi * frequency_hz  # velocity per displacement
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
@@ -82,16 +83,16 @@ class FrameOnShell:
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
         # By reciprocity: motions of the contacts as the receivers drive the shell.
-        moved = times(self._on_modes.T, modes * (turning * shell))
-        moved -= times(self._of_gaps.T, rigid) / omega**2
-        forces = np.moveaxis(self._joined(shell, parts, omega, np.moveaxis(moved, 0, 1)), 0, 1)
+        gap_m = times(self._on_modes.T, modes * (turning * shell))
+        gap_m -= times(self._of_gaps.T, rigid) / omega**2
+        forces = np.moveaxis(self._joined(shell, parts, omega, np.moveaxis(gap_m, 0, 1)), 0, 1)
         through = times(self._at_gaps.T, forces) * parts
         of_loads = times(self._together.T, rigid) / omega**2
         of_loads += times(self._of_motions.T, through)
 
         def of_modes(some: IndexArray) -> ComplexArray:
-            moved = times(self._on_modes, forces[..., some])
-            return np.asarray((modes[..., some] * turning[some] - moved) * shell[:, some])
+            on_modes = times(self._on_modes, forces[..., some])
+            return np.asarray((modes[..., some] * turning[some] - on_modes) * shell[:, some])
 
         return SoundPerForce(of_loads, of_modes)
 
@@ -111,9 +112,9 @@ class FrameOnShell:
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
-        moved = times(self._at_gaps, parts * times(self._of_motions, on_parts))
-        moved -= times(self._on_modes.T, shell * on_modes)
-        forces = self._joined(shell, parts, omega, moved[:, None])[:, 0]
+        gap_m = times(self._at_gaps, parts * times(self._of_motions, on_parts))
+        gap_m -= times(self._on_modes.T, shell * on_modes)
+        forces = self._joined(shell, parts, omega, gap_m[:, None])[:, 0]
         modes = shell * (on_modes + times(self._on_modes, forces))
         rigid = times(self._together, on_parts) - times(self._of_gaps, forces)
         motion = np.concatenate([modes, rigid / omega**2])
@@ -131,12 +132,12 @@ class FrameOnShell:
         omega = 2.0 * np.pi * np.where(frequency_hz > 0.0, frequency_hz, 1.0)
         shell = answers(self._squares, omega) / self.modal_mass_kg[:, None]
         parts = answers(self.motions.squares, omega)
-        moved = np.einsum("cn,nf,nl->clf", self._at_gaps, parts, self._of_motions)
-        forces = self._joined(shell, parts, omega, moved) * (frequency_hz > 0.0)
+        gap_m = np.einsum("cn,nf,nl->clf", self._at_gaps, parts, self._of_motions)
+        forces = self._joined(shell, parts, omega, gap_m) * (frequency_hz > 0.0)
         return np.moveaxis(forces[: len(self.contacts.part)], -1, 0)
 
     def _joined(
-        self, shell: ComplexArray, parts: ComplexArray, omega: Array, moved: ComplexArray
+        self, shell: ComplexArray, parts: ComplexArray, omega: Array, gap_m: ComplexArray
     ) -> ComplexArray:
         """Forces that close the gaps, shape (gap, side, frequency).
 
@@ -144,14 +145,14 @@ class FrameOnShell:
         ----------
         shell, parts : answers of the modes and of the parts' motions, shape (motion, frequency)
         omega : shape (frequency,)
-        moved : gaps without them, shape (contact, side, frequency)
+        gap_m : gaps without them, shape (contact, side, frequency)
         """
-        forces = np.empty(moved.shape, dtype=complex)
+        forces = np.empty(gap_m.shape, dtype=complex)
         for first in range(0, omega.size, AT_A_TIME):
-            at = slice(first, first + AT_A_TIME)
-            some = np.ascontiguousarray(moved[..., at])
-            solve_symmetric(*self._compliance(shell[:, at], parts[:, at], omega[at]), some)
-            forces[..., at] = some
+            block = slice(first, first + AT_A_TIME)
+            some = np.ascontiguousarray(gap_m[..., block])
+            solve_symmetric(*self._compliance(shell[:, block], parts[:, block], omega[block]), some)
+            forces[..., block] = some
         return forces
 
     def _compliance(
@@ -185,8 +186,8 @@ class FrameOnShell:
         springs[:held, :held] = np.diag(1.0 / self.contacts.stiffness)
         springs[:held, :held] += self.residual / (1.0 + 1j * self.loss_factor_ratio)
         rigid = _padded(self.contacts.rigid, gaps) @ self._of_gaps
-        rest = [each[rows, columns] for each in (rigid, springs.real, springs.imag)]
-        return np.concatenate([shell, parts, bearings, np.stack(rest, axis=1)], axis=1)
+        springs_at_gaps = [each[rows, columns] for each in (rigid, springs.real, springs.imag)]
+        return np.concatenate([shell, parts, bearings, np.stack(springs_at_gaps, axis=1)], axis=1)
 
     @cached_property
     def _alike(self) -> tuple[IndexArray, IndexArray]:
@@ -204,7 +205,7 @@ class FrameOnShell:
 
     @property
     def _squares(self) -> ComplexArray:
-        """Of the modes with loss, rad²/s²."""
+        """Squares of the natural frequencies of the modes with loss, rad²/s²."""
         squares = (2.0 * np.pi * self.natural_hz) ** 2
         return np.asarray(squares * (1.0 + 1j * self.loss_factor_ratio))
 
@@ -232,7 +233,8 @@ class FrameOnShell:
 
     @cached_property
     def _of_motions(self) -> Array:
-        """Of each motion of the parts per load on a part, shape (motion, part times component)."""
+        """Displacement of each motion of the parts per load on a part, (motion, part times
+        component)."""
         return self.motions.shapes.T @ self.inner.loads
 
 

@@ -49,7 +49,7 @@ def _face(frame: Frame, name: str, face: Face, other: str) -> list[Bushing]:
 
 
 def _keys(frame: Frame) -> Bushing:
-    """What keeps the orbiting scroll from turning: four keys in two parts of slots in series."""
+    """Keys that keep the orbiting scroll from turning: four in two parts of slots in series."""
     stiffness = np.zeros((6, 6))
     stiffness[5, 5] = frame.keys_stiffness_n_per_m * frame.keys_radius_m**2
     point = np.array([0.0, 0.0, frame.orbiting_scroll.height_m])

@@ -18,9 +18,9 @@ from ...base.constants import (
 from .radiation_efficiency import radiation_efficiency
 
 _SIDES: Final = 2.0
-"""With air in front of them, which takes energy and loads the plate."""
+"""Sides with air in front of them, which takes energy and loads the plate."""
 _NODES: Final = 48
-"""Of the rule over directions."""
+"""Nodes of the rule over directions."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Plate:
         return float(SPEED_OF_SOUND_M_PER_S**2 / (2.0 * np.pi) * np.sqrt(ratio))
 
     def wavenumber(self, frequency_hz: Array) -> Array:
-        """Of free bending waves, k⁴ = ω² m/B, rad/m."""
+        """Wavenumber of free bending waves, k⁴ = ω² m/B, rad/m."""
         omega = 2.0 * np.pi * np.asarray(frequency_hz, dtype=float)
         ratio = self.mass_kg_per_m2 / self.bending_stiffness_n_m
         return np.asarray((omega**2 * ratio) ** 0.25)
@@ -77,14 +77,14 @@ def input_power(force: ComplexArray, mobility: Array, likeness: Array) -> Array:
 def likeness(plate: Plate, frequency_hz: Array, position_m: Array) -> Array:
     """J0(k r) between feet, shape (frequency, foot, foot).
 
-    Of the transfer mobility Y (H0(kr) - H0(-jkr)) of a plate without end, of which J0 alone is real
+    With the transfer mobility Y (H0(kr) - H0(-jkr)) of a plate without end, J0 alone is real
     (Cremer, Heckl, Petersson, Structure-Borne Sound, 2005, chapter on point-excited plates).
 
     Parameters
     ----------
     plate : under the feet
     frequency_hz : shape (frequency,)
-    position_m : of the feet, shape (foot, 2 or 3)
+    position_m : position of the feet, shape (foot, 2 or 3)
     """
     return np.asarray(j0(plate.wavenumber(frequency_hz)[:, None, None] * _distances(position_m)))
 
@@ -92,7 +92,7 @@ def likeness(plate: Plate, frequency_hz: Array, position_m: Array) -> Array:
 def near_power(plate: Plate, frequency_hz: Array, force: ComplexArray, position_m: Array) -> Array:
     """Sound power to one side of the near field around forces, below coincidence, W.
 
-    Of one force at low frequencies ρ F²/(2π c m²), F root mean square; air on both sides takes
+    One force at low frequencies gives ρ F²/(2π c m²), F root mean square; air on both sides takes
     1 - 2μ arctan(1/2μ) of it, μ = ρ c/(ω m). Toward coincidence bending stiffness helps. In general
 
         W = ρ/(2π c m²) ½ Σ F_i F_j* ∫ u² J0(k r √(1-u²)) / |u b(u) - 2jμ|² du, u from 0 to 1,
@@ -105,7 +105,7 @@ def near_power(plate: Plate, frequency_hz: Array, force: ComplexArray, position_
     plate : without end, as far as the near field goes
     frequency_hz : above zero, shape (frequency,)
     force : complex peaks, shape (frequency, foot), N
-    position_m : of the feet, shape (foot, 2 or 3)
+    position_m : position of the feet, shape (foot, 2 or 3)
     """
     u, weight = _rule()
     omega = 2.0 * np.pi * frequency_hz
@@ -139,7 +139,7 @@ def wave_power(plate: Plate, frequency_hz: Array, power_w: Array) -> Array:
 
 
 def _distances(position_m: Array) -> Array:
-    """Between feet in the plane of the plate, shape (foot, foot), m."""
+    """Distances between feet in the plane of the plate, shape (foot, foot), m."""
     plane = np.asarray(position_m)[:, :2]
     return np.asarray(np.linalg.norm(plane[:, None] - plane, axis=-1))
 

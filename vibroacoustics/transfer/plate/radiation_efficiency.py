@@ -1,4 +1,4 @@
-"""How well bending waves of a plate radiate."""
+"""Radiation efficiency of bending waves of a plate."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from ...base.arrays import Array
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
 
 LARGEST = 2.0
-"""Of a radiation efficiency (EN 12354-1, B.2)."""
+"""Largest radiation efficiency (EN 12354-1, B.2)."""
 
 
 def radiation_efficiency(
@@ -49,15 +49,16 @@ def radiation_efficiency(
 def _edges_and_corners(
     frequency: Array, coincidence_hz: float, length_m: float, width_m: float
 ) -> Array:
-    """Below coincidence: strips along the edges and, below half of it, corners."""
+    """Radiation efficiency below coincidence: strips along the edges and, below half of it,
+    corners."""
     c, area = SPEED_OF_SOUND_M_PER_S, length_m * width_m
     ratio = np.clip(np.sqrt(frequency / coincidence_hz), 1e-6, 1.0 - 1e-9)
-    rest = 1.0 - ratio**2
-    edges = (rest * np.log((1.0 + ratio) / (1.0 - ratio)) + 2.0 * ratio) / (
-        4.0 * np.pi**2 * rest**1.5
+    complement = 1.0 - ratio**2
+    edges = (complement * np.log((1.0 + ratio) / (1.0 - ratio)) + 2.0 * ratio) / (
+        4.0 * np.pi**2 * complement**1.5
     )
     corners = 8.0 * c**2 * (1.0 - 2.0 * ratio**2) / (
-        coincidence_hz**2 * np.pi**4 * area * ratio * np.sqrt(rest)
+        coincidence_hz**2 * np.pi**4 * area * ratio * np.sqrt(complement)
     )  # fmt: skip
     corners = np.where(frequency < coincidence_hz / 2.0, corners, 0.0)
     return np.asarray(2.0 * (length_m + width_m) / area * c / coincidence_hz * edges + corners)

@@ -30,7 +30,8 @@ def plate_sound(
     settings : plate under the feet
     cases : with their loads
     options : in the order of the result
-    frequency : of the lines by their names, (speed, line), Hz; not a number where there is none
+    frequency : frequency of the lines by their names, (speed, line), Hz; not a number where there
+        is none
 
     Returns
     -------
@@ -52,14 +53,14 @@ def plate_sound(
 def plate_power(
     settings: StructureBorne, machine: MachineOnMounts, force: ComplexArray, frequency_hz: Array
 ) -> PlateSound:
-    """Compute the same of the lines of one case, shape (line,).
+    """Compute the sound power of the lines of one case, shape (line,).
 
     Parameters
     ----------
     settings : plate under the feet
     machine : on its mounts
-    force : of each foot at the lines, complex peaks, shape (line, foot, axis), N
-    frequency_hz : of the lines, shape (line,); zero where there is none
+    force : force of each foot at the lines, complex peaks, shape (line, foot, axis), N
+    frequency_hz : frequency of the lines, shape (line,); zero where there is none
     """
     plate = Plate(
         settings.mass_kg_per_m2,
@@ -95,9 +96,9 @@ def _input_power(
     vertical: ComplexArray,
     frequency_hz: Array,
 ) -> Array:
-    """Into the plate; where the machine has a floor of its file or a measured one, into that.
+    """Power into the plate; where the machine has a floor of its file or a measured one, into that.
 
-    Of a plate the motion of one foot by another is known, of other floors it is not.
+    The motion of one foot by another is known for a plate, for other floors it is not.
     """
     stand = machine.stand
     feet = len(stand.names)
@@ -144,7 +145,7 @@ def relative_variance(overlap: Array) -> Array:
 
     Parameters
     ----------
-    overlap : M, above zero
+    overlap : M above zero, shape (...)
     """
     x = np.pi * np.maximum(np.asarray(overlap, dtype=float), _FEW)
     some = np.minimum(x, _MANY)

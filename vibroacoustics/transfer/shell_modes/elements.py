@@ -14,9 +14,9 @@ from ...base.arrays import Array, IndexArray
 from ...machine.shell_structure import ShellStructure
 from .meridian import Meridian
 
-NODE_FREEDOMS: Final = 4
+NODE_DOFS: Final = 4
 """Radial, axial and circumferential displacement, and rotation β = -dw/ds."""
-RADIAL, AXIAL, CIRCUMFERENTIAL, ROTATION = range(NODE_FREEDOMS)
+RADIAL, AXIAL, CIRCUMFERENTIAL, ROTATION = range(NODE_DOFS)
 _GAUSS: Final = 6
 """Points along an element; the shapes are cubic, 1/r is smooth off the axis."""
 _INNER: Final = 4
@@ -45,14 +45,14 @@ class Shapes(NamedTuple):
 
 def freedom_count(meridian: Meridian) -> int:
     """Freedoms of all nodes and, after them, inner amplitudes of all elements."""
-    return NODE_FREEDOMS * (meridian.elements + 1) + _INNER * meridian.elements
+    return NODE_DOFS * (meridian.elements + 1) + _INNER * meridian.elements
 
 
-def element_freedoms(meridian: Meridian) -> IndexArray:
+def element_dofs(meridian: Meridian) -> IndexArray:
     """Places of each element's twelve amplitudes among all, shape (element, 12)."""
     first = np.arange(meridian.elements)[:, None]
-    nodes = NODE_FREEDOMS * first + np.arange(2 * NODE_FREEDOMS)
-    inner = NODE_FREEDOMS * (meridian.elements + 1) + _INNER * first + np.arange(_INNER)
+    nodes = NODE_DOFS * first + np.arange(2 * NODE_DOFS)
+    inner = NODE_DOFS * (meridian.elements + 1) + _INNER * first + np.arange(_INNER)
     return np.asarray(np.concatenate([nodes, inner], axis=1))
 
 
@@ -64,7 +64,7 @@ def shapes(
     Parameters
     ----------
     meridian : nodes
-    element : of each point, shape (point,)
+    element : element of each point, shape (point,)
     coordinate : -1 to 1 along it, shape (point,)
     derivative : order of the derivative in s, 0 to 2
     """
@@ -77,7 +77,7 @@ def shapes(
     hermite[:, 1::2] *= -half[:, None]  # w' = -β
     radial, axial = meridian.tangents[element].T
     along, around, normal = (np.zeros((coordinate.size, 12)) for _ in range(3))
-    for end, node in enumerate((0, NODE_FREEDOMS)):
+    for end, node in enumerate((0, NODE_DOFS)):
         along[:, node + RADIAL] = linear[:, end] * radial
         along[:, node + AXIAL] = linear[:, end] * axial
         around[:, node + CIRCUMFERENTIAL] = linear[:, end]
@@ -110,7 +110,7 @@ def strains(meridian: Meridian, element: IndexArray, coordinate: Array, order: i
     Parameters
     ----------
     meridian : nodes
-    element : of each point, shape (point,)
+    element : element of each point, shape (point,)
     coordinate : -1 to 1 along it, shape (point,), off the axis
     order : n
     """
@@ -147,11 +147,11 @@ def matrices(meridian: Meridian, structure: ShellStructure, order: int) -> tuple
     """
     element, coordinate, area = _gauss_points(meridian, order)
     strain = strains(meridian, element, coordinate, order)
-    moved = displacement_shapes(meridian, element, coordinate)
+    shapes = displacement_shapes(meridian, element, coordinate)
     surface_mass = structure.density_kg_per_m3 * structure.thickness_m
     stiffness = np.einsum("p,pai,ab,pbj->pij", area, strain, _elasticity(structure), strain,
                           optimize=True)  # fmt: skip
-    mass = surface_mass * np.einsum("p,pai,paj->pij", area, moved, moved, optimize=True)
+    mass = surface_mass * np.einsum("p,pai,paj->pij", area, shapes, shapes, optimize=True)
     return _assembled(meridian, stiffness), _assembled(meridian, mass)
 
 
@@ -165,10 +165,10 @@ def squared_strains(meridian: Meridian, order: int, amplitudes: Array) -> Array:
     ----------
     meridian : nodes
     order : circumferential order n
-    amplitudes : of the motions, shape (freedom, motion)
+    amplitudes : amplitudes of the motions, shape (degree of freedom, motion)
     """
     element, coordinate, area = _gauss_points(meridian, order)
-    of_element = amplitudes[element_freedoms(meridian)][element]
+    of_element = amplitudes[element_dofs(meridian)][element]
     strained = np.einsum("pai,pim->apm", strains(meridian, element, coordinate, order), of_element)
     parts = []
     for along, around, shear in (strained[:3], strained[3:]):
@@ -207,9 +207,9 @@ def _elasticity(structure: ShellStructure) -> Array:
 def _assembled(meridian: Meridian, at_points: Array) -> Any:
     """Sum of the matrices (point, 12, 12) of all Gauss points, sparse."""
     by_element = at_points.reshape(meridian.elements, _GAUSS, 12, 12).sum(axis=1)
-    at = element_freedoms(meridian)
+    dofs = element_dofs(meridian)
     rows, columns = (
-        np.broadcast_to(part, by_element.shape) for part in (at[:, :, None], at[:, None])
+        np.broadcast_to(part, by_element.shape) for part in (dofs[:, :, None], dofs[:, None])
     )
-    freedoms = rows.ravel(), columns.ravel()
-    return coo_matrix((by_element.ravel(), freedoms), (freedom_count(meridian),) * 2).tocsc()
+    indices = rows.ravel(), columns.ravel()
+    return coo_matrix((by_element.ravel(), indices), (freedom_count(meridian),) * 2).tocsc()

@@ -14,7 +14,7 @@ from ...machine.shell_structure import ShellStructure
 from .elements import (
     AXIAL,
     CIRCUMFERENTIAL,
-    NODE_FREEDOMS,
+    NODE_DOFS,
     RADIAL,
     ROTATION,
     freedom_count,
@@ -40,7 +40,7 @@ class Harmonic:
         """
         held = [tip + freedom for tip in self._tips for freedom in _ON_AXIS.get(self.order, _ALL)]
         if self.order >= 2:
-            rings = [NODE_FREEDOMS * node for node in self.meridian.round_nodes]
+            rings = [NODE_DOFS * node for node in self.meridian.round_nodes]
             held += [ring + freedom for ring in rings for freedom in (RADIAL, CIRCUMFERENTIAL)]
         return np.setdiff1d(np.arange(freedom_count(self.meridian)), held)
 
@@ -55,9 +55,9 @@ class Harmonic:
 
     @property
     def _tips(self) -> list[int]:
-        """First freedoms of the nodes on the axis."""
+        """First degrees of freedom of the nodes on the axis."""
         ends = (0, self.meridian.elements)
-        return [NODE_FREEDOMS * end for end in ends if self.meridian.nodes[end, 0] == 0.0]
+        return [NODE_DOFS * end for end in ends if self.meridian.nodes[end, 0] == 0.0]
 
     @cached_property
     def free_matrices(self) -> tuple[Any, Any]:
@@ -75,16 +75,16 @@ class Harmonic:
         mounts has them; the elastic modes are orthogonal to them.
         """
         motions = np.zeros((freedom_count(self.meridian), 2 if self.order < 2 else 0))
-        nodes = motions[: NODE_FREEDOMS * (self.meridian.elements + 1)]
+        nodes = motions[: NODE_DOFS * (self.meridian.elements + 1)]
         radius, height = self.meridian.nodes.T
         if self.order == 0:
-            nodes[AXIAL::NODE_FREEDOMS, 0] = 1.0
-            nodes[CIRCUMFERENTIAL::NODE_FREEDOMS, 1] = radius
+            nodes[AXIAL::NODE_DOFS, 0] = 1.0
+            nodes[CIRCUMFERENTIAL::NODE_DOFS, 1] = radius
         elif self.order == 1:
-            nodes[RADIAL::NODE_FREEDOMS] = np.stack([np.ones_like(height), height], axis=1)
-            nodes[CIRCUMFERENTIAL::NODE_FREEDOMS] = -nodes[RADIAL::NODE_FREEDOMS]
-            nodes[AXIAL::NODE_FREEDOMS, 1] = -radius
-            nodes[ROTATION::NODE_FREEDOMS, 1] = -1.0
+            nodes[RADIAL::NODE_DOFS] = np.stack([np.ones_like(height), height], axis=1)
+            nodes[CIRCUMFERENTIAL::NODE_DOFS] = -nodes[RADIAL::NODE_DOFS]
+            nodes[AXIAL::NODE_DOFS, 1] = -radius
+            nodes[ROTATION::NODE_DOFS, 1] = -1.0
         free = motions[self.kept]
         gram = free.T @ self.free_matrices[1] @ free
         return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), free.T).T)
@@ -102,7 +102,8 @@ class Harmonic:
         return np.sqrt(squares[elastic]) / (2.0 * np.pi), self.reduction @ shapes[:, elastic]
 
     def _lowest(self, limit: float) -> tuple[Array, Array]:
-        """At least all motions with squares of angular frequency up to a limit, rigid ones too."""
+        """Lowest motions, at least all with squares of angular frequency up to a limit, rigid ones
+        too."""
         stiffness, mass = self.free_matrices
         start = np.random.default_rng(0).standard_normal(self.kept.size)  # no symmetry
         count = _FIRST_MOTIONS
@@ -113,23 +114,23 @@ class Harmonic:
             count *= 2
         return eigh(stiffness.toarray(), mass.toarray())  # type: ignore[no-any-return]
 
-    def static_flexibility(self, freedoms: IndexArray) -> Array:
-        """Displacement per steady force without the rigid motions, (freedoms, freedoms).
+    def static_flexibility(self, dofs: IndexArray) -> Array:
+        """Displacement per steady force without the rigid motions, shape (dof, dof).
 
         The force is balanced by the inertia of the rigid motions that it starts.
 
         Parameters
         ----------
-        freedoms : among all amplitudes
+        dofs : numbers among all amplitudes, shape (dof,)
         """
-        forces = self.reduction.T[:, freedoms]
+        forces = self.reduction.T[:, dofs]
         stiffness, mass = self.free_matrices
         momentum, rigid = mass @ self.rigid_motions, self.rigid_motions.shape[1]
         right = forces.toarray() - momentum @ (forces.T @ self.rigid_motions).T
         if rigid:  # without their momentum; its rows as large as the others
             momentum *= abs(stiffness).max() / abs(momentum).max()
             stiffness = bmat([[stiffness, momentum], [momentum.T, None]], "csc")
-            right = np.concatenate([right, np.zeros((rigid, freedoms.size))])
+            right = np.concatenate([right, np.zeros((rigid, dofs.size))])
         return np.asarray(forces.T @ splu(stiffness).solve(right)[: self.kept.size])
 
 

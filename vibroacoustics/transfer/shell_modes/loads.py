@@ -10,7 +10,7 @@ import numpy as np
 from ...base.arrays import Array, IndexArray
 from ...base.errors import ParameterError
 from ...machine.shell_structure import Joint
-from .elements import displacement_shapes, element_freedoms, freedom_count
+from .elements import displacement_shapes, element_dofs, freedom_count
 from .meridian import Meridian
 from .modes import Around
 
@@ -39,7 +39,7 @@ class JointLoads:
     joint: Joint
 
     def generalised(self, meridian: Meridian, around: Around) -> Array:
-        """As of any `Load`.
+        """Return the generalised force, see `Load`.
 
         Raises
         ------
@@ -117,9 +117,9 @@ def mean_over_band(meridian: Meridian, joint: Joint) -> Array:
         )
     heights, weights = _mean_points(middle, band, _BAND_POINTS)
     points = np.stack([np.full(heights.size, meridian.wall_radius_m), heights], axis=1)
-    freedoms, shapes = interpolation(meridian, points)
+    dofs, shapes = interpolation(meridian, points)
     mean = np.zeros((freedom_count(meridian), 3))
-    np.add.at(mean, freedoms, np.einsum("p,pia->pai", weights, shapes))
+    np.add.at(mean, dofs, np.einsum("p,pia->pai", weights, shapes))
     mean.flags.writeable = False
     return mean
 
@@ -127,7 +127,7 @@ def mean_over_band(meridian: Meridian, joint: Joint) -> Array:
 def interpolation(meridian: Meridian, points: Array) -> tuple[IndexArray, Array]:
     """Freedoms (point, 12) that move places (point, 2), and by how much, (point, 3, 12)."""
     element, along = meridian.locate(points)
-    return element_freedoms(meridian)[element], displacement_shapes(meridian, element, along)
+    return element_dofs(meridian)[element], displacement_shapes(meridian, element, along)
 
 
 def _mean_points(middle: float, width: float, count: int) -> tuple[Array, Array]:
@@ -144,7 +144,7 @@ def joint_forces(joint: Joint, radius_m: float) -> tuple[Array, Array]:
     Parameters
     ----------
     joint : welds
-    radius_m : of the wall
+    radius_m : radius of the wall
 
     Returns
     -------

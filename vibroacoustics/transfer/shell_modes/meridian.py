@@ -14,11 +14,12 @@ from ...machine.shell import Shell
 from ...machine.shell_structure import ShellStructure
 
 ELEMENTS_PER_WAVELENGTH: Final = 10.0
-"""Of bending waves. Cubic shapes err by (k h)⁴ / 1440 of a frequency, 1e-4."""
+"""Elements per wavelength of bending waves. Cubic shapes err by (k h)⁴ / 1440 of a frequency,
+1e-4."""
 _DOME_REFINEMENT: Final = 2.0
 """Straight pieces approach a curved meridian with the square of their length only."""
 _LEAST_ELEMENTS: Final = 3
-"""Of each part of the meridian."""
+"""Least number of elements of each part of the meridian."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +62,7 @@ class Meridian:
     def locate(self, points: Array) -> tuple[IndexArray, Array]:
         """Element next to each place (point, 2) near the surface, and -1 to 1 along it.
 
-        Of the two elements at the nearest node the closer one.
+        The closer one of the two elements at the nearest node counts.
         """
         return _located(self, np.ascontiguousarray(points, dtype=np.float64).tobytes())
 

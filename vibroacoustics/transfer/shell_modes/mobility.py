@@ -1,4 +1,4 @@
-"""What drives the shell's modes, and how they answer."""
+"""Mobility of the shell: forces on its modes, and their response."""
 
 import numpy as np
 
@@ -59,7 +59,7 @@ def velocity_per_force(
 
     Parameters
     ----------
-    natural_hz, modal_mass_kg : of the modes, shape (mode,)
+    natural_hz, modal_mass_kg : natural frequency and modal mass of the modes, shape (mode,)
     loss_factor_ratio : structural
     frequency_hz : shape (frequency,)
     """

@@ -12,22 +12,22 @@ from ...machine.shell import Shell
 from ...machine.shell_structure import ShellStructure
 from .elements import (
     CIRCUMFERENTIAL,
-    NODE_FREEDOMS,
+    NODE_DOFS,
     ROTATION,
     displacement_shapes,
-    element_freedoms,
+    element_dofs,
 )
 from .harmonic import Harmonic
 from .meridian import Meridian, closed_meridian
 
 MAXIMUM_ORDER: Final = 64
 """Most waves around the circumference that are looked for."""
-_FOUR_PLACES: Final = np.linspace(-1.0, 1.0, 4)
-"""Along an element; they fix a cubic."""
+_FOUR_POSITIONS: Final = np.linspace(-1.0, 1.0, 4)
+"""Positions along an element; they fix a cubic."""
 
 
 class Around(NamedTuple):
-    """How a motion varies with the angle: `radial` and axial parts, and the one around."""
+    """Variation of a motion with the angle: `radial` and axial parts, and the one around."""
 
     order: int
     angle_rad: float
@@ -92,11 +92,11 @@ class ShellMode:
     def _cubics(self) -> Array:
         """Displacement along each element, radial, axial and around, (element, 3, power)."""
         count = self.meridian.elements
-        element, coordinate = np.repeat(np.arange(count), 4), np.tile(_FOUR_PLACES, count)
+        element, coordinate = np.repeat(np.arange(count), 4), np.tile(_FOUR_POSITIONS, count)
         weights = displacement_shapes(self.meridian, element, coordinate)
-        amplitudes = self.shape[element_freedoms(self.meridian)[element]]
+        amplitudes = self.shape[element_dofs(self.meridian)[element]]
         values = np.einsum("pia,pa->pi", weights, amplitudes).reshape(count, 4, 3)
-        to_powers = np.linalg.inv(np.vander(_FOUR_PLACES, increasing=True))
+        to_powers = np.linalg.inv(np.vander(_FOUR_POSITIONS, increasing=True))
         return np.asarray(np.einsum("kj,eji->eik", to_powers, values))
 
 
@@ -176,7 +176,7 @@ class ElasticShell:
         ]
 
     def _ring_frequency_hz(self, order: int) -> float:
-        """In-plane bending of a free ring: Rayleigh, Theory of Sound (1894), § 233."""
+        """Bending frequency of a ring in its plane (Rayleigh, Theory of Sound, 1894, § 233)."""
         structure, n = self.structure, order
         speed = np.sqrt(structure.youngs_modulus_pa / structure.density_kg_per_m3)
         factor = n * (n**2 - 1.0) / np.sqrt(n**2 + 1.0)
@@ -187,7 +187,7 @@ class ElasticShell:
 def _largest_displacement(meridian: Meridian, shapes: Array) -> Array:
     """Largest displacement over the nodes, with the sign of its largest part, shape (mode,)."""
     count, modes = meridian.elements + 1, shapes.shape[1]
-    nodes = shapes[: NODE_FREEDOMS * count].reshape(count, NODE_FREEDOMS, modes)[:, :ROTATION]
+    nodes = shapes[: NODE_DOFS * count].reshape(count, NODE_DOFS, modes)[:, :ROTATION]
     in_plane = np.linalg.norm(nodes[:, :CIRCUMFERENTIAL], axis=1)
     size = np.maximum(in_plane, np.abs(nodes[:, CIRCUMFERENTIAL])).max(axis=0)
     parts = nodes.reshape(ROTATION * count, modes)

@@ -1,4 +1,4 @@
-"""Modes of a shell of another thickness or material, by projection on the modes as given.
+"""Modes of a shell of another thickness or material, by projection on the nominal modes.
 
 First order of Rayleigh's quotient: the shapes stay, mass and stiffness are those of the changed
 wall in these shapes (Rayleigh, Theory of Sound, 1894, § 89). Exact for modulus and density, which
@@ -21,28 +21,28 @@ from .statics import WallFlexibility
 
 @dataclass(frozen=True)
 class ProjectedModes:
-    """What a changed wall does to natural frequencies and modal masses.
+    """Change of natural frequencies and modal masses by a changed wall.
 
     Attributes
     ----------
-    shell : as given; its middle surface stays
+    shell : nominal shell; its middle surface stays
     """
 
     shell: ElasticShell
 
     def frequency_factor(self, structure: ShellStructure) -> Array:
-        """Natural frequency over that as given, shape (mode,)."""
+        """Natural frequency over the nominal one, shape (mode,)."""
         stiffness = self.stiffness(structure) / self.stiffness(self.shell.structure)
         return np.asarray(np.sqrt(stiffness / self.mass_factor(structure)))
 
     def mass_factor(self, structure: ShellStructure) -> float:
-        """Modal mass over that as given, the same of every mode."""
-        given = self.shell.structure
-        density = structure.density_kg_per_m3 / given.density_kg_per_m3
-        return density * structure.thickness_m / given.thickness_m
+        """Modal mass over the nominal one, equal for all modes."""
+        nominal = self.shell.structure
+        density = structure.density_kg_per_m3 / nominal.density_kg_per_m3
+        return density * structure.thickness_m / nominal.thickness_m
 
     def stiffness(self, structure: ShellStructure) -> Array:
-        """Modal stiffness of another wall in the shapes as given, shape (mode,), N/m."""
+        """Modal stiffness of another wall in the nominal shapes, shape (mode,), N/m."""
         thickness, poisson = structure.thickness_m, structure.poisson_ratio
         plate = structure.youngs_modulus_pa * thickness / (1.0 - poisson**2)
         stretching, bending = self._squares[:, 0] + poisson * self._squares[:, 1]
@@ -63,7 +63,7 @@ class ProjectedModes:
 
     @cached_property
     def flexibility(self) -> WallFlexibility:
-        """Steady flexibility of the wall as given; its orders are computed once."""
+        """Steady flexibility of the nominal wall; its orders are computed once."""
         return WallFlexibility(self.shell)
 
     @cached_property
@@ -85,10 +85,10 @@ def projection_error(
 
     Parameters
     ----------
-    projected : modes as given
+    projected : nominal modes
     shell : its outside
     structure : the changed wall
-    maximum_frequency_hz : of the modes that are compared, by name
+    maximum_frequency_hz : highest frequency of the modes that are compared, by name
     """
     anew = _frequencies_hz(shell, structure, maximum_frequency_hz)
     factors = projected.frequency_factor(structure)
@@ -113,7 +113,7 @@ def _frequencies_hz(
     return {mode.name: mode.frequency_hz for mode in modes}
 
 
-def least_frequency_factor(given: ShellStructure, ends: Sequence[ShellStructure]) -> float:
+def least_frequency_factor(nominal: ShellStructure, ends: Sequence[ShellStructure]) -> float:
     """A bound below the frequency factors of all walls between ends that differ in one value each.
 
     Stretching stiffness goes as E h, bending as E h³, mass as ρ h; Poisson's ratio enters both
@@ -121,16 +121,16 @@ def least_frequency_factor(given: ShellStructure, ends: Sequence[ShellStructure]
 
     Parameters
     ----------
-    given : as the modes are computed for
+    nominal : wall for which the modes are computed
     ends : walls with one value at an end of its range
     """
-    return float(np.prod([min(1.0, _least(given, end)) for end in ends]))
+    return float(np.prod([min(1.0, _least(nominal, end)) for end in ends]))
 
 
-def _least(given: ShellStructure, changed: ShellStructure) -> float:
-    one, other = given.poisson_ratio, changed.poisson_ratio
-    poisson = min((1.0 - one) / (1.0 - other), (1.0 + one) / (1.0 + other))
-    modulus = changed.youngs_modulus_pa / given.youngs_modulus_pa
-    density = changed.density_kg_per_m3 / given.density_kg_per_m3
-    thickness = changed.thickness_m / given.thickness_m
+def _least(nominal: ShellStructure, changed: ShellStructure) -> float:
+    poisson_nominal, other = nominal.poisson_ratio, changed.poisson_ratio
+    poisson = min((1.0 - poisson_nominal) / (1.0 - other), (1.0 + poisson_nominal) / (1.0 + other))
+    modulus = changed.youngs_modulus_pa / nominal.youngs_modulus_pa
+    density = changed.density_kg_per_m3 / nominal.density_kg_per_m3
+    thickness = changed.thickness_m / nominal.thickness_m
     return float(min(1.0, thickness) * np.sqrt(modulus * poisson / density))

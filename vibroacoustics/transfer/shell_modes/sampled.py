@@ -22,9 +22,9 @@ class SampledMode:
 
     Attributes
     ----------
-    name : of the mode
+    name : name of the mode
     frequency_hz : natural frequency
-    modal_mass_kg : of the shape as it is scaled
+    modal_mass_kg : modal mass of the shape with its scale
     nodes_m : places about the centre of mass, shape (node, 3)
     shape : displacements, shape (node, 3)
     """
@@ -62,7 +62,7 @@ class SampledMode:
         Parameters
         ----------
         joint : welds
-        radius_m : of the wall
+        radius_m : radius of the wall
         """
         points, forces = joint_forces(joint, radius_m)
         return np.asarray(np.einsum("pi,pil->l", self.velocity(points), forces))

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...base.arrays import Array, IndexArray
 from ...machine.shell_structure import Joint, ShellStructure
-from .elements import element_freedoms
+from .elements import element_dofs
 from .harmonic import Harmonic
 from .loads import mean_over_band, patch_factors
 from .modes import ElasticShell
@@ -24,12 +24,12 @@ class WallFlexibility:
 
     Attributes
     ----------
-    shell : as given
+    shell : nominal shell
     """
 
     shell: ElasticShell
 
-    def at(self, joints: Sequence[Joint]) -> Array:
+    def at_joints(self, joints: Sequence[Joint]) -> Array:
         """Displacement of each weld per force on each, (contact, contact), m/N.
 
         Contacts are outwards, up and around at each weld of each joint, one after another, means
@@ -41,8 +41,8 @@ class WallFlexibility:
             A joint reaches beyond the wall.
         """
         shapes = np.stack([mean_over_band(self.shell.meridian, joint) for joint in joints], axis=1)
-        rows = np.flatnonzero(shapes[self._freedoms].any(axis=(1, 2)))
-        shapes = shapes[self._freedoms[rows]].reshape(rows.size, -1)
+        rows = np.flatnonzero(shapes[self._dofs].any(axis=(1, 2)))
+        shapes = shapes[self._dofs[rows]].reshape(rows.size, -1)
         kind = np.concatenate(
             [np.tile(3 * j + np.arange(3), joint.welds) for j, joint in enumerate(joints)]
         )
@@ -66,16 +66,16 @@ class WallFlexibility:
         ParameterError
             The band reaches beyond the wall.
         """
-        mean = mean_over_band(self.shell.meridian, joint)[self._freedoms, 0]
+        mean = mean_over_band(self.shell.meridian, joint)[self._dofs, 0]
         return float(mean @ self._by_order[order] @ mean)
 
     @cached_property
-    def _freedoms(self) -> IndexArray:
+    def _dofs(self) -> IndexArray:
         """Amplitudes of the wall's elements."""
         meridian = self.shell.meridian
         radius = meridian.wall_radius_m * (1.0 - 1e-9)
         wall = (meridian.nodes[:-1, 0] >= radius) & (meridian.nodes[1:, 0] >= radius)
-        return np.unique(element_freedoms(meridian)[wall])
+        return np.unique(element_dofs(meridian)[wall])
 
     @cached_property
     def _by_order(self) -> list[Array]:
@@ -83,16 +83,16 @@ class WallFlexibility:
         harmonics = (
             Harmonic(shell.meridian, shell.structure, order) for order in range(STATIC_ORDERS)
         )
-        return [harmonic.static_flexibility(self._freedoms) for harmonic in harmonics]
+        return [harmonic.static_flexibility(self._dofs) for harmonic in harmonics]
 
 
-def local_flexibility_factor(given: ShellStructure, changed: ShellStructure) -> float:
-    """Flexibility under a local force of a changed wall over that of the wall as given.
+def local_flexibility_factor(nominal: ShellStructure, changed: ShellStructure) -> float:
+    """Flexibility under a local force of a changed wall over that of the nominal wall.
 
     1/(E t²) and slowly with Poisson's ratio, as of a sphere (Reissner 1946): w = ¼ √(12 (1 - ν²))
     F R/(E t²).
     """
-    thickness = given.thickness_m / changed.thickness_m
-    modulus = given.youngs_modulus_pa / changed.youngs_modulus_pa
-    poisson = (1.0 - changed.poisson_ratio**2) / (1.0 - given.poisson_ratio**2)
+    thickness = nominal.thickness_m / changed.thickness_m
+    modulus = nominal.youngs_modulus_pa / changed.youngs_modulus_pa
+    poisson = (1.0 - changed.poisson_ratio**2) / (1.0 - nominal.poisson_ratio**2)
     return float(modulus * thickness**2 * np.sqrt(poisson))

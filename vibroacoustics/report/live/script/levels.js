@@ -113,8 +113,8 @@ class Model {
     const { lateral, vertical, loss } = values;
     for (let i = 0; i < n * n; i++) {
       const springs = lateral * mounts.lateral[i] + vertical * mounts.vertical[i];
-      a[i] = springs + mounts.rest[i] - omega * omega * mounts.mass[i];
-      b[i] = loss * springs + mounts.rest_loss[i] + omega * mounts.damping[i];
+      a[i] = springs + mounts.elastic[i] - omega * omega * mounts.mass[i];
+      b[i] = loss * springs + mounts.elastic_loss[i] + omega * mounts.damping[i];
     }
     if (stiffness) this.stiffen(stiffness[machine] + 42 * line, mounts, omega);
     c.fill(0);

@@ -23,7 +23,7 @@ from ...blocks import Block, Bullets, Heading, Pictures, Text
 from ...charts.marks import Chart
 from ...figures.sources import changing_options, option_third_octaves, source_third_octaves
 from ...figures.stacked import stacked_lines, stacked_third_octaves
-from ...remainder import remainder_band
+from ...remainder import unmodelled_level
 from ...tables import DataTable, Table, data_table
 from .. import Section, text
 from .words import certainty_sentences, ranked, source_share, unmodelled_share
@@ -51,19 +51,19 @@ def sources_data(results: xr.Dataset) -> dict[str, DataTable]:
 def source_table(results: xr.Dataset) -> Table:
     """Return level and share of each source without a balancer at the published speed."""
     speed = nearest_speed(results)
-    at = at_catalogue(results, speed=speed)
+    coordinates = at_catalogue(results, speed=speed)
     rows = []
     for source in ranked(results, speed):
-        level = band(results, "source_level", **at, sound_source=source)
+        level = band(results, "source_level", **coordinates, sound_source=source)
         share = source_share(results, source, speed).in_percent()
         name = source_name(results, source).capitalize()
         rows.append((name, level.middle_and_ends(rounding.level), share))
-    modelled = band(results, "level_modelled", **at).middle_and_ends(rounding.level)
+    modelled = band(results, "level_modelled", **coordinates).middle_and_ends(rounding.level)
     rows.append(("All modelled sources", modelled, rounding.NOTHING))
     if overall_noise(results) is not None:
-        unmodelled = remainder_band(results, speed).middle_and_ends(rounding.level)
+        unmodelled = unmodelled_level(results, speed).middle_and_ends(rounding.level)
         share = unmodelled_share(results, speed).in_percent()
-        total = band(results, "level_total", **at).middle_and_ends(rounding.level)
+        total = band(results, "level_total", **coordinates).middle_and_ends(rounding.level)
         rows += [("Unmodelled noise", unmodelled, share), ("Machine", total, "100 %")]
     of_level, of_share = ("", "")
     if has_samples(results):
@@ -98,15 +98,15 @@ def spectrum_sentence(results: xr.Dataset) -> str:
     name = source_name(results, source)
     return (
         f"With the published spectral share {name} make "
-        f"{source_share(results, source, speed).in_percent()} of the energy, with the level alone "
-        f"{alternative_share(results, 'level alone', source).in_percent()}."
+        f"{source_share(results, source, speed).in_percent()} of the energy. The share with the "
+        f"level alone is {alternative_share(results, 'level alone', source).in_percent()}."
     )
 
 
 def alternative_share(results: xr.Dataset, alternative: str, part: str) -> Band:
     """Return the share of a part of the energy with less evidence or another prior."""
-    known = estimate(results, "alternative_share", alternative=alternative, energy_part=part)
-    return written(known, _effective(results, alternative))
+    share = estimate(results, "alternative_share", alternative=alternative, energy_part=part)
+    return written(share, _effective(results, alternative))
 
 
 def _effective(results: xr.Dataset, alternative: str) -> float:

@@ -38,8 +38,8 @@ def elsewhere(results: xr.Dataset) -> str:
 
 def source_share(results: xr.Dataset, source: str, speed: float) -> Band:
     """Return the share of a source in the energy of the machine without a balancer."""
-    at = at_catalogue(results, sound_source=source, speed=speed)
-    return band(results, "source_share", **at)
+    coordinates = at_catalogue(results, sound_source=source, speed=speed)
+    return band(results, "source_share", **coordinates)
 
 
 def unmodelled_share(results: xr.Dataset, speed: float) -> Band:
@@ -84,7 +84,7 @@ def samples_sentence(results: xr.Dataset) -> str:
 
 
 def _unresolved(results: xr.Dataset, tried: int, effective: float) -> str:
-    """Why there are neither shares nor intervals."""
+    """Say why there are neither shares nor intervals."""
     first = (
         f"Too few of {tried} samples agree with the data: effective sample size {effective:.1f}."
     )
@@ -146,7 +146,7 @@ def _twice_line(results: xr.Dataset) -> str:
 
 
 def _derived_supply(results: xr.Dataset) -> str:
-    """Where the supply's frequency comes from, if the study does not give it."""
+    """Say where the supply's frequency comes from, if the study does not give it."""
     if results["supply_frequency"].attrs["source"] != DERIVED_SUPPLY:
         return ""
     return "The supply's frequency is derived from speed and slip under the mean load. "

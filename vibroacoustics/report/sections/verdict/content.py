@@ -59,7 +59,7 @@ def lights(results: xr.Dataset) -> Lights | None:
 def light(shifts: Sequence[Shift]) -> Light:
     """The light of a quantity, at one microphone or several.
 
-    Better and worse are as the verdicts say; not sure is what is neither, although the band of
+    Better and worse are as the verdicts say; uncertain is what is neither, although the band of
     the samples reaches beyond what could be measured.
     """
     full = FULL_SCALE[shifts[0].unit]
@@ -82,8 +82,10 @@ def _row(results: xr.Dataset, option: str) -> tuple[Light, ...]:
 def _word(shifts: Sequence[Shift]) -> Word:
     if shifts[0].quantity == TOTAL:
         return _OF_TOTAL[word(shifts[0])]
-    judgement = judge(any(one.worsens for one in shifts), any(one.improves for one in shifts))
-    unsure = any(max(one.grown, one.fallen) > _SURE for one in shifts)
+    judgement = judge(
+        any(shift.worsens for shift in shifts), any(shift.improves for shift in shifts)
+    )
+    unsure = any(max(shift.grown, shift.fallen) > _SURE for shift in shifts)
     return "uncertain" if judgement == NO_CHANGE and unsure else _WORDS[judgement]
 
 
@@ -99,9 +101,9 @@ def _change(shifts: Sequence[Shift]) -> str:
 
 def _note(results: xr.Dataset) -> str:
     least = measurable(results)
-    over = "80 % intervals at all speeds" if has_samples(results) else "all speeds, nominal"
+    scope = "80 % intervals at all speeds" if has_samples(results) else "all speeds, nominal"
     return (
-        f"Numbers and bars: {over}; bars end at ±100 % and ±20 dB. Grey: less than "
+        f"Numbers and bars: {scope}; bars end at ±100 % and ±20 dB. Grey: less than "
         f"{100.0 * least.force_ratio:g} % or {least.level_db:g} dB, not measurable. Mixed: better "
         "at some microphones or speeds, worse at others."
     )
@@ -123,7 +125,7 @@ def left_out_words(results: xr.Dataset) -> list[Block]:
 
 
 def coarse_words(results: xr.Dataset) -> list[Block]:
-    """What was made coarser for a first look; nothing of a run as its study says."""
+    """Say what was made coarser for a first look; nothing of a run as its study says."""
     coarsened = parameters(results).get("coarsened", ())
     first = "This is a first look, coarser than the study says:"
     blocks: list[Block] = [Text(first), Bullets(tuple(coarsened))] if coarsened else []

@@ -47,14 +47,14 @@ def sentences(results: xr.Dataset) -> tuple[str, ...]:
     """Return the sentences of the first screen."""
     vibration = () if "rating_level" in results else (_vibration,)
     each = (_windows, _level, _room, _source, _options, *vibration, _measurement)
-    return tuple(filter(None, (one(results) for one in each)))
+    return tuple(filter(None, (sentence(results) for sentence in each)))
 
 
 def contributions(results: xr.Dataset) -> Intervals:
     """Return the levels of machine, sources and unmodelled noise beside the published level."""
     speed = nearest_speed(results)
-    at = at_catalogue(results, speed=speed)
-    total = band(results, "level_total", **at)
+    coordinates = at_catalogue(results, speed=speed)
+    total = band(results, "level_total", **coordinates)
     rows = [_contribution("machine", total, "total")]
     noise = overall_noise(results)
     if noise is not None and speed == noise["speed_rpm"]:
@@ -63,9 +63,11 @@ def contributions(results: xr.Dataset) -> Intervals:
         text = f"{level:g} ± {deviation:g}"
         rows.insert(0, Interval(_kind(results), text, *bounds, "published"))
     if noise is not None:
-        rows.append(_contribution(UNMODELLED, band(results, "residual_level", **at), "part"))
+        rows.append(
+            _contribution(UNMODELLED, band(results, "residual_level", **coordinates), "part")
+        )
     for number, source in enumerate(ranked(results, speed)):
-        level_of = band(results, "source_level", **at, sound_source=source)
+        level_of = band(results, "source_level", **coordinates, sound_source=source)
         if number == 0 or level_of.highest > total.middle - _QUIETEST_DB:
             rows.append(_contribution(source_name(results, source), level_of, "part"))
     ends = [end for row in rows for end in (row.low, row.high) if np.isfinite(end)]
@@ -167,20 +169,20 @@ def _windows(results: xr.Dataset) -> str:
 def _room(results: xr.Dataset) -> str:
     if "room_level" not in results:
         return ""
-    at = {"option": REFERENCE_OPTION, "speed": nearest_speed(results)}
+    coordinates = {"option": REFERENCE_OPTION, "speed": nearest_speed(results)}
     names = results["listener"].values.tolist()
-    known = {name: band(results, "room_level", **at, listener=name) for name in names}
-    name = max(known, key=lambda one: known[one].middle)
-    return f"In the room, at {name}: {known[name].middle_and_ends(rounding.level)} dB(A)."
+    level_at = {name: band(results, "room_level", **coordinates, listener=name) for name in names}
+    name = max(level_at, key=lambda listener: level_at[listener].middle)
+    return f"In the room, at {name}: {level_at[name].middle_and_ends(rounding.level)} dB(A)."
 
 
 def _source(results: xr.Dataset) -> str:
     speed = nearest_speed(results)
     if not has_sources(results):
-        at = at_catalogue(results, speed=speed)
-        modelled = band(results, "level_modelled", **at).middle_text(rounding.level)
-        rest = "" if overall_noise(results) is None else "; the rest is unmodelled noise"
-        return f"Shaft orders of the rigid machine alone make {modelled} dB(A){rest}."
+        coordinates = at_catalogue(results, speed=speed)
+        modelled = band(results, "level_modelled", **coordinates).middle_text(rounding.level)
+        unmodelled = "" if overall_noise(results) is None else "; the rest is unmodelled noise"
+        return f"Shaft orders of the rigid machine alone make {modelled} dB(A){unmodelled}."
     source, makes_most = leading_source(results)
     name = source_name(results, source)
     text = f"{source_share(results, source, speed).in_percent()} of the sound energy"
@@ -264,8 +266,8 @@ def best_for_feet(results: xr.Dataset) -> tuple[str, bool]:
 
 
 def _measurement(results: xr.Dataset) -> str:
-    known = most_valuable(results)
-    return f"Most valuable measurement: {known}." if known else ""
+    measurement = most_valuable(results)
+    return f"Most valuable measurement: {measurement}." if measurement else ""
 
 
 def _at_largest(of_quantity: Shift) -> Band:

@@ -1,4 +1,4 @@
-"""Courses of speed that explain short spectra of a signal best."""
+"""Speed profiles that explain short spectra of a signal best."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -15,7 +15,8 @@ from .smoothing import smooth_curve
 from .speed_comb import comb_scores, frame_levels, refine
 
 REVOLUTIONS: Final = 8
-"""In a frame at the lowest speed: the lines of its orders lie four Hann half-widths apart."""
+"""Revolutions in a frame at the lowest speed: the lines of its orders lie four Hann half-widths
+apart."""
 _FRAMES_PER_LENGTH: Final = 4
 _LEAST_FRAMES: Final = 9
 """Three frame lengths."""
@@ -23,22 +24,23 @@ _GRID: Final = 0.002
 """Ratio between neighbouring candidates, less one. The peak of the tenth order is 1 % wide or more
 up to six times the lowest speed."""
 _BOUND_COST: Final = 4.0
-"""Of a change of speed at the bound, in units of ln likelihood: a line 17 dB above the noise."""
+"""Cost of a change of speed at the bound, in units of ln likelihood: a line 17 dB above the
+noise."""
 MOST_LEVEL: Final = 3.0
-"""Of a line where no line shall outweigh several, in ln of power over floor: 14 dB."""
+"""Level of a line where no line shall outweigh several, in ln of power over floor: 14 dB."""
 _OFF_PATH: Final = 0.05
 """Relative distance from which a speed counts as another one."""
 
 
 @dataclass(frozen=True)
-class Course:
+class SpeedProfile:
     """Speed over time.
 
     Attributes
     ----------
     curve : speed in Hz over time in s, smooth
-    time_s : centres of the frames that it comes from
-    confidence : of each frame, see `TacholessResult`
+    time_s : centres of the frames that it comes from, shape (frame,)
+    confidence : confidence of each frame, see `TacholessResult`
     """
 
     curve: PPoly
@@ -48,13 +50,13 @@ class Course:
 
 @dataclass(frozen=True)
 class Search:
-    """What is looked for, and where.
+    """Settings of the search for a speed.
 
     Attributes
     ----------
     samples : shape (time,), of a rate that holds the orders
-    rate_hz : of the samples
-    orders : of the comb, rising
+    rate_hz : rate of the samples
+    orders : orders of the comb, rising, shape (order,)
     minimum_hz, maximum_hz : limits of the speed
     change_per_s : largest relative change of the speed, 1/s
     """
@@ -72,7 +74,7 @@ class Search:
         return int(next_fast_len(int(REVOLUTIONS * self.rate_hz / self.minimum_hz), real=True))
 
     def centres(self) -> Array:
-        """Of the frames, in samples.
+        """Centres of the frames, in samples.
 
         Raises
         ------
@@ -90,32 +92,33 @@ class Search:
         return np.asarray(0.5 * (self.length - 1) + starts, dtype=np.float64)
 
 
-def best_courses(search: Search) -> list[Course]:
-    """The course with the largest score, the best one that keeps off it, that of moving lines.
+def best_profiles(search: Search) -> list[SpeedProfile]:
+    """The speed profile with the largest score, the best one that keeps off it, that of moving
+    lines.
 
     Each frame gives every candidate speed a score (`comb_scores`); dynamic programming finds the
     path of the largest sum whose speed changes no faster than the bound (Viterbi 1967), with a cost
     that grows with the square of the change. A second round takes spectra that are straightened by
-    the first one's path; refined speeds are smoothed (`smooth_curve`). For the last course, the
-    median over time is taken off the first round's spectra: what stands still is not the shaft of
-    a run-up.
+    the first one's path; refined speeds are smoothed (`smooth_curve`). For the last speed profile,
+    the median over time is taken off the first round's spectra: what stands still is not the shaft
+    of a run-up.
     """
-    first, path = _course(search)
+    first, path = _profile(search)
     return [
         first,
-        _course(search, avoid=path)[0],
-        _course(search, most=MOST_LEVEL)[0],
-        _course(search, most=MOST_LEVEL, is_moving=True)[0],
+        _profile(search, avoid=path)[0],
+        _profile(search, most=MOST_LEVEL)[0],
+        _profile(search, most=MOST_LEVEL, is_moving=True)[0],
     ]
 
 
-def _course(
+def _profile(
     search: Search,
     avoid: NDArray[np.int64] | None = None,
     most: float = np.inf,
     is_moving: bool = False,
-) -> tuple[Course, NDArray[np.int64]]:
-    """Best course and its path: off a path, with levels up to a bound, of moving lines."""
+) -> tuple[SpeedProfile, NDArray[np.int64]]:
+    """Best speed profile and its path: off a path, with levels up to a bound, of moving lines."""
     centres, length = search.centres(), search.length
     bin_hz, time_s = 0.5 * search.rate_hz / length, centres / search.rate_hz
     span = np.log(search.maximum_hz / search.minimum_hz)
@@ -136,7 +139,7 @@ def _course(
         smooth = smooth_curve(time_s, speed_hz).curve
         change = np.clip(smooth(time_s, 1) / smooth(time_s), -bound, bound)
     confidence = _confidence(comb_scores(levels, search.orders, candidates), path)
-    return Course(smooth, time_s, confidence), path
+    return SpeedProfile(smooth, time_s, confidence), path
 
 
 def _near(score: Array, path: NDArray[np.int64]) -> NDArray[np.bool_]:
