@@ -92,4 +92,4 @@ def test_words_of_the_report_know_the_spectrum(results: xr.Dataset) -> None:
     assert "of the published level and of the measured spectrum" in samples_sentence(results)
     assert "spectrum" not in samples_sentence(without)
     assert most_valuable(results) == ""
-    assert most_valuable(without) == "a third-octave spectrum, which separates the sources"
+    assert most_valuable(without) == "a third-octave spectrum at a microphone"
