@@ -67,7 +67,7 @@ def killed_and_gone_on(study: Path, out: Path, seed: int) -> bytes:
     """SIGKILL at a random moment after the first chunk, then the same command again."""
     process = subprocess.Popen(command(study, out), stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL)  # fmt: skip
-    while not list(out.glob("search_chunks/chunk_*")) and process.poll() is None:
+    while not list(out.glob("search_pieces/pieces_*")) and process.poll() is None:
         time.sleep(0.01)
     time.sleep(Random(seed).uniform(0.0, 1.0))
     process.send_signal(signal.SIGKILL)
@@ -96,7 +96,7 @@ def test_two_workers_equal_serial_without_a_network(
                 assert not [one for one in process.net_connections("all") if one.laddr]
             workers = [one for one in children if "spawn_main" in " ".join(one.cmdline())]
             most_workers = max(most_workers, len(workers))
-            chunks = len(list(tmp_path.glob("search_chunks/chunk_*")))
+            chunks = len(list(tmp_path.glob("search_pieces/pieces_*")))
             if workers and deaths < 2 and chunks >= 3 * (deaths + 1):
                 workers[0].kill()
                 deaths += 1
@@ -144,8 +144,8 @@ def test_scheduler_by_tls_equals_serial(study: Path, undisturbed: bytes, tmp_pat
 
 
 def test_folder_of_another_study_is_refused(study: Path, tmp_path: Path) -> None:
-    (tmp_path / "search_chunks").mkdir()
-    (tmp_path / "search_chunks" / "plan.json").write_text("{}")
+    (tmp_path / "search_pieces").mkdir()
+    (tmp_path / "search_pieces" / "plan.json").write_text("{}")
     done = subprocess.run(command(study, tmp_path), capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert "holds designs of another study" in done.stderr

@@ -1,24 +1,39 @@
-"""What a sweep will take, before it starts."""
+"""What a sweep will take, before it starts: time, memory and disk."""
 
 import time
+import zlib
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
+import psutil
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..results.size import MOST_BYTES
+from .dataset import DIGITS
+from .evaluation import Evaluation, evaluating, joined
+from .explaining import SPREAD_DESIGNS
+from .listing import Listing
 from .problem import Problem
 from .space import OPTION
+from .sweep_values import MOST_SHOWN
 
 LONGEST_S: Final = 12 * 3600.0
 """That a sweep takes unless more is allowed."""
-MOST_TRIED: Final = 4096
-"""Pieces whose time tells that of all."""
-TRIED_RUNS: Final = 4
-CELL_BYTES: Final = 20
-"""Of a number in a table."""
+_FEWEST_TRIED, _MOST_TRIED = 3, 24
+"""Pieces that are timed."""
+_TRIED_S: Final = 4.0
+"""Time after which no more pieces are timed than the fewest."""
+_WRITTEN: Final = 2_000
+"""Designs that are written to see how large they are."""
+_FURTHER_BYTES: Final = 5.0
+"""Of a row of the table: whether a design is allowed, and ends of cells."""
+_REPORT_S: Final = 5.0
+_REPORT_BYTES: Final = 1_000_000
+_WORK_BYTES: Final = 250_000_000
+"""Memory of a piece in work, of the pieces of a file, and of the report."""
 
 
 @dataclass(frozen=True)
@@ -30,8 +45,8 @@ class Plan:
     designs, pieces : number of them; a piece is a design with a sample of its tolerances
     speeds : number of them
     seconds : expected
-    result_bytes : in memory
-    table_bytes : of the CSV
+    memory_bytes : expected at the peak, in this process
+    disk_bytes : of all files
     runs : variables of which every value takes runs of the pipeline's stages, with the reason
     """
 
@@ -39,8 +54,8 @@ class Plan:
     pieces: int
     speeds: int
     seconds: float
-    result_bytes: int
-    table_bytes: int
+    memory_bytes: float
+    disk_bytes: float
     runs: dict[str, str]
 
     @property
@@ -49,62 +64,110 @@ class Plan:
         of_runs = f"; by runs: {', '.join(self.runs)}" if self.runs else ""
         return (
             f"{self.designs} designs, {self.pieces} pieces at {self.speeds} speeds: about "
-            f"{duration(self.seconds)}, result {self.result_bytes / 1e6:.3g} MB, table "
-            f"{self.table_bytes / 1e6:.3g} MB{of_runs}"
+            f"{duration(self.seconds)}, {self.memory_bytes / 1e6:.3g} MB of memory, "
+            f"{self.disk_bytes / 1e6:.3g} MB on disk{of_runs}"
         )
 
 
+class _Tried(NamedTuple):
+    """Pieces that were timed.
+
+    Attributes
+    ----------
+    designs : shape (design, variable), SI
+    evaluation : of them
+    seconds : of all of them
+    share : of the work of the sweep
+    """
+
+    designs: Array
+    evaluation: Evaluation
+    seconds: float
+    share: float
+
+
+class _Written(NamedTuple):
+    """What a design takes in files: time, s, and bytes of the table and of compressed values."""
+
+    seconds: float
+    row_bytes: float
+    value_bytes: float
+
+
 def check_size(problem: Problem, count: int) -> None:
-    """Refuse a sweep whose result is too large.
+    """Refuse a sweep that takes more memory than a result may, or than is available.
 
     Raises
     ------
     ParameterError
-        It would take more than 2 GiB.
+        Its result takes more than 2 GiB, or all copies more than the available memory.
     """
-    size = result_bytes(problem, count)
-    if size > MOST_BYTES:
-        raise ParameterError(
-            f"{problem.study.source_file}: design: the result of {count} designs takes "
-            f"{size / 2**30:.1f} GiB; allowed 2 GiB: take fewer points, samples or objectives"
-        )
+    result, needed = _result_bytes(problem, count), memory_bytes(problem, count)
+    available = psutil.virtual_memory().available
+    for what, size, limit in (
+        ("result", result, MOST_BYTES),
+        ("evaluation", needed - psutil.Process().memory_info().rss, available),
+    ):
+        if size > limit:
+            raise ParameterError(
+                f"{problem.study.source_file}: design: the {what} of {count} designs takes "
+                f"{size / 2**30:.1f} GiB; allowed {limit / 2**30:.3g} GiB: take fewer points, "
+                "samples or objectives"
+            )
 
 
-def result_bytes(problem: Problem, count: int) -> int:
-    """Bytes in memory of a sweep's result, twice, as it is put together."""
-    return 16 * count * (len(problem.space.variables) + len(problem.wanted) + 2)
+def _result_bytes(problem: Problem, count: int) -> int:
+    """Bytes of the values of all designs in memory; those of a sample with their variables."""
+    variables = 0 if problem.design.sampling == "grid" else len(problem.space.variables)
+    return count * (8 * len(problem.wanted) + 5 + 8 * variables)
 
 
-def planned(problem: Problem, designs: Array, longest_s: float = LONGEST_S) -> Plan:
-    """What a sweep will take, known from some of its designs.
+def memory_bytes(problem: Problem, count: int) -> float:
+    """Memory of this process at the peak of a sweep, with all copies.
+
+    A sample is copied as its variables are labelled, and a variable as it is written.
+    """
+    variables = 0 if problem.design.sampling == "grid" else len(problem.space.variables)
+    copies = count * (8 * (variables + 1) + 9)
+    now = psutil.Process().memory_info().rss
+    return now + _WORK_BYTES + _result_bytes(problem, count) + copies
+
+
+def planned(
+    problem: Problem, listing: Listing, longest_s: float = LONGEST_S, workers: int = 1
+) -> Plan:
+    """Plan a sweep from some of its pieces.
 
     Parameters
     ----------
     problem : of the study
-    designs : all of them, shape (design, variable)
-    longest_s : refused above
+    listing : its designs
+    longest_s : longest time that it may take
+    workers : processes that evaluate
 
     Raises
     ------
     ParameterError
         It takes longer.
     """
-    count, samples = len(designs), problem.samples()
+    count, samples = listing.count, problem.samples()
     routes = [problem.engine.routes(option) for option in problem.space.options]
     runs = {key: r.reason for each in routes for key, r in each.items() if not r.linear}
     runs.pop(OPTION, None)
-    if runs:
-        seconds = _run_seconds(problem, designs) * _number_of_runs(problem, designs, list(runs))
-    else:
-        seconds = _seconds(problem, designs, samples)
-    columns = len(problem.space.variables) + len(problem.wanted) + 2
+    tried = _tried(problem, listing)
+    written = _written(problem, tried)
+    shown = min(count, MOST_SHOWN)
+    seconds = tried.seconds / tried.share / workers
+    seconds += _further_share(problem, count) * tried.seconds / tried.share
+    seconds += count * written.seconds + _REPORT_S
+    disk = count * (written.row_bytes + written.value_bytes) + 2.0 * shown * written.row_bytes
     plan = Plan(
         count,
         count * problem.weight(samples).size,
         len(problem.study.operation.speed_rpm),
         seconds,
-        result_bytes(problem, count),
-        CELL_BYTES * columns * count,
+        memory_bytes(problem, count),
+        disk + _REPORT_BYTES,
         runs,
     )
     if seconds > longest_s:
@@ -114,34 +177,59 @@ def planned(problem: Problem, designs: Array, longest_s: float = LONGEST_S) -> P
     return plan
 
 
-def _seconds(problem: Problem, designs: Array, samples: Array) -> float:
-    """Of all designs by linear algebra, from those of some."""
-    tried = max(MOST_TRIED // len(samples), 1)
-    rows = np.linspace(0, len(designs) - 1, min(tried, len(designs))).astype(int)
-    problem.evaluate(designs[rows[:1]], samples[:1])  # what is made once
+def _tried(problem: Problem, listing: Listing) -> _Tried:
+    """Evaluate pieces at even distances; the first one has what is made once, and is not timed."""
+    evaluate, blocks = evaluating(problem), list(listing.blocks())
+    some = [blocks[n] for n in sorted({0, len(blocks) // 2, len(blocks) - 1})]
+    pieces = [p for block in some for p in problem.split(listing.at(listing.ordered(block)))]
+    chosen = np.unique(np.linspace(0, len(pieces) - 1, 1 + _MOST_TRIED).round().astype(int))
+    first, *others = [pieces[n] for n in chosen]
+    evaluate(first if others else first[:1])
+    parts, seconds = [], 0.0
+    for piece in others or [first]:
+        if seconds > _TRIED_S and len(parts) >= _FEWEST_TRIED:
+            break
+        begin = time.perf_counter()
+        parts.append((piece, evaluate(piece)))
+        seconds += time.perf_counter() - begin
+    designs = np.concatenate([piece for piece, _ in parts])
+    share = len(designs) / listing.count
+    if problem.run_columns:
+        share = len(parts) / len(pieces) * sum(block.size for block in some) / listing.count
+    return _Tried(designs, joined([evaluation for _, evaluation in parts]), seconds, share)
+
+
+def _written(problem: Problem, tried: _Tried) -> _Written:
+    """Write a few designs to memory as a sweep writes them: once as text, twice compressed."""
+    rows = slice(min(len(tried.designs), _WRITTEN))
+    variables = problem.space.variables
+    cells = [[v.written(x) for v, x in zip(variables, design, strict=True)]
+             for design in tried.designs[rows].tolist()]  # fmt: skip
+    values = np.concatenate([tried.evaluation.objectives, tried.evaluation.constraints], axis=1)
     begin = time.perf_counter()
-    problem.evaluate(designs[rows], samples)
-    return (time.perf_counter() - begin) * len(designs) / len(rows)
+    columns = [*zip(*cells, strict=True), *values[rows].T.tolist()]
+    text = "\n".join(map(",".join, zip(*map(_text, columns), strict=True)))
+    shuffled = values[rows].T.reshape(-1, 1).view(np.uint8).T.tobytes()
+    packed = [zlib.compress(shuffled, 4) for _ in range(2)]
+    seconds, count = time.perf_counter() - begin, len(cells)
+    return _Written(
+        seconds / count, len(text) / count + _FURTHER_BYTES, sum(map(len, packed)) / count
+    )
 
 
-def _run_seconds(problem: Problem, designs: Array) -> float:
-    """Of one design by a run."""
-    rows = np.linspace(0, len(designs) - 1, min(TRIED_RUNS, len(designs))).astype(int)
-    sample = np.full((1, len(problem.pieces.scatters)), 0.5)
-    problem.evaluate(designs[rows[:1]], sample)
-    begin = time.perf_counter()
-    problem.evaluate(designs[rows[1:]], sample)
-    return (time.perf_counter() - begin) / max(len(rows) - 1, 1)
+def _text(column: Sequence[str | float]) -> Iterator[str]:
+    return map(str if isinstance(column[0], str) else DIGITS.format, column)  # type: ignore[arg-type]
 
 
-def _number_of_runs(problem: Problem, designs: Array, keys: list[str]) -> int:
-    """Different designs, and pieces where tolerances scatter what takes runs."""
-    names = problem.pieces.wide.names
-    columns = [names.index(key) for key in keys]
-    varied = [column for column in columns if column < designs.shape[1]]
-    different = len(np.unique(designs[:, varied], axis=0)) if varied else 1
-    scattered = {scatter.column for scatter in problem.pieces.scatters} & set(columns)
-    return len(designs) * len(problem.samples()) if scattered else different
+def _further_share(problem: Problem, count: int) -> float:
+    """Work of the report over that of the sweep: fresh pieces of the best, and spread designs."""
+    search, samples = problem.design.search, len(problem.samples())
+    runs = set(problem.run_columns)
+    scattered = {scatter.column for scatter in problem.pieces.scatters}
+    if not runs:
+        fresh = search.best * search.fresh_samples * bool(scattered)
+        return (fresh / samples + 2.0 * SPREAD_DESIGNS) / count
+    return search.best * (search.fresh_samples if runs & scattered else 1.0) / count
 
 
 def duration(seconds: float) -> str:
