@@ -1,8 +1,8 @@
 """Commands for designs. Heavy imports wait until they are needed."""
 
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
@@ -14,16 +14,14 @@ from . import messages
 from .command import command
 from .options import Plugins, Printing, StudyOut, load_plugins
 from .outcome import Outcome
+from .workers import Workers
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from ..design.evaluation import Stream
     from ..design.problem import Problem
-    from ..design.workers.spread import ParallelMap
     from ..report.analysis import Analysis
-
-    Opener = Callable[[], AbstractContextManager[ParallelMap]]
 
 SWEEP_NAME: Final = "sweep.nc"
 TABLE_NAME: Final = "sweep.csv"
@@ -32,39 +30,6 @@ SWEEP_PIECES: Final = "sweep_pieces"
 SEARCH_PIECES: Final = "search_pieces"
 
 StudyFile = Annotated[Path, "STUDY: Study file, .toml, with a table `design`."]
-
-
-@dataclass(frozen=True)
-class Workers:
-    """Options of local processes and of a scheduler, as the command line has them."""
-
-    workers: Annotated[
-        int, typer.Option(min=0, max=1000, help="Local processes that compute; 0: this one alone.")
-    ] = 0
-    scheduler: Annotated[
-        str | None, "Address, tls://HOST:PORT, of a running scheduler of dask.distributed."
-    ] = None
-    tls_ca: Annotated[Path | None, "Certificate of the scheduler's own authority, .pem."] = None
-    tls_cert: Annotated[Path | None, "Your certificate, signed by this authority, .pem."] = None
-    tls_key: Annotated[Path | None, "Private key of your certificate, .pem."] = None
-    insecure: Annotated[
-        bool, "Use a scheduler without TLS: whoever reaches it may run code as its users."
-    ] = False
-
-    def opener(self) -> "Opener | None":
-        """Return what opens the workers; None where this process computes."""
-        from ..base.errors import ParameterError
-        from ..design.workers.scheduler import SchedulerAccess, opened_scheduler
-        from ..design.workers.spread import local_workers
-
-        tls = (self.tls_ca, self.tls_cert, self.tls_key, self.insecure)
-        if self.scheduler is not None:
-            if self.workers:
-                raise ParameterError("--workers contradicts --scheduler: remove one of both")
-            return partial(opened_scheduler, SchedulerAccess(self.scheduler, *tls))
-        if any(tls):
-            raise ParameterError("--tls-ca, --tls-cert, --tls-key, --insecure: need --scheduler")
-        return partial(local_workers, self.workers) if self.workers else None
 
 
 @command("sweep", "Designs", "pipelines/copeland_designs.toml --workers 4")
@@ -92,11 +57,11 @@ def sweep_command(
     from . import outputs
 
     prints = printing.printer()
-    opened = workers.opener()
+    workers.opener(plugin)  # refuses before anything is computed
     problem, folder = _problem(study_file, out, plugin)
     prepared = prepare(problem, 3600.0 * longest, max(workers.workers, 1))
     messages.inform(f"plan: {prepared.plan.text}")
-    with _evaluating(problem, study_file, folder / SWEEP_PIECES, opened, plugin) as stream:
+    with _evaluating(problem, study_file, folder / SWEEP_PIECES, workers, plugin) as stream:
         values = swept(prepared, progress, stream)
         search, searched = None, values.searched(problem.design.search.best)
         if searched.any_allowed:
@@ -134,9 +99,9 @@ def optimise_command(
     from . import outputs
 
     prints = printing.printer()
-    opened = workers.opener()
+    workers.opener(plugin)  # refuses before anything is computed
     problem, folder = _problem(study_file, out, plugin)
-    with _evaluating(problem, study_file, folder / SEARCH_PIECES, opened, plugin) as stream:
+    with _evaluating(problem, study_file, folder / SEARCH_PIECES, workers, plugin) as stream:
         search = searched_designs(problem, in_pieces(problem, stream), progress)
     analysis = _analysis(problem, search, study_file, folder)
     return outputs.Target(folder, prints).outcome(analysis, search, DESIGNS_NAME)
@@ -148,6 +113,7 @@ def _problem(
     """What the study asks, and the folder of its results, which can be written."""
     from ..design.problem import Problem
     from ..design.store.pieces import PLAN_NAME
+    from ..stages.radiation import KeptRadiation
     from ..study import loading
     from . import outputs
 
@@ -156,7 +122,7 @@ def _problem(
     study = loading.load_study(study_file)
     chunks = [f"{name}/{PLAN_NAME}" for name in (SWEEP_PIECES, SEARCH_PIECES)]
     outputs.check_folder(folder, (SWEEP_NAME, DESIGNS_NAME, *chunks))
-    return Problem(study), folder
+    return Problem(study, KeptRadiation()), folder
 
 
 def _analysis(
@@ -178,7 +144,7 @@ def _evaluating(
     problem: "Problem",
     study_file: Path,
     store_folder: Path,
-    opened: "Opener | None",
+    workers: Workers,
     plugins: list[Path] | None,
 ) -> "Iterator[Stream]":
     """Evaluate pieces of designs: from the store, else here or by workers."""
@@ -187,12 +153,15 @@ def _evaluating(
     from ..design.workers.spread import spread
     from ..design.workers.study_task import evaluate_task, study_plan, study_task
 
-    given = plugins or []
+    given, opened = plugins or [], workers.opener(plugins)
     with opened_store(store_folder, study_plan(problem.study, given)) as store:
         if opened is None:
             yield stored(one_by_one(problem), store)
             return
         counts = len(problem.design.objectives), len(problem.design.constraints)
         task = study_task(study_file, problem.study, given)
+        # Local workers have the cache on disk; others get the transfer vectors with their work.
+        far = partial(evaluate_task, radiation=problem.radiation)
+        builder = evaluate_task if workers.scheduler is None else far
         with opened() as parallel_map:
-            yield stored(spread(parallel_map, evaluate_task, task, counts), store)
+            yield stored(spread(parallel_map, builder, task, counts), store)

@@ -104,7 +104,7 @@ class Problem:
         self.figures = [_figure(study, self.design, name, w) for name, w in self.wanted.items()]
         each = zip(self.figures, self.wanted.items(), strict=True)
         needs = [_needs(study, self.design, figure, *item) for figure, item in each]
-        self._radiation = radiation
+        self.radiation = radiation
         self._references: dict[tuple[int, bytes], Compared] = {}
         self._needs = tuple(dict.fromkeys(need for some in needs for need in some))
 
@@ -148,7 +148,7 @@ class Problem:
     @cached_property
     def machines(self) -> list[ComparedMachine]:
         """Samples of the study, the same for all designs, or the nominal machine alone."""
-        return compared_machines(self.study, self.pieces, self._needs, self._radiation)
+        return compared_machines(self.study, self.pieces, self._needs, self.radiation)
 
     @property
     def is_sampled(self) -> bool:

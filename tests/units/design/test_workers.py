@@ -17,6 +17,7 @@ from vibroacoustics.design.evaluation import Evaluation, joined
 from vibroacoustics.design.workers import scheduler
 from vibroacoustics.design.workers.scheduler import SchedulerAccess, opened_scheduler
 from vibroacoustics.design.workers.spread import local_workers, spread
+from vibroacoustics.design.workers.study_task import requirement
 
 PIECE = 8
 DESIGNS = np.random.default_rng(2).normal(size=(400, 3))
@@ -111,7 +112,7 @@ def test_scheduler_that_does_not_answer_is_one_line(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(scheduler, "_CONNECTION_S", 0.5)
     with (
         pytest.raises(ParameterError, match=r"scheduler tcp://127\.0\.0\.1:9: no connection"),
-        opened_scheduler(SchedulerAccess("tcp://127.0.0.1:9", insecure=True)),
+        opened_scheduler(SchedulerAccess("tcp://127.0.0.1:9", insecure=True), requirement([])),
     ):
         pass
 
@@ -136,19 +137,19 @@ def test_scheduler_by_tls(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     ) as cluster:  # fmt: skip
         address = cluster.scheduler_address
         assert address.startswith("tls://127.0.0.1")
-        with opened_scheduler(SchedulerAccess(address, **good)) as parallel_map:
+        with opened_scheduler(SchedulerAccess(address, **good), requirement([])) as parallel_map:
             same(spread_over(parallel_map, task), serial)
         monkeypatch.setattr(scheduler, "_CONNECTION_S", 1.0)
         wrong = [other, {**other, "tls_ca": good["tls_ca"]}, {**good, "tls_ca": other["tls_ca"]}]
         for files in wrong:
             with (
                 pytest.raises(ParameterError, match=f"scheduler {address}: no connection"),
-                opened_scheduler(SchedulerAccess(address, **files)),
+                opened_scheduler(SchedulerAccess(address, **files), requirement([])),
             ):
                 pass
     swapped = {**good, "tls_cert": good["tls_key"]}
     with (
         pytest.raises(ParameterError, match="--tls-key: cannot be used"),
-        opened_scheduler(SchedulerAccess(address, **swapped)),
+        opened_scheduler(SchedulerAccess(address, **swapped), requirement([])),
     ):
         pass

@@ -1,6 +1,6 @@
 """Pieces of designs as workers evaluate them; the bits do not depend on the number of workers."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache, partial
 
@@ -8,20 +8,11 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.linear_algebra import one_thread_of_linear_algebra
-from ...base.processes import ProcessPool
+from ...base.processes import ParallelMap, ProcessPool
 from ..evaluation import Evaluate, Evaluation, Stream
 
 Builder = Callable[[bytes], Evaluate]
 """A function of a module that makes an evaluation from the JSON of a task."""
-ParallelMap = Callable[
-    [
-        Callable[[Array], Evaluation],
-        Iterable[Array],
-        Callable[[Array, str], Evaluation],
-    ],
-    Iterator[Evaluation],
-]
-"""Takes a function, items and the result of an item that is lost; `ProcessPool.in_order` is one."""
 
 
 @contextmanager
