@@ -25,8 +25,10 @@ def in_threads(tasks: Sequence[Callable[[], Result]], workers: int | None = None
             raise
 
 
-def mapped_in_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[Result]:
-    """Apply a function in threads; the results are in the order of the items. See `in_threads`."""
+def mapped_in_threads(
+    function: Callable[[Item], Result], items: Iterable[Item]
+) -> Iterator[Result]:
+    """Apply a function in threads; the results are in the order of the items."""
     with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as pool:
         yield from pool.map(function, items)
 

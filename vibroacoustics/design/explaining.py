@@ -68,9 +68,7 @@ def _best_rows(problem: Problem, searched: Searched, search: xr.Dataset, count: 
     return np.asarray(front[best_of_front(evaluation.objectives[front], count)])
 
 
-def _spread(
-    problem: Problem, searched: Searched, evaluate: Evaluate
-) -> tuple[Array, Evaluation]:
+def _spread(problem: Problem, searched: Searched, evaluate: Evaluate) -> tuple[Array, Evaluation]:
     """Designs that fill the space; where each takes a run, those of the first generation."""
     if problem.is_linear:
         designs = problem.space.sample("sobol", SPREAD_DESIGNS)

@@ -13,9 +13,10 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..results.size import MOST_BYTES
 from .dataset import DIGITS
+from .engine.machine_sample import KEPT
 from .evaluation import Evaluation, evaluating, joined
 from .explaining import SPREAD_DESIGNS
-from .listing import Listing
+from .listing import BLOCK, Listing
 from .problem import Problem
 from .space import OPTION
 from .sweep_values import MOST_SHOWN
@@ -32,8 +33,9 @@ _FURTHER_BYTES: Final = 5.0
 """Of a row of the table: whether a design is allowed, and ends of cells."""
 _REPORT_S: Final = 5.0
 _REPORT_BYTES: Final = 1_000_000
-_WORK_BYTES: Final = 250_000_000
-"""Memory of a piece in work, of the pieces of a file, and of the report."""
+_REPORT_MEMORY_BYTES: Final = 60e6
+_BLOCK_BYTES: Final = 100e6
+"""Memory of a block of designs in work, and of the pieces of a file."""
 
 
 @dataclass(frozen=True)
@@ -76,14 +78,16 @@ class _Tried(NamedTuple):
     ----------
     designs : shape (design, variable), SI
     evaluation : of them
-    seconds : of all of them
+    seconds : processor time of all of them
     share : of the work of the sweep
+    kept_bytes : memory that results of runs keep of each
     """
 
     designs: Array
     evaluation: Evaluation
     seconds: float
     share: float
+    kept_bytes: float
 
 
 class _Written(NamedTuple):
@@ -106,7 +110,7 @@ def check_size(problem: Problem, count: int) -> None:
     available = psutil.virtual_memory().available
     for what, size, limit in (
         ("result", result, MOST_BYTES),
-        ("evaluation", needed - psutil.Process().memory_info().rss, available),
+        ("evaluation", needed - _memory_bytes(), available),
     ):
         if size > limit:
             raise ParameterError(
@@ -129,8 +133,12 @@ def memory_bytes(problem: Problem, count: int) -> float:
     """
     variables = 0 if problem.design.sampling == "grid" else len(problem.space.variables)
     copies = count * (8 * (variables + 1) + 9)
-    now = psutil.Process().memory_info().rss
-    return now + _WORK_BYTES + _result_bytes(problem, count) + copies
+    return _memory_bytes() + _work_bytes(count) + _result_bytes(problem, count) + copies
+
+
+def _work_bytes(count: int) -> float:
+    """Memory of blocks in work and of the report: less where there are few designs."""
+    return _REPORT_MEMORY_BYTES + _BLOCK_BYTES * min(count / BLOCK, 1.0)
 
 
 def planned(
@@ -156,7 +164,7 @@ def planned(
     runs.pop(OPTION, None)
     tried = _tried(problem, listing)
     written = _written(problem, tried)
-    shown = min(count, MOST_SHOWN)
+    shown, pieces = min(count, MOST_SHOWN), len(tried.evaluation.failures) / tried.share
     seconds = tried.seconds / tried.share / workers
     seconds += _further_share(problem, count) * tried.seconds / tried.share
     seconds += count * written.seconds + _REPORT_S
@@ -166,7 +174,7 @@ def planned(
         count * problem.weight(samples).size,
         len(problem.study.operation.speed_rpm),
         seconds,
-        memory_bytes(problem, count),
+        memory_bytes(problem, count) + tried.kept_bytes * min(pieces, KEPT),
         disk + _REPORT_BYTES,
         runs,
     )
@@ -185,18 +193,24 @@ def _tried(problem: Problem, listing: Listing) -> _Tried:
     chosen = np.unique(np.linspace(0, len(pieces) - 1, 1 + _MOST_TRIED).round().astype(int))
     first, *others = [pieces[n] for n in chosen]
     evaluate(first if others else first[:1])
-    parts, seconds = [], 0.0
+    parts, seconds, before = [], 0.0, _memory_bytes()
     for piece in others or [first]:
         if seconds > _TRIED_S and len(parts) >= _FEWEST_TRIED:
             break
-        begin = time.perf_counter()
+        begin = time.process_time()
         parts.append((piece, evaluate(piece)))
-        seconds += time.perf_counter() - begin
+        seconds += time.process_time() - begin
     designs = np.concatenate([piece for piece, _ in parts])
-    share = len(designs) / listing.count
+    share, kept = len(designs) / listing.count, 0.0
     if problem.run_columns:
+        kept = (_memory_bytes() - before) / len(parts)
         share = len(parts) / len(pieces) * sum(block.size for block in some) / listing.count
-    return _Tried(designs, joined([evaluation for _, evaluation in parts]), seconds, share)
+    return _Tried(designs, joined([evaluation for _, evaluation in parts]), seconds, share, kept)
+
+
+def _memory_bytes() -> int:
+    """Memory of this process."""
+    return int(psutil.Process().memory_info().rss)
 
 
 def _written(problem: Problem, tried: _Tried) -> _Written:
@@ -206,12 +220,12 @@ def _written(problem: Problem, tried: _Tried) -> _Written:
     cells = [[v.written(x) for v, x in zip(variables, design, strict=True)]
              for design in tried.designs[rows].tolist()]  # fmt: skip
     values = np.concatenate([tried.evaluation.objectives, tried.evaluation.constraints], axis=1)
-    begin = time.perf_counter()
+    begin = time.process_time()
     columns = [*zip(*cells, strict=True), *values[rows].T.tolist()]
     text = "\n".join(map(",".join, zip(*map(_text, columns), strict=True)))
     shuffled = values[rows].T.reshape(-1, 1).view(np.uint8).T.tobytes()
     packed = [zlib.compress(shuffled, 4) for _ in range(2)]
-    seconds, count = time.perf_counter() - begin, len(cells)
+    seconds, count = time.process_time() - begin, len(cells)
     return _Written(
         seconds / count, len(text) / count + _FURTHER_BYTES, sum(map(len, packed)) / count
     )

@@ -123,8 +123,11 @@ class Problem:
     def run_columns(self) -> list[int]:
         """Numbers of the variables of which every value takes runs of the pipeline's stages."""
         routes = [list(self.engine.routes(name).values()) for name in self.space.options]
-        return [n for n, each in enumerate(zip(*routes, strict=True)) if not all(
-            route.linear for route in each)]
+        return [
+            n
+            for n, each in enumerate(zip(*routes, strict=True))
+            if not all(route.linear for route in each)
+        ]
 
     @cached_property
     def piece(self) -> int:
@@ -143,7 +146,9 @@ class Problem:
         of_runs = designs[:, [n for n in self.run_columns if n < designs.shape[1]]]
         changes = np.flatnonzero((np.diff(of_runs, axis=0) != 0.0).any(axis=1)) + 1
         for part in np.split(designs, changes):
-            yield from (part[first : first + self.piece] for first in range(0, len(part), self.piece))
+            yield from (
+                part[first : first + self.piece] for first in range(0, len(part), self.piece)
+            )
 
     @cached_property
     def machines(self) -> list[ComparedMachine]:

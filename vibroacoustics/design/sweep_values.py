@@ -128,7 +128,8 @@ class SweepValues:
 
     def _front(self) -> IndexArray:
         """Numbers of the allowed designs that no other is better than in every objective."""
-        front, objectives = np.empty(0, np.intp), np.empty((0, len(self._problem.design.objectives)))
+        front = np.empty(0, np.intp)
+        objectives = np.empty((0, len(self._problem.design.objectives)))
         for numbers in self._listing.blocks():
             allowed = numbers[self.feasible[numbers] == 1]
             new = self.evaluation(allowed).objectives
