@@ -31,7 +31,7 @@ _WRITTEN: Final = 2_000
 """Designs that are written to see how large they are."""
 _FURTHER_BYTES: Final = 5.0
 """Of a row of the table: whether a design is allowed, and ends of cells."""
-_REPORT_S: Final = 5.0
+_REPORT_S: Final = 2.0
 _REPORT_BYTES: Final = 1_000_000
 _REPORT_MEMORY_BYTES: Final = 60e6
 _BLOCK_BYTES: Final = 100e6
