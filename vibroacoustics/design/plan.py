@@ -31,8 +31,15 @@ _WRITTEN: Final = 2_000
 """Designs that are written to see how large they are."""
 _FURTHER_BYTES: Final = 5.0
 """Of a row of the table: whether a design is allowed, and ends of cells."""
-_REPORT_S: Final = 2.0
-_REPORT_BYTES: Final = 1_000_000
+_REPORT_S, _SHOWN_S = 0.3, 5e-6
+"""Processor time of a report, and of each design that it shows."""
+_SELECTED_S, _SORTED_S = 1.0, 3e-7
+"""Processor time of the selection of designs for a report, and of each of very many designs."""
+_LABELLED_S: Final = 3e-7
+"""Processor time of the value of a variable in a sample."""
+_REPORT_BYTES: Final = 200_000
+_REPORT_ROW: Final = 1.1
+"""Row of the report's table of designs over that of the sweep's table."""
 _REPORT_MEMORY_BYTES: Final = 60e6
 _BLOCK_BYTES: Final = 100e6
 """Memory of a block of designs in work, and of the pieces of a file."""
@@ -167,8 +174,10 @@ def planned(
     shown, pieces = min(count, MOST_SHOWN), len(tried.evaluation.failures) / tried.share
     seconds = tried.seconds / tried.share / workers
     seconds += _further_share(problem, count) * tried.seconds / tried.share
-    seconds += count * written.seconds + _REPORT_S
-    disk = count * (written.row_bytes + written.value_bytes) + 2.0 * shown * written.row_bytes
+    seconds += count * written.seconds + _report_s(problem, count)
+    disk = (
+        count * (written.row_bytes + written.value_bytes) + _REPORT_ROW * shown * written.row_bytes
+    )
     plan = Plan(
         count,
         count * problem.weight(samples).size,
@@ -183,6 +192,16 @@ def planned(
             f"{problem.study.source_file}: design: {plan.text}; allowed {duration(longest_s)}"
         )
     return plan
+
+
+def _report_s(problem: Problem, count: int) -> float:
+    """Processor time of the report and its tables."""
+    seconds = _REPORT_S + _SHOWN_S * min(count, MOST_SHOWN)
+    if count > MOST_SHOWN:
+        seconds += _SELECTED_S + _SORTED_S * count
+    if problem.design.sampling != "grid":
+        seconds += _LABELLED_S * count * len(problem.space.variables)
+    return seconds
 
 
 def _tried(problem: Problem, listing: Listing) -> _Tried:
@@ -242,7 +261,8 @@ def _further_share(problem: Problem, count: int) -> float:
     scattered = {scatter.column for scatter in problem.pieces.scatters}
     if not runs:
         fresh = search.best * search.fresh_samples * bool(scattered)
-        return (fresh / samples + 2.0 * SPREAD_DESIGNS) / count
+        spread = SPREAD_DESIGNS * (1.0 + len(problem.total_changes()))
+        return (fresh / samples + spread) / count
     return search.best * (search.fresh_samples if runs & scattered else 1.0) / count
 
 
