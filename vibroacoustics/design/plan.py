@@ -23,10 +23,10 @@ from .sweep_values import MOST_SHOWN
 
 LONGEST_S: Final = 12 * 3600.0
 """That a sweep takes unless more is allowed."""
-_FEWEST_TRIED, _MOST_TRIED = 3, 24
-"""Pieces that are timed."""
-_TRIED_S: Final = 4.0
-"""Time after which no more pieces are timed than the fewest."""
+_STARTS, _CONSECUTIVE = 3, 4
+"""Numbers of pieces from which some are timed, and how many that follow each other."""
+_TRIED_S: Final = 2.0
+"""Processor time after which no further piece is timed there."""
 _WRITTEN: Final = 2_000
 """Designs that are written to see how large they are."""
 _FURTHER_BYTES: Final = 5.0
@@ -37,7 +37,7 @@ _SELECTED_S, _SORTED_S = 1.0, 3e-7
 """Processor time of the selection of designs for a report, and of each of very many designs."""
 _LABELLED_S: Final = 3e-7
 """Processor time of the value of a variable in a sample."""
-_REPORT_BYTES: Final = 200_000
+_REPORT_BYTES: Final = 260_000
 _REPORT_ROW: Final = 1.1
 """Row of the report's table of designs over that of the sweep's table."""
 _REPORT_MEMORY_BYTES: Final = 60e6
@@ -85,6 +85,7 @@ class _Tried(NamedTuple):
     ----------
     designs : shape (design, variable), SI
     evaluation : of them
+    pieces : number of them
     seconds : processor time of all of them
     share : of the work of the sweep
     kept_bytes : memory that results of runs keep of each
@@ -92,6 +93,7 @@ class _Tried(NamedTuple):
 
     designs: Array
     evaluation: Evaluation
+    pieces: int
     seconds: float
     share: float
     kept_bytes: float
@@ -171,20 +173,20 @@ def planned(
     runs.pop(OPTION, None)
     tried = _tried(problem, listing)
     written = _written(problem, tried)
-    shown, pieces = min(count, MOST_SHOWN), len(tried.evaluation.failures) / tried.share
-    seconds = tried.seconds / tried.share / workers
-    seconds += _further_share(problem, count) * tried.seconds / tried.share
+    of_all, pieces = tried.seconds / tried.share, tried.pieces / tried.share
+    known = tried.share if runs and workers == 1 else 0.0  # results of runs are kept
+    seconds = of_all * ((1.0 - known) / workers + _further_share(problem, count))
     seconds += count * written.seconds + _report_s(problem, count)
-    disk = (
-        count * (written.row_bytes + written.value_bytes) + _REPORT_ROW * shown * written.row_bytes
-    )
+    rows = count + _REPORT_ROW * min(count, MOST_SHOWN)
+    disk = rows * written.row_bytes + count * written.value_bytes + _REPORT_BYTES
+    growth = tried.kept_bytes * max(min(pieces, KEPT) - tried.pieces, 0.0)
     plan = Plan(
         count,
         count * problem.weight(samples).size,
         len(problem.study.operation.speed_rpm),
         seconds,
-        memory_bytes(problem, count) + tried.kept_bytes * min(pieces, KEPT),
-        disk + _REPORT_BYTES,
+        memory_bytes(problem, count) + growth,
+        disk,
         runs,
     )
     if seconds > longest_s:
@@ -205,26 +207,29 @@ def _report_s(problem: Problem, count: int) -> float:
 
 
 def _tried(problem: Problem, listing: Listing) -> _Tried:
-    """Evaluate pieces at even distances; the first one has what is made once, and is not timed."""
+    """Evaluate some pieces that follow each other at the begin, in the middle and at the end.
+
+    Pieces that follow each other share results. What is made once is not timed.
+    """
     evaluate, blocks = evaluating(problem), list(listing.blocks())
     some = [blocks[n] for n in sorted({0, len(blocks) // 2, len(blocks) - 1})]
     pieces = [p for block in some for p in problem.split(listing.at(listing.ordered(block)))]
-    chosen = np.unique(np.linspace(0, len(pieces) - 1, 1 + _MOST_TRIED).round().astype(int))
-    first, *others = [pieces[n] for n in chosen]
-    evaluate(first if others else first[:1])
+    evaluate(pieces[0][:1])
     parts, seconds, before = [], 0.0, _memory_bytes()
-    for piece in others or [first]:
-        if seconds > _TRIED_S and len(parts) >= _FEWEST_TRIED:
-            break
+    for numbers in np.array_split(np.arange(len(pieces)), min(_STARTS, len(pieces))):
         begin = time.process_time()
-        parts.append((piece, evaluate(piece)))
+        for number in numbers[:_CONSECUTIVE].tolist():
+            parts.append((pieces[number], evaluate(pieces[number])))
+            if time.process_time() - begin > _TRIED_S:
+                break
         seconds += time.process_time() - begin
     designs = np.concatenate([piece for piece, _ in parts])
     share, kept = len(designs) / listing.count, 0.0
     if problem.run_columns:
         kept = (_memory_bytes() - before) / len(parts)
         share = len(parts) / len(pieces) * sum(block.size for block in some) / listing.count
-    return _Tried(designs, joined([evaluation for _, evaluation in parts]), seconds, share, kept)
+    evaluation = joined([evaluation for _, evaluation in parts])
+    return _Tried(designs, evaluation, len(parts), seconds, share, kept)
 
 
 def _memory_bytes() -> int:
