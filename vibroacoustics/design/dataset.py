@@ -36,10 +36,10 @@ def labelled(problem: Problem, listing: Listing, values: SweepValues) -> xr.Data
         dims = tuple(names)
         axes = problem.space.axes()
         coords = {n: _coordinate(n, v, x) for n, v, x in zip(names, variables, axes, strict=True)}
-        shape = tuple(one.size for one in axes)
+        shape = tuple(axis.size for axis in axes)
     else:
         dims, shape = (DESIGN,), (listing.count,)
-        columns = zip(names, variables, listing.at(np.arange(listing.count)).T, strict=True)
+        columns = zip(names, variables, listing.designs(np.arange(listing.count)).T, strict=True)
         coords = {name: _coordinate(DESIGN, *column) for name, *column in columns}
     arrays: dict[str, Any] = {
         name: (dims, row.reshape(shape), _of_wanted(problem, name))
@@ -115,8 +115,8 @@ def _cells(values: Array) -> list[str]:
     """Cells of a column; words are written once each."""
     if values.dtype.kind != "U":
         return list(map(DIGITS.format, values.tolist()))
-    different, number = np.unique(values, return_inverse=True)
-    return np.array(list(map(_cell, different.tolist())), dtype=object)[number].tolist()
+    words = {word: _cell(word) for word in np.unique(values).tolist()}
+    return [words[word] for word in values.tolist()]
 
 
 def _cell(value: str | float) -> str:

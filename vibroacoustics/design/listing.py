@@ -19,12 +19,12 @@ class Listing:
     Attributes
     ----------
     count : of designs
-    at : gives the designs of some numbers, shape (design, variable), SI
+    designs : gives the designs of some numbers, shape (design, variable), SI
     ordered : gives the numbers at some positions of the order in which designs are evaluated
     """
 
     count: int
-    at: Callable[[IndexArray], Array]
+    designs: Callable[[IndexArray], Array]
     ordered: Callable[[IndexArray], IndexArray]
 
     def blocks(self) -> Iterator[IndexArray]:
@@ -44,7 +44,7 @@ def listed_grid(axes: Sequence[Array], slow: Sequence[int]) -> Listing:
     shape = tuple(axis.size for axis in axes)
     order = [*slow, *(number for number in range(len(axes)) if number not in slow)]
 
-    def at(numbers: IndexArray) -> Array:
+    def designs(numbers: IndexArray) -> Array:
         indices = np.unravel_index(numbers, shape)
         return np.stack([axis[n] for axis, n in zip(axes, indices, strict=True)], axis=1)
 
@@ -53,7 +53,7 @@ def listed_grid(axes: Sequence[Array], slow: Sequence[int]) -> Listing:
                           strict=True))  # fmt: skip
         return np.ravel_multi_index([indices[n] for n in range(len(shape))], shape)
 
-    return Listing(int(np.prod(shape)), at, ordered)
+    return Listing(int(np.prod(shape)), designs, ordered)
 
 
 def listed_sample(designs: Array, slow: Sequence[int]) -> Listing:

@@ -37,7 +37,7 @@ _SELECTED_S, _SORTED_S = 1.0, 3e-7
 """Processor time of the selection of designs for a report, and of each of very many designs."""
 _LABELLED_S: Final = 3e-7
 """Processor time of the value of a variable in a sample."""
-_REPORT_BYTES: Final = 260_000
+_REPORT_BYTES: Final = 230_000
 _REPORT_ROW: Final = 1.1
 """Row of the report's table of designs over that of the sweep's table."""
 _REPORT_MEMORY_BYTES: Final = 60e6
@@ -174,8 +174,8 @@ def planned(
     tried = _tried(problem, listing)
     written = _written(problem, tried)
     of_all, pieces = tried.seconds / tried.share, tried.pieces / tried.share
-    known = tried.share if runs and workers == 1 else 0.0  # results of runs are kept
-    seconds = of_all * ((1.0 - known) / workers + _further_share(problem, count))
+    repeated = tried.share if runs and workers == 1 else 0.0  # results of runs are kept
+    seconds = of_all * ((1.0 - repeated) / workers + _further_share(problem, count))
     seconds += count * written.seconds + _report_s(problem, count)
     rows = count + _REPORT_ROW * min(count, MOST_SHOWN)
     disk = rows * written.row_bytes + count * written.value_bytes + _REPORT_BYTES
@@ -213,7 +213,7 @@ def _tried(problem: Problem, listing: Listing) -> _Tried:
     """
     evaluate, blocks = evaluating(problem), list(listing.blocks())
     some = [blocks[n] for n in sorted({0, len(blocks) // 2, len(blocks) - 1})]
-    pieces = [p for block in some for p in problem.split(listing.at(listing.ordered(block)))]
+    pieces = [p for block in some for p in problem.split(listing.designs(listing.ordered(block)))]
     evaluate(pieces[0][:1])
     parts, seconds, before = [], 0.0, _memory_bytes()
     for numbers in np.array_split(np.arange(len(pieces)), min(_STARTS, len(pieces))):
@@ -256,7 +256,7 @@ def _written(problem: Problem, tried: _Tried) -> _Written:
 
 
 def _text(column: Sequence[str | float]) -> Iterator[str]:
-    return map(str if isinstance(column[0], str) else DIGITS.format, column)  # type: ignore[arg-type]
+    return map(str if isinstance(column[0], str) else DIGITS.format, column)
 
 
 def _further_share(problem: Problem, count: int) -> float:

@@ -141,7 +141,7 @@ def _pieces(problem: Problem, listing: Listing, waiting: deque[IndexArray]) -> I
     for positions in listing.blocks():
         numbers = listing.ordered(positions)
         first = 0
-        for piece in problem.split(listing.at(numbers)):
+        for piece in problem.split(listing.designs(numbers)):
             waiting.append(numbers[first : first + len(piece)])
             first += len(piece)
             yield piece

@@ -27,21 +27,18 @@ class SweepValues:
     ----------
     problem : that is swept
     listing : its designs
-
-    Attributes
-    ----------
-    values : of every objective and constraint in its unit, shape (wanted, design)
-    feasible : 1 where a design keeps to all constraints, shape (design,)
-    failure : number of the reason why a design failed, 0 where it did not, shape (design,)
-    reasons : why designs failed
     """
 
     def __init__(self, problem: Problem, listing: Listing) -> None:
         self._problem, self._listing = problem, listing
         self.values: Array = np.full((len(problem.wanted), listing.count), np.nan)
+        """Every objective and constraint in its unit, shape (wanted, design)."""
         self.feasible = np.zeros(listing.count, dtype=np.int8)
+        """1 where a design keeps to all constraints, shape (design,)."""
         self.failure = np.zeros(listing.count, dtype=np.int32)
+        """Number of the reason why a design failed, 0 where it did not, shape (design,)."""
         self.reasons: list[str] = []
+        """Why designs failed."""
 
     def take(self, numbers: IndexArray, evaluation: Evaluation) -> None:
         """Take in the evaluation of the designs of some numbers."""
@@ -84,7 +81,9 @@ class SweepValues:
             even = np.linspace(0, count - 1, MOST_SHOWN).astype(np.intp)
             numbers = np.unique(np.concatenate([chosen, even]))
         return Searched(
-            self._listing.at(numbers), self.evaluation(numbers), np.zeros(len(numbers), np.intp)
+            self._listing.designs(numbers),
+            self.evaluation(numbers),
+            np.zeros(len(numbers), np.intp),
         )
 
     def attributes(self, words: str) -> dict[str, Any]:
@@ -95,7 +94,7 @@ class SweepValues:
         words : how designs were chosen
         """
         counts = np.bincount(self.failure, minlength=1 + len(self.reasons))[1:].tolist()
-        reasons = sorted(zip(self.reasons, counts, strict=True), key=lambda one: -one[1])
+        reasons = sorted(zip(self.reasons, counts, strict=True), key=lambda pair: -pair[1])
         return {
             "evaluated": self._listing.count,
             "allowed": int(self.feasible.sum(dtype=np.int64)),
@@ -114,9 +113,9 @@ class SweepValues:
             if not np.isfinite(value):
                 break
             chosen.append(number)
-            design = self._listing.at(np.array([number]))
+            design = self._listing.designs(np.array([number]))
             for numbers in self._listing.blocks():
-                near[numbers] |= ~apart(self._listing.at(numbers), design, limits)
+                near[numbers] |= ~apart(self._listing.designs(numbers), design, limits)
         return np.array(chosen, dtype=np.intp)
 
     def _least(self, numbers: IndexArray, near: Any, sign: float) -> tuple[float, int]:
@@ -128,15 +127,15 @@ class SweepValues:
 
     def _front(self) -> IndexArray:
         """Numbers of the allowed designs that no other is better than in every objective."""
-        front = np.empty(0, np.intp)
-        objectives = np.empty((0, len(self._problem.design.objectives)))
+        front: IndexArray = np.empty(0, np.intp)
+        objectives: Array = np.empty((0, len(self._problem.design.objectives)))
         for numbers in self._listing.blocks():
             allowed = numbers[self.feasible[numbers] == 1]
             new = self.evaluation(allowed).objectives
             few = objectives[np.linspace(0, len(front) - 1, min(_FEW, len(front))).astype(int)]
             is_open = np.ones(len(new), dtype=bool)
-            for one in few:
-                is_open &= ~((one <= new).all(axis=1) & (one < new).any(axis=1))
+            for row in few:
+                is_open &= ~((row <= new).all(axis=1) & (row < new).any(axis=1))
             front = np.concatenate([front, allowed[is_open]])
             objectives = np.concatenate([objectives, new[is_open]])
             kept = nondominated(objectives)

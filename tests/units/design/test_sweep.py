@@ -98,7 +98,7 @@ height_below_ring_mm = 25.0
 def test_quantile_of_pieces_is_kept_by_that_share_of_them(study):
     scattering = study_with(WEIGHT + design_table('"weight"', VARIABLES) + MORE + SCATTER)
     problem = Problem(scattering, made_up_radiation)
-    design, samples = listing_of(problem).at(np.arange(1)), problem.samples(50)
+    design, samples = listing_of(problem).designs(np.arange(1)), problem.samples(50)
     pieces = problem.by_sample(design, samples)[0]
     value = problem.evaluate(design, samples).values[0]
     assert ((pieces <= value).mean(axis=0) == 0.9).all()
@@ -132,7 +132,7 @@ machine.balance_quality.lower_angle_deg = { range = [0, 360] }
     object.__setattr__(study, "_read", read._read)
     problem = Problem(study, made_up_radiation)
     samples = problem.samples(2)
-    pieces = problem.by_sample(listing_of(problem).at(np.array([1])), samples)[0]
+    pieces = problem.by_sample(listing_of(problem).designs(np.array([1])), samples)[0]
     bare = run(problem.study.model_copy(update={"ranges": ()}), radiation=made_up_radiation)
     without = float(bare.sel(option="none")["moment_amplitude"].sel(order=1).max())
     assert problem.without_option()[1] == pytest.approx(without, rel=1e-9)

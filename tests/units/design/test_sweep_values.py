@@ -27,10 +27,10 @@ def test_grid_gives_all_combinations_and_slow_variables_first(slow: list[int]) -
     axes = [np.array([3.0, 1.0]), np.array([5.0, 7.0, 6.0]), np.array([0.0, 9.0])]
     listed = listed_grid(axes, slow)
     every = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
-    np.testing.assert_array_equal(listed.at(np.arange(12)), every)
+    np.testing.assert_array_equal(listed.designs(np.arange(12)), every)
     order = listed.ordered(np.arange(12))
     assert sorted(order.tolist()) == list(range(12))
-    changes = (np.diff(listed.at(order)[:, slow], axis=0) != 0.0).any(axis=1).sum()
+    changes = (np.diff(listed.designs(order)[:, slow], axis=0) != 0.0).any(axis=1).sum()
     assert changes == np.prod([axes[n].size for n in slow], dtype=int) - 1
 
 
@@ -82,7 +82,7 @@ def test_report_of_many_designs_has_the_best_of_all(
 def all_of(values: sweep_values.SweepValues, problem: Problem) -> tuple[Array, Evaluation]:
     """All designs with their evaluation, in the order of their numbers."""
     numbers = np.arange(COUNT)
-    return listing_of(problem).at(numbers), values.evaluation(numbers)
+    return listing_of(problem).designs(numbers), values.evaluation(numbers)
 
 
 def test_pieces_have_equal_values_of_what_takes_runs() -> None:

@@ -102,7 +102,7 @@ class PieceStore:
                 stage_results(_dataset(self._batch), staged, name)
                 replace_all(staged)
             self._names.append(name)
-            self._index(name, {key: len(one.failures) for key, one in self._batch.items()})
+            self._index(name, {key: len(piece.failures) for key, piece in self._batch.items()})
         self._batch, self._batch_bytes, self._written_s = {}, 0, self._clock()
 
     def _take_in(self, name: str) -> None:
@@ -134,7 +134,7 @@ def _dataset(pieces: dict[str, Evaluation]) -> xr.Dataset:
             "constraints": (("design", "constraint"), every.constraints),
         },
         attrs={
-            "pieces": json.dumps({key: len(one.failures) for key, one in pieces.items()}),
+            "pieces": json.dumps({key: len(piece.failures) for key, piece in pieces.items()}),
             "failures": json.dumps(failed),
         },
     )
@@ -210,14 +210,14 @@ def stored(stream: Stream, store: PieceStore) -> Stream:
                 if not waiting[-1][1]:
                     yield piece
 
-        def known() -> Iterator[Evaluation]:
+        def stored_next() -> Iterator[Evaluation]:
             while waiting and waiting[0][1]:
                 yield store.get(waiting.popleft()[0])
 
         for evaluation in stream(missing()):
-            yield from known()
+            yield from stored_next()
             store.put(waiting.popleft()[0], evaluation)
             yield evaluation
-        yield from known()
+        yield from stored_next()
 
     return each

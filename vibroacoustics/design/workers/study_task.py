@@ -47,7 +47,7 @@ def requirement(plugins: Sequence[Path]) -> bytes:
     ----------
     plugins : files that were loaded before
     """
-    files = [[str(one.resolve()), _hash_of(one)] for one in plugins]
+    files = [[str(path.resolve()), _hash_of(path)] for path in plugins]
     return canonical_json({"version": software_version(), "plugins": files}).encode()
 
 

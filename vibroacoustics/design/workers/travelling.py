@@ -9,7 +9,6 @@ from io import BytesIO
 from typing import Any
 
 from ...base.linear_algebra import one_thread_of_linear_algebra
-from ...base.worker_process import Item, Result
 from .study_task import meet
 
 _CACHED = type(cache(lambda: None))
@@ -35,7 +34,7 @@ def travelling(function: Callable[[Any], Any]) -> bytes:
     return content.getvalue()
 
 
-def apply(required: bytes, content: bytes, item: Item) -> Result:
+def apply(required: bytes, content: bytes, item: Any) -> Any:
     """Apply a function to an item on a worker.
 
     Parameters
@@ -46,8 +45,7 @@ def apply(required: bytes, content: bytes, item: Item) -> Result:
     """
     meet(required)
     with one_thread_of_linear_algebra():
-        result: Result = _arrived(content)(item)
-        return result
+        return _arrived(content)(item)
 
 
 @lru_cache(maxsize=2)
