@@ -19,7 +19,7 @@ pytestmark = pytest.mark.long
 DESIGN = """
 [design]
 option = "weight"
-tolerance_samples = 8
+tolerance_samples = 4096  # pieces of four designs
 [design.search]
 population = 16
 generations = 24
