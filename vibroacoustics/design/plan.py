@@ -138,10 +138,10 @@ def _result_bytes(problem: Problem, count: int) -> int:
 def memory_bytes(problem: Problem, count: int) -> float:
     """Memory of this process at the peak of a sweep, with all copies.
 
-    A sample is copied as its variables are labelled, and a variable as it is written.
+    A sample is copied as its variables are labelled; tables are written block by block.
     """
     variables = 0 if problem.design.sampling == "grid" else len(problem.space.variables)
-    copies = count * (8 * (variables + 1) + 9)
+    copies = 8 * count * variables
     return _memory_bytes() + _work_bytes(count) + _result_bytes(problem, count) + copies
 
 

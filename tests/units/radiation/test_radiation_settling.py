@@ -122,9 +122,7 @@ def test_a_mode_that_rings_on_is_refused_soon(monkeypatch):
     monkeypatch.setattr(near_run._Peaks, "share", lambda _: 0.02)
     monkeypatch.setattr(near_run, "SETTLED", 0.0)
     steps = []
-    with pytest.raises(
-        SolverError, match=r"tx: the pressure has not died down: what is left changes its sign"
-    ):
+    with pytest.raises(SolverError, match=r"tx: the pressure has not died down: what is left changes its sign"):
         radiated(
             NearField(CAN, 0.03, 1000.0),
             rigid_body("tx"),

@@ -66,9 +66,7 @@ def test_a_machine_in_a_hard_cup_is_refused():
     surroundings = Scene(MACHINE, (cup(0.036),), ())
     near = NearField(surroundings.body, 0.024, 1500.0)
     moving = surroundings.moving(rigid_body("tx"))
-    with pytest.raises(
-        SolverError, match=r"tx: the pressure has not died down: what is left .* % after"
-    ):
+    with pytest.raises(SolverError, match=r"tx: the pressure has not died down: what is left .* % after"):
         radiated(near, moving, np.arange(100.0, 1501.0, 100.0))
 
 
