@@ -1,4 +1,4 @@
-"""A search of designs that is killed goes on to the same bits, here and with workers."""
+"""Searches and sweeps that are killed resume to the same bits, here and with workers."""
 
 import json
 import signal
@@ -19,7 +19,7 @@ pytestmark = pytest.mark.long
 DESIGN = """
 [design]
 option = "weight"
-tolerance_samples = 8
+tolerance_samples = 4096  # pieces of four designs
 [design.search]
 population = 16
 generations = 24
@@ -64,11 +64,10 @@ def designs_of(study: Path, out: Path, *options: str) -> bytes:
 
 
 def killed_and_gone_on(study: Path, out: Path, seed: int) -> bytes:
-    """SIGKILL at a random moment after the first chunk, then the same command again."""
+    """SIGKILL at a random moment after the search began, then the same command again."""
     process = subprocess.Popen(command(study, out), stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL)  # fmt: skip
-    while not list(out.glob("search_chunks/chunk_*")) and process.poll() is None:
-        time.sleep(0.01)
+    begun_s(process, out / "search_pieces" / ".lock")
     time.sleep(Random(seed).uniform(0.0, 1.0))
     process.send_signal(signal.SIGKILL)
     process.wait()
@@ -85,7 +84,7 @@ def test_search_killed_at_random(
 def test_two_workers_equal_serial_without_a_network(
     study: Path, undisturbed: bytes, tmp_path: Path
 ) -> None:
-    """A worker is killed after 3 and after 6 generations; no process has a socket with a name."""
+    """A worker is killed whenever there are two, twice; no process has a socket with a name."""
     search = subprocess.Popen(command(study, tmp_path, "--workers", "2"), stdout=subprocess.DEVNULL)
     deaths, most_workers = 0, 0
     while search.poll() is None:
@@ -96,8 +95,8 @@ def test_two_workers_equal_serial_without_a_network(
                 assert not [one for one in process.net_connections("all") if one.laddr]
             workers = [one for one in children if "spawn_main" in " ".join(one.cmdline())]
             most_workers = max(most_workers, len(workers))
-            chunks = len(list(tmp_path.glob("search_chunks/chunk_*")))
-            if workers and deaths < 2 and chunks >= 3 * (deaths + 1):
+            if len(workers) == 2 and deaths < 2:
+                time.sleep(0.5)
                 workers[0].kill()
                 deaths += 1
         time.sleep(0.05)
@@ -143,9 +142,60 @@ def test_scheduler_by_tls_equals_serial(study: Path, undisturbed: bytes, tmp_pat
             process.wait()
 
 
+RUNS = """
+[design]
+option = "weight"
+[design.objectives.foot]
+figure = "foot_force_1x_n"
+[design.variables]
+"options.weight.mass_g" = { range = [1.0, 200.0], points = 40 }
+"options.weight.angle_deg" = { range = [-180.0, 180.0], points = 20 }
+"""
+LONGEST_LOST_S = 30.0
+
+
+def test_sweep_of_runs_killed_twenty_times(tmp_path: Path) -> None:
+    """Each kill loses at most 30 s: a file of pieces is no older, or the sweep began since."""
+    file = tmp_path / "runs.toml"
+    written = TINY.read_text().replace("../../data", str(ROOT / "data"))
+    file.write_text(written + WEIGHT + RUNS)
+    killed, undisturbed = tmp_path / "killed", tmp_path / "undisturbed"
+    lost_s = []
+    for wait_s in Random(1).sample(range(1, 21), 20):
+        process = subprocess.Popen(swept(file, killed), stderr=subprocess.DEVNULL)
+        begin_s = begun_s(process, killed / "sweep_pieces" / ".lock")
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(float(wait_s))
+        files = [one.stat().st_mtime for one in killed.glob("sweep_pieces/pieces_*")]
+        if process.poll() is None:
+            lost_s.append(time.time() - max(begin_s, *files, 0.0))
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    assert max(lost_s) <= LONGEST_LOST_S
+    for out, options in ((killed, ()), (undisturbed, ("--workers", "2"))):
+        subprocess.run(swept(file, out, *options), check=True, capture_output=True)
+    assert (killed / "sweep.csv").read_bytes() == (undisturbed / "sweep.csv").read_bytes()
+
+
+def swept(study: Path, out: Path, *options: str) -> list[str]:
+    """Words of a sweep."""
+    words = ["sweep" if word == "optimise" else word for word in command(study, out, *options)]
+    return [*words, "--quiet"]
+
+
+def begun_s(process: subprocess.Popen[bytes], lock: Path) -> float:
+    """Wait until a process holds the lock of the store, or has ended; gives the time."""
+    while process.poll() is None:
+        with suppress(OSError, ValueError, KeyError):
+            if json.loads(lock.read_text())["process"] == process.pid:
+                break
+        time.sleep(0.02)
+    return time.time()
+
+
 def test_folder_of_another_study_is_refused(study: Path, tmp_path: Path) -> None:
-    (tmp_path / "search_chunks").mkdir()
-    (tmp_path / "search_chunks" / "plan.json").write_text("{}")
+    (tmp_path / "search_pieces").mkdir()
+    (tmp_path / "search_pieces" / "plan.json").write_text("{}")
     done = subprocess.run(command(study, tmp_path), capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert "holds designs of another study" in done.stderr

@@ -1,4 +1,4 @@
-"""Hostile links and special files in a folder of results, its chunks, the cache and a log.
+"""Hostile links and special files in a folder of results, its pieces, the cache and a log.
 
 Each case plants one of them and writes or reads. Nothing outside the folder is changed, created or
 removed; no pipe is waited for; what is refused is named with what to do.
@@ -26,7 +26,7 @@ from vibroacoustics.base.errors import StorageError
 from vibroacoustics.base.hashing import sha256
 from vibroacoustics.commands import messages, outputs
 from vibroacoustics.design.evaluation import Evaluation
-from vibroacoustics.design.store.chunks import opened_store
+from vibroacoustics.design.store.pieces import opened_store
 from vibroacoustics.pipeline.study import run as run_study
 from vibroacoustics.report.analysis import Analysis
 from vibroacoustics.report.blocks import Part, Pictures
@@ -125,10 +125,10 @@ def look(ground: Ground) -> None:
     command_here("doctor", ground.folder)
 
 
-def put_chunk(ground: Ground) -> None:
-    with opened_store(ground.folder / "chunks", {"study": "a"}) as store:
-        if store.get(0, DESIGNS) is None:
-            store.put(0, DESIGNS, Evaluation(DESIGNS, np.empty((1, 0)), ("",)))
+def put_piece(ground: Ground) -> None:
+    with opened_store(ground.folder / "pieces", {"study": "a"}) as store:
+        if DESIGNS not in store:
+            store.put(DESIGNS, Evaluation(DESIGNS, np.empty((1, 0)), ("",)))
 
 
 def use_cache(_: Ground) -> None:
@@ -242,11 +242,11 @@ CASES: Final = (
     Case("files.json", both(listing("old.csv", "files"), "old.csv", to_file), write_run, False),
     Case("files.json", both(listing("old.csv"), "old.csv", hard_link), write_run, False),
     Case("files.json", both(listing("old.csv"), "old.csv", pipe), write_run, False),
-    *cases("chunks", put_chunk, "to_folder to_folder_by_dots to_nothing pipe"),
-    *cases("chunks/plan.json", put_chunk, "to_file pipe"),
-    *cases("chunks/chunk_00000000.nc", put_chunk, "to_file to_nothing pipe", "hard_link"),
-    *cases("chunks/.lock", put_chunk, "to_file pipe", "hard_link"),
-    *cases("chunks/.writing", put_chunk, "to_folder"),
+    *cases("pieces", put_piece, "to_folder to_folder_by_dots to_nothing pipe"),
+    *cases("pieces/plan.json", put_piece, "to_file pipe"),
+    *cases("pieces/pieces_00000000.nc", put_piece, "to_file to_nothing pipe", "hard_link"),
+    *cases("pieces/.lock", put_piece, "to_file pipe", "hard_link"),
+    *cases("pieces/.writing", put_piece, "to_folder"),
     *cases("cache/limit_bytes", limit_cache, "to_file to_nothing pipe", "hard_link"),
     *cases("cache/limit_bytes", use_cache, "", "to_file pipe hard_link"),
     *cases("cache/ENTRY", use_cache, "to_file to_nothing pipe", "hard_link"),
@@ -265,7 +265,7 @@ CASES: Final = (
     *cases("figures", run, "to_folder"),
     *cases("results.nc", run, "to_nothing", "hard_link"),
     *cases(".lock", sweep, "to_file"),
-    *cases("sweep_chunks", sweep, "to_folder"),
+    *cases("sweep_pieces", sweep, "to_folder"),
 )
 
 
@@ -334,7 +334,7 @@ def test_there_are_forty_cases() -> None:
     assert len(CASES) >= 40
 
 
-@pytest.mark.parametrize("act", [write_run, put_chunk, use_cache, write_log])
+@pytest.mark.parametrize("act", [write_run, put_piece, use_cache, write_log])
 def test_the_folder_itself_may_be_a_link(
     act: Callable[[Ground], None], ground: Ground, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -342,7 +342,7 @@ def test_the_folder_itself_may_be_a_link(
     link.symlink_to(ground.folder)
     monkeypatch.setattr(cache, "folder", lambda: link / "cache")
     act(Ground(link, ground.outside))
-    made = {"write_run": "results.nc", "put_chunk": "chunks/plan.json", "write_log": "log.txt"}
+    made = {"write_run": "results.nc", "put_piece": "pieces/plan.json", "write_log": "log.txt"}
     assert (ground.folder / made.get(act.__name__, f"cache/{entry()}")).is_file()
 
 

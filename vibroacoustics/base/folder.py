@@ -8,11 +8,11 @@ for. The folder itself may be reached through links, as its user names it.
 import os
 import shutil
 import stat
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
-from typing import BinaryIO, Final
+from typing import BinaryIO, Final, TypeAlias
 
 from .errors import StorageError
 from .regular_file import opened
@@ -26,6 +26,8 @@ _KINDS: Final = {
     stat.S_IFDIR: "a folder",
     stat.S_IFREG: "a file",
 }
+Content: TypeAlias = bytes | Iterable[bytes]
+"""Content of a file, or parts of it in their order."""
 _FOLDER: Final = os.O_RDONLY | os.O_DIRECTORY | os.O_NONBLOCK
 
 
@@ -75,10 +77,15 @@ class Folder:
         with self.opened(name, maximum_bytes) as file:
             return file.read(maximum_bytes)
 
-    def write(self, name: str, content: bytes) -> None:
+    def write(self, name: str, content: Content) -> None:
         """Write a new file in the place of any other, and carry it to the disk.
 
         Folders on the way to it are made. Other hard links of an older file keep its content.
+
+        Parameters
+        ----------
+        name : of the file
+        content : all of it, or parts that are written one after another
 
         Raises
         ------
@@ -90,7 +97,7 @@ class Folder:
         with self._holding(name, make=True) as (folder, last):
             folder.remove(last)
             with open(last, "xb", opener=folder.open) as file:
-                file.write(content)
+                file.writelines([content] if isinstance(content, bytes) else content)
                 file.flush()
                 os.fsync(file.fileno())
 

@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from typing import Any
+from typing import Any, BinaryIO
 
 
 def canonical_json(value: Any) -> str:
@@ -13,3 +13,8 @@ def canonical_json(value: Any) -> str:
 def sha256(content: bytes) -> str:
     """SHA-256 of the content, in hexadecimal."""
     return hashlib.sha256(content).hexdigest()
+
+
+def file_sha256(file: BinaryIO) -> str:
+    """SHA-256 of the rest of an open file, in hexadecimal."""
+    return hashlib.file_digest(file, "sha256").hexdigest()  # type: ignore[arg-type]

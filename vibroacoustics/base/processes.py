@@ -4,9 +4,10 @@ Workers are `WorkerProcess`es: nothing listens, and they end with this process.
 """
 
 from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import closing
+from contextlib import closing, contextmanager
+from contextvars import ContextVar
 from multiprocessing import connection
-from typing import Any, Final, Generic, NoReturn, Self
+from typing import Any, Final, Generic, NoReturn, Self, TypeAlias
 
 from .errors import SolverError
 from .threads import processors
@@ -18,6 +19,11 @@ _FURTHER_IDLE_DEATHS: Final = 3
 """Workers, beyond the number of the pool, that may end without an item between two results."""
 _AHEAD: Final = 4
 """Items per worker that may be finished before the one whose result is due."""
+ParallelMap: TypeAlias = Callable[
+    [Callable[[Any], Any], Iterable[Any], Callable[[Any, str], Any]], Iterator[Any]
+]
+"""Takes a function, items and the result of an item that is lost; `ProcessPool.in_order` is one."""
+_PARALLEL_MAP: Final = ContextVar[ParallelMap | None]("_PARALLEL_MAP", default=None)
 
 
 class ProcessPool:
@@ -209,20 +215,59 @@ class _Tasks(Generic[Item]):
         return self._ahead is not None and self._taken - first >= self._ahead
 
 
+@contextmanager
+def distributing(parallel_map: ParallelMap) -> Iterator[None]:
+    """Let workers of another kind apply what `distributed` is given.
+
+    Parameters
+    ----------
+    parallel_map : takes a function, items and the result of an item that is lost
+    """
+    before = _PARALLEL_MAP.set(parallel_map)
+    try:
+        yield
+    finally:
+        _PARALLEL_MAP.reset(before)
+
+
+def distributed(
+    function: Callable[[Item], Result],
+    items: Iterable[Item],
+    otherwise: Callable[[Callable[[Item], Result], Iterable[Item]], Iterable[Result]],
+) -> Iterator[Result]:
+    """Apply a function by the workers of `distributing`; the results are in the order of the items.
+
+    Parameters
+    ----------
+    function : of any kind; what it changes may be lost
+    items : what pickle takes, as the results are
+    otherwise : applies the function where there are no such workers
+    """
+    parallel_map = _PARALLEL_MAP.get()
+    if parallel_map is None:
+        yield from otherwise(function, items)
+    else:
+        yield from parallel_map(function, items, _refuse)
+
+
 def side_by_side(
     function: Callable[[Item], Result],
     items: Iterable[Item],
     otherwise: Callable[[Callable[[Item], Result], Iterable[Item]], Iterable[Result]] = map,
 ) -> Iterator[Result]:
-    """Apply a function in copies of this process; the results are in the order of the items.
+    """Apply a function in copies of this process, or see `distributed`; results are in order.
 
     What the function changes in a copy is lost; results are what pickle takes.
     """
-    if processors() == 1 or not can_fork():
-        yield from otherwise(function, items)
-        return
-    with ProcessPool(processors(), inherited=function) as pool:
-        yield from pool.in_order(function, items)
+
+    def here(function: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[Result]:
+        if processors() == 1 or not can_fork():
+            yield from otherwise(function, items)
+            return
+        with ProcessPool(processors(), inherited=function) as pool:
+            yield from pool.in_order(function, items)
+
+    return distributed(function, items, here)
 
 
 def _refuse(_: object, reason: str) -> NoReturn:

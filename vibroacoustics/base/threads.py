@@ -1,12 +1,13 @@
 """Work in threads, as many as this process has processors."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
 from .linear_algebra import one_thread_of_linear_algebra
 
+Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
@@ -22,6 +23,14 @@ def in_threads(tasks: Sequence[Callable[[], Result]], workers: int | None = None
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
+
+
+def mapped_in_threads(
+    function: Callable[[Item], Result], items: Iterable[Item]
+) -> Iterator[Result]:
+    """Apply a function in threads; the results are in the order of the items."""
+    with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as pool:
+        yield from pool.map(function, items)
 
 
 def processors() -> int:

@@ -1,8 +1,8 @@
 """Commands for designs. Heavy imports wait until they are needed."""
 
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
@@ -14,57 +14,22 @@ from . import messages
 from .command import command
 from .options import Plugins, Printing, StudyOut, load_plugins
 from .outcome import Outcome
+from .workers import Workers
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from ..design.evaluation import Evaluate
+    from ..design.evaluation import Stream
     from ..design.problem import Problem
-    from ..design.workers.spread import ParallelMap
     from ..report.analysis import Analysis
-
-    Opener = Callable[[], AbstractContextManager[ParallelMap]]
 
 SWEEP_NAME: Final = "sweep.nc"
 TABLE_NAME: Final = "sweep.csv"
 DESIGNS_NAME: Final = "designs.nc"
-SWEEP_CHUNKS: Final = "sweep_chunks"
-SEARCH_CHUNKS: Final = "search_chunks"
+SWEEP_PIECES: Final = "sweep_pieces"
+SEARCH_PIECES: Final = "search_pieces"
 
 StudyFile = Annotated[Path, "STUDY: Study file, .toml, with a table `design`."]
-
-
-@dataclass(frozen=True)
-class Workers:
-    """Options of local processes and of a scheduler, as the command line has them."""
-
-    workers: Annotated[
-        int, typer.Option(min=0, max=1000, help="Local processes that compute; 0: this one alone.")
-    ] = 0
-    scheduler: Annotated[
-        str | None, "Address, tls://HOST:PORT, of a running scheduler of dask.distributed."
-    ] = None
-    tls_ca: Annotated[Path | None, "Certificate of the scheduler's own authority, .pem."] = None
-    tls_cert: Annotated[Path | None, "Your certificate, signed by this authority, .pem."] = None
-    tls_key: Annotated[Path | None, "Private key of your certificate, .pem."] = None
-    insecure: Annotated[
-        bool, "Use a scheduler without TLS: whoever reaches it may run code as its users."
-    ] = False
-
-    def opener(self) -> "Opener | None":
-        """Return what opens the workers; None where this process computes."""
-        from ..base.errors import ParameterError
-        from ..design.workers.scheduler import SchedulerAccess, opened_scheduler
-        from ..design.workers.spread import local_workers
-
-        tls = (self.tls_ca, self.tls_cert, self.tls_key, self.insecure)
-        if self.scheduler is not None:
-            if self.workers:
-                raise ParameterError("--workers contradicts --scheduler: remove one of both")
-            return partial(opened_scheduler, SchedulerAccess(self.scheduler, *tls))
-        if any(tls):
-            raise ParameterError("--tls-ca, --tls-cert, --tls-key, --insecure: need --scheduler")
-        return partial(local_workers, self.workers) if self.workers else None
 
 
 @command("sweep", "Designs", "pipelines/copeland_designs.toml --workers 4")
@@ -86,22 +51,25 @@ def sweep_command(
     """
     from .. import report
     from ..design.dataset import table_csv
+    from ..design.evaluation import in_pieces
     from ..design.explaining import explained
-    from ..design.sweep import as_searched, prepare, swept
+    from ..design.sweep import as_dataset, prepare, sampling_words, swept
     from . import outputs
 
     prints = printing.printer()
-    opened = workers.opener()
+    workers.opener(plugin)  # refuses before anything is computed
     problem, folder = _problem(study_file, out, plugin)
-    prepared = prepare(problem, 3600.0 * longest)
+    prepared = prepare(problem, 3600.0 * longest, max(workers.workers, 1))
     messages.inform(f"plan: {prepared.plan.text}")
-    with _evaluating(problem, study_file, folder / SWEEP_CHUNKS, opened, plugin) as evaluate:
-        results = swept(prepared, progress, evaluate)
-        searched = as_searched(prepared, results)
-        search = explained(problem, searched, evaluate) if searched.any_allowed else None
-    failed = int((results["failure"] > 0).sum())
-    if failed:
-        messages.warn([f"{failed} designs failed; {TABLE_NAME} gives the reasons"])
+    with _evaluating(problem, study_file, folder / SWEEP_PIECES, workers, plugin) as stream:
+        values = swept(prepared, progress, stream)
+        search, searched = None, values.searched(problem.design.search.best)
+        if searched.any_allowed:
+            attributes = values.attributes(sampling_words(problem))
+            search = explained(problem, searched, in_pieces(problem, stream), attributes)
+    if values.failed:
+        messages.warn([f"{values.failed} designs failed; {TABLE_NAME} gives the reasons"])
+    results = as_dataset(prepared, values)
     table = {TABLE_NAME: table_csv(results)}
     if search is None:
         messages.warn(["no design meets the constraints: there is no report of the best"])
@@ -126,14 +94,15 @@ def optimise_command(
 
     Ended at any moment, the same command goes on where it was.
     """
+    from ..design.evaluation import in_pieces
     from ..design.optimising import searched_designs
     from . import outputs
 
     prints = printing.printer()
-    opened = workers.opener()
+    workers.opener(plugin)  # refuses before anything is computed
     problem, folder = _problem(study_file, out, plugin)
-    with _evaluating(problem, study_file, folder / SEARCH_CHUNKS, opened, plugin) as evaluate:
-        search = searched_designs(problem, evaluate, progress)
+    with _evaluating(problem, study_file, folder / SEARCH_PIECES, workers, plugin) as stream:
+        search = searched_designs(problem, in_pieces(problem, stream), progress)
     analysis = _analysis(problem, search, study_file, folder)
     return outputs.Target(folder, prints).outcome(analysis, search, DESIGNS_NAME)
 
@@ -143,16 +112,17 @@ def _problem(
 ) -> "tuple[Problem, Path]":
     """Return the problem of the study, and the folder of its results, which can be written."""
     from ..design.problem import Problem
-    from ..design.store.chunks import PLAN_NAME
+    from ..design.store.pieces import PLAN_NAME
+    from ..stages.radiation import KeptRadiation
     from ..study import loading
     from . import outputs
 
     load_plugins(plugin)
     folder = out or Path("reports") / study_file.stem
     study = loading.load_study(study_file)
-    chunks = [f"{name}/{PLAN_NAME}" for name in (SWEEP_CHUNKS, SEARCH_CHUNKS)]
+    chunks = [f"{name}/{PLAN_NAME}" for name in (SWEEP_PIECES, SEARCH_PIECES)]
     outputs.check_folder(folder, (SWEEP_NAME, DESIGNS_NAME, *chunks))
-    return Problem(study), folder
+    return Problem(study, KeptRadiation()), folder
 
 
 def _analysis(
@@ -174,21 +144,24 @@ def _evaluating(
     problem: "Problem",
     study_file: Path,
     store_folder: Path,
-    opened: "Opener | None",
+    workers: Workers,
     plugins: list[Path] | None,
-) -> "Iterator[Evaluate]":
-    """Evaluate designs: looked up in the store, else computed here or by workers."""
-    from ..design.evaluation import evaluating
-    from ..design.store.chunks import Stored, opened_store
-    from ..design.workers.spread import in_pieces, spread
+) -> "Iterator[Stream]":
+    """Evaluate pieces of designs: from the store, else here or by workers."""
+    from ..design.evaluation import one_by_one
+    from ..design.store.pieces import opened_store, stored
+    from ..design.workers.spread import spread
     from ..design.workers.study_task import evaluate_task, study_plan, study_task
 
-    plugin_files, piece = plugins or [], problem.piece
+    plugin_files, opened = plugins or [], workers.opener(plugins)
     with opened_store(store_folder, study_plan(problem.study, plugin_files)) as store:
         if opened is None:
-            yield Stored(in_pieces(evaluating(problem), piece), store)
+            yield stored(one_by_one(problem), store)
             return
         counts = len(problem.design.objectives), len(problem.design.constraints)
         task = study_task(study_file, problem.study, plugin_files)
+        # Local workers have the cache on disk; others get the transfer vectors with their work.
+        far = partial(evaluate_task, radiation=problem.radiation)
+        builder = evaluate_task if workers.scheduler is None else far
         with opened() as parallel_map:
-            yield Stored(spread(parallel_map, evaluate_task, task, piece, counts), store)
+            yield stored(spread(parallel_map, builder, task, counts), store)

@@ -10,7 +10,7 @@ import xarray as xr
 
 from .. import report
 from ..base.errors import ParameterError, SchemaError, StorageError
-from ..base.folder import Folder, opened_folder
+from ..base.folder import Content, Folder, opened_folder
 from ..report.analysis import Analysis
 from ..results import manifest, storage
 from ..results.complete import check_run
@@ -305,11 +305,11 @@ def written_files(
     }
 
 
-def _files(analysis: Analysis, digest: str, printer: Printer | None) -> dict[str, bytes]:
+def _files(analysis: Analysis, digest: str, printer: Printer | None) -> dict[str, Content]:
     files = analysis.files(digest)
     return {**files, **(printer.pages(files) if printer else {})}
 
 
-def _stage(files: Mapping[str, bytes], staged: Folder) -> None:
+def _stage(files: Mapping[str, Content], staged: Folder) -> None:
     for name, content in files.items():
         write(staged, name, content)

@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import Final, NamedTuple
 
 from ..base.errors import ParameterError, StorageError
+from ..base.folder import Content
 
 BROWSERS: Final = (
     "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome",
@@ -31,7 +32,7 @@ class Printer(NamedTuple):
     paper: str
     brief: bool = False
 
-    def pages(self, files: Mapping[str, bytes]) -> dict[str, bytes]:
+    def pages(self, files: Mapping[str, Content]) -> dict[str, bytes]:
         """A PDF for each HTML page among files, named like it.
 
         Raises
@@ -42,7 +43,7 @@ class Printer(NamedTuple):
         return {
             f"{name.removesuffix('.html')}.pdf": self.printed(content)
             for name, content in files.items()
-            if name.endswith(".html")
+            if name.endswith(".html") and isinstance(content, bytes)
         }
 
     def printed(self, page: bytes) -> bytes:

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -23,6 +24,7 @@ from .options import (
     used_cache,
 )
 from .outcome import Outcome, columns
+from .workers import Cluster
 
 if TYPE_CHECKING:
     from ..study.study import Study
@@ -71,6 +73,7 @@ def run_command(
         list[str] | None, "Name of a source of the studies to omit; may be repeated."
     ] = None,
     *,
+    cluster: Cluster,
     printing: Printing,
 ) -> Outcome:
     """Run studies and write results.nc, report.html, tables and figures of each."""
@@ -84,7 +87,8 @@ def run_command(
         for number, (study, folder) in enumerate(studies):
             if len(studies) > 1:
                 progress("all studies", number, len(studies))
-            outcomes[folder.name] = _run(study, folder, progress, prints)
+            elsewhere = cluster.distributing(plugin)
+            outcomes[folder.name] = _run(study, folder, progress, prints, elsewhere)
         if len(studies) > 1:
             progress("all studies", len(studies), len(studies))
     return summary(outcomes)
@@ -114,8 +118,14 @@ def _studies(
     return studies
 
 
-def _run(study: "Study", folder: Path, progress: Progress, prints: "Printer | None") -> Outcome:
-    """Run one study and write its files."""
+def _run(
+    study: "Study",
+    folder: Path,
+    progress: Progress,
+    prints: "Printer | None",
+    elsewhere: AbstractContextManager[None],
+) -> Outcome:
+    """Run one study, parts of it by the workers of a scheduler, and write its files."""
     from .. import pipeline
     from . import outputs
     from .summary import outcome
@@ -125,8 +135,10 @@ def _run(study: "Study", folder: Path, progress: Progress, prints: "Printer | No
     if study.machines:
         from .several_machines import run_and_write
 
-        return run_and_write(study, folder, progress, prints)
-    results = pipeline.run(study, progress)
+        with elsewhere:
+            return run_and_write(study, folder, progress, prints)
+    with elsewhere:
+        results = pipeline.run(study, progress)
     with stage(progress, "report"):
         analysis, files = outputs.write_study(results, folder, prints)
     messages.warn(outputs.older_files(folder))
@@ -199,6 +211,7 @@ def radiation_command(
     plugin: Plugins = None,
     no_cache: NoCache = False,
     *,
+    cluster: Cluster,
     printing: Printing,
 ) -> Outcome:
     """Compute the housing's radiation alone: transfer vectors, map, directivity, sound power."""
@@ -208,7 +221,7 @@ def radiation_command(
     load_plugins(plugin)
     study = load_study(study_file)
     target = printing.target(out or Path("reports") / study_file.stem)
-    with used_cache(no_cache):
+    with used_cache(no_cache), cluster.distributing(plugin):
         radiated = pipeline.radiate(study, progress)
     return target.outcome(report.analysis_of_radiation(radiated), radiated, "transfer_vectors.nc")
 

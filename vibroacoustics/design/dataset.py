@@ -1,7 +1,8 @@
 """Designs and what is seen of them as a labelled dataset, and as a table."""
 
 import json
-from typing import Any
+from collections.abc import Iterator
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -10,40 +11,45 @@ from ..base.arrays import Array
 from ..base.csv_text import csv_bytes
 from ..base.units import split_key
 from ..results.provenance import attributes
-from .problem import Judged, Problem
+from .listing import BLOCK, Listing
+from .problem import Problem
+from .sweep_values import SweepValues
 from .variable import Variable
 
 DESIGN = "design"
+DIGITS: Final = "{:.10g}"
+"""Of a number in the table of a sweep; the dataset has all of them."""
 
 
-def labelled(problem: Problem, designs: Array, judged: Judged) -> xr.Dataset:
-    """Over the variables of a grid, else over `design`.
+def labelled(problem: Problem, listing: Listing, values: SweepValues) -> xr.Dataset:
+    """Label the values of a sweep over the variables of a grid, else over `design`.
 
     Parameters
     ----------
     problem : of the study
-    designs : shape (design, variable), SI
-    judged : of them
+    listing : its designs
+    values : of them
     """
     variables = problem.space.variables
     names = short_names([variable.key for variable in variables])
     if problem.design.sampling == "grid":
         dims = tuple(names)
-        values = problem.space.axes()
-        coords = {n: _coordinate(n, v, x) for n, v, x in zip(names, variables, values, strict=True)}
-        shape = tuple(one.size for one in values)
+        axes = problem.space.axes()
+        coords = {n: _coordinate(n, v, x) for n, v, x in zip(names, variables, axes, strict=True)}
+        shape = tuple(axis.size for axis in axes)
     else:
-        dims, shape = (DESIGN,), (len(designs),)
-        columns = zip(names, variables, designs.T, strict=True)
+        dims, shape = (DESIGN,), (listing.count,)
+        columns = zip(names, variables, listing.designs(np.arange(listing.count)).T, strict=True)
         coords = {name: _coordinate(DESIGN, *column) for name, *column in columns}
     arrays: dict[str, Any] = {
-        name: (dims, judged.values[:, column].reshape(shape), _of_wanted(problem, name))
-        for column, name in enumerate(problem.names)
+        name: (dims, row.reshape(shape), _of_wanted(problem, name))
+        for name, row in zip(problem.names, values.values, strict=True)
     }
-    kept = (judged.constraints <= 0.0).all(axis=1) & np.isfinite(judged.values).all(axis=1)
     words = {"long_name": "whether a design keeps to all constraints", "units": "1"}
-    arrays["feasible"] = (dims, kept.astype(np.int8).reshape(shape), words)
-    arrays["failure"] = (dims, *_failures(judged, shape))
+    arrays["feasible"] = (dims, values.feasible.reshape(shape), words)
+    words = {"long_name": "number of the reason why a design failed, 0 where it did not",
+             "units": "1", "reasons": json.dumps(values.reasons)}  # fmt: skip
+    arrays["failure"] = (dims, values.failure.reshape(shape), words)
     results = xr.Dataset(arrays, coords)
     results.attrs = {**attributes(problem.study), "title": f"Designs of {problem.study.title}"}
     return results
@@ -84,26 +90,35 @@ def _of_wanted(problem: Problem, name: str) -> dict[str, Any]:
     }
 
 
-def _failures(judged: Judged, shape: tuple[int, ...]) -> tuple[Any, dict[str, str]]:
-    """Number of the reason by design, and the reasons."""
-    reasons = list(dict.fromkeys(judged.failed.values()))
-    number = np.zeros(len(judged.values), dtype=np.int32)
-    for row, reason in judged.failed.items():
-        number[row] = 1 + reasons.index(reason)
-    words = {"long_name": "number of the reason why a design failed, 0 where it did not",
-             "units": "1", "reasons": json.dumps(reasons)}  # fmt: skip
-    return number.reshape(shape), words
-
-
-def table_csv(results: xr.Dataset) -> bytes:
-    """Every design, a line each: variables, objectives and constraints, why it failed."""
+def table_csv(results: xr.Dataset) -> Iterator[bytes]:
+    """Give a table of all designs block by block: variables, wanted values, why a design failed."""
+    failure = results["failure"]
     names = [str(name) for name in results.data_vars if name != "failure"]
-    dims = results["failure"].dims
     axes = [str(name) for name in results.coords]
-    columns = [
-        np.ravel(results[name].broadcast_like(results["failure"]).transpose(*dims)) for name in axes
-    ]
-    columns += [np.ravel(results[name]) for name in names]
-    reasons = ["", *json.loads(results["failure"].attrs["reasons"])]
-    columns.append(np.array(reasons)[np.ravel(results["failure"])])
-    return csv_bytes([*axes, *names, "failure"], zip(*(c.tolist() for c in columns), strict=True))
+    yield csv_bytes([*axes, *names, "failure"], [])
+    reasons = np.array(list(map(_cell, ["", *json.loads(failure.attrs["reasons"])])), dtype=object)
+    is_grid = all(name in failure.dims for name in axes)
+    flat = {name: results[name].values.reshape(-1) for name in (*names, "failure")}
+    for first in range(0, failure.size, BLOCK):
+        numbers = np.arange(first, min(first + BLOCK, failure.size))
+        if is_grid:
+            indices = dict(zip(failure.dims, np.unravel_index(numbers, failure.shape), strict=True))
+        else:
+            indices = dict.fromkeys(failure.dims, numbers)
+        columns = [_cells(results[name].values[indices[results[name].dims[0]]]) for name in axes]
+        columns += [_cells(flat[name][numbers]) for name in names]
+        columns.append(reasons[flat["failure"][numbers]].tolist())
+        yield ("\n".join(map(",".join, zip(*columns, strict=True))) + "\n").encode()
+
+
+def _cells(values: Array) -> list[str]:
+    """Cells of a column; words are written once each."""
+    if values.dtype.kind != "U":
+        return list(map(DIGITS.format, values.tolist()))
+    words = {word: _cell(word) for word in np.unique(values).tolist()}
+    return [words[word] for word in values.tolist()]
+
+
+def _cell(value: str | float) -> str:
+    """A cell of a table as text."""
+    return csv_bytes([], [[value, ""]]).decode()[1:-2]

@@ -1,12 +1,14 @@
 """What the evaluation of designs takes and gives: arrays, so that any search can ask for it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.arrays import Array
+from ..base.arrays import Array, IndexArray
+from ..base.linear_algebra import one_thread_of_linear_algebra
 
 if TYPE_CHECKING:
     from .problem import Problem
@@ -27,6 +29,11 @@ class Evaluation:
     constraints: Array
     failures: tuple[str, ...]
 
+    def some(self, rows: IndexArray) -> "Evaluation":
+        """Return the evaluation of some designs."""
+        failures = tuple(self.failures[row] for row in rows.tolist())
+        return Evaluation(self.objectives[rows], self.constraints[rows], failures)
+
     @property
     def violation(self) -> Array:
         """Sum of what constraints are exceeded by, shape (design,); infinite where it failed."""
@@ -36,6 +43,8 @@ class Evaluation:
 
 Evaluate = Callable[[Array], Evaluation]
 """Takes designs, shape (design, variable)."""
+Stream = Callable[[Iterable[Array]], Iterator[Evaluation]]
+"""Takes pieces of designs; gives the evaluation of each, in their order."""
 
 
 def joined(parts: list[Evaluation]) -> Evaluation:
@@ -51,8 +60,19 @@ def evaluating(problem: "Problem") -> Evaluate:
     """The evaluation of designs in SI in this process."""
 
     def evaluate(designs: Array) -> Evaluation:
-        judged = problem.evaluate(designs)
+        with one_thread_of_linear_algebra():
+            judged = problem.evaluate(designs)
         reasons = tuple(judged.failed.get(row, "") for row in range(len(designs)))
         return Evaluation(judged.objectives, judged.constraints, reasons)
 
     return evaluate
+
+
+def one_by_one(problem: "Problem") -> Stream:
+    """Return what evaluates pieces in this process, one after another."""
+    return partial(map, evaluating(problem))
+
+
+def in_pieces(problem: "Problem", stream: Stream) -> Evaluate:
+    """Return the evaluation of designs in SI by what evaluates pieces."""
+    return lambda designs: joined(list(stream(problem.split(designs))))

@@ -1,14 +1,16 @@
 """The best few of many designs, what they promise, and what decides."""
 
-from typing import Final
+from collections.abc import Mapping
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, IndexArray
-from .evaluation import Evaluate
+from .evaluation import Evaluate, Evaluation
 from .problem import Problem
 from .promise import promise
+from .search.front import Mask
 from .search.problem import Searched
 from .search_dataset import searched_dataset, with_best, with_shares, with_total_change
 
@@ -16,8 +18,20 @@ SPREAD_DESIGNS: Final = 1024
 """Designs spread evenly, which show what decides."""
 
 
-def explained(problem: Problem, searched: Searched, evaluate: Evaluate) -> xr.Dataset:
-    """All designs with the best few of them, told by fresh pieces, and what decides; in SI.
+def explained(
+    problem: Problem,
+    searched: Searched,
+    evaluate: Evaluate,
+    attributes: Mapping[str, Any] | None = None,
+) -> xr.Dataset:
+    """Label designs with the best few of them, estimated by fresh pieces, and what decides; in SI.
+
+    Parameters
+    ----------
+    problem : that was searched
+    searched : designs with their evaluation
+    evaluate : takes further designs
+    attributes : of the dataset, in place of those of a search
 
     Raises
     ------
@@ -26,11 +40,10 @@ def explained(problem: Problem, searched: Searched, evaluate: Evaluate) -> xr.Da
     """
     _ = searched.best
     settings = problem.design.search
-    search = searched_dataset(problem, searched)
+    search = searched_dataset(problem, searched).assign_attrs(attributes or {})
     rows = _best_rows(problem, searched, search, settings.best)
     promises = [promise(problem, searched.designs[row], settings.fresh_samples) for row in rows]
-    spread = _spread(problem, searched)
-    evaluation = evaluate(spread)
+    spread, evaluation = _spread(problem, searched, evaluate)
     allowed = np.concatenate([searched.designs[rows], spread[evaluation.violation <= 0.0]])
     search = with_total_change(search, problem, _largest_change(problem, allowed))
     return with_shares(with_best(search, rows, promises), problem, spread, evaluation)
@@ -55,11 +68,13 @@ def _best_rows(problem: Problem, searched: Searched, search: xr.Dataset, count: 
     return np.asarray(front[best_of_front(evaluation.objectives[front], count)])
 
 
-def _spread(problem: Problem, searched: Searched) -> Array:
+def _spread(problem: Problem, searched: Searched, evaluate: Evaluate) -> tuple[Array, Evaluation]:
     """Designs that fill the space; where each takes a run, those of the first generation."""
     if problem.is_linear:
-        return problem.space.sample("sobol", SPREAD_DESIGNS)
-    return np.asarray(searched.designs[searched.generation == 0])
+        designs = problem.space.sample("sobol", SPREAD_DESIGNS)
+        return designs, evaluate(designs)
+    rows = np.flatnonzero(searched.generation == 0)
+    return searched.designs[rows], searched.evaluation.some(rows)
 
 
 _APART: Final = 0.05
@@ -76,14 +91,26 @@ def best_by_one(designs: Array, limits: Array, objective: Array, count: int) -> 
     objective : the less the better; infinite for designs that do not count
     count : at most
     """
-    span = np.maximum(np.ptp(limits, axis=1), np.finfo(float).tiny)
     chosen: list[int] = []
     left = np.isfinite(objective)
     while left.any() and len(chosen) < count:
         row = int(np.argmin(np.where(left, objective, np.inf)))
         chosen.append(row)
-        left &= (np.abs(designs - designs[row]) > _APART * span).any(axis=1)
+        left &= apart(designs, designs[row], limits)
     return np.array(chosen, dtype=np.intp)
+
+
+def apart(designs: Array, design: Array, limits: Array) -> Mask:
+    """Return whether designs differ from one by a share of the range of a variable, (design,).
+
+    Parameters
+    ----------
+    designs : shape (design, variable)
+    design : shape (variable,) or (1, variable)
+    limits : of the variables, shape (variable, 2)
+    """
+    span = np.maximum(np.ptp(limits, axis=1), np.finfo(float).tiny)
+    return np.asarray((np.abs(designs - design) > _APART * span).any(axis=1))
 
 
 def best_of_front(objectives: Array, count: int) -> IndexArray:

@@ -1,24 +1,48 @@
-"""What a sweep will take, before it starts."""
+"""What a sweep will take, before it starts: time, memory and disk."""
 
 import time
+import zlib
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
+import psutil
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..results.size import MOST_BYTES
+from .dataset import DIGITS
+from .engine.machine_sample import KEPT
+from .evaluation import Evaluation, evaluating, joined
+from .explaining import SPREAD_DESIGNS
+from .listing import BLOCK, Listing
 from .problem import Problem
 from .space import OPTION
+from .sweep_values import MOST_SHOWN
 
 LONGEST_S: Final = 12 * 3600.0
 """That a sweep takes unless more is allowed."""
-MOST_TRIED: Final = 4096
-"""Pieces whose time tells that of all."""
-TRIED_RUNS: Final = 4
-CELL_BYTES: Final = 20
-"""Of a number in a table."""
+_STARTS, _CONSECUTIVE = 3, 4
+"""Numbers of pieces from which some are timed, and how many that follow each other."""
+_TRIED_S: Final = 2.0
+"""Processor time after which no further piece is timed there."""
+_WRITTEN: Final = 2_000
+"""Designs that are written to see how large they are."""
+_FURTHER_BYTES: Final = 5.0
+"""Of a row of the table: whether a design is allowed, and ends of cells."""
+_REPORT_S, _SHOWN_S = 0.3, 5e-6
+"""Processor time of a report, and of each design that it shows."""
+_SELECTED_S, _SORTED_S = 1.0, 3e-7
+"""Processor time of the selection of designs for a report, and of each of very many designs."""
+_LABELLED_S: Final = 3e-7
+"""Processor time of the value of a variable in a sample."""
+_REPORT_BYTES: Final = 230_000
+_REPORT_ROW: Final = 1.1
+"""Row of the report's table of designs over that of the sweep's table."""
+_REPORT_MEMORY_BYTES: Final = 60e6
+_BLOCK_BYTES: Final = 100e6
+"""Memory of a block of designs in work, and of the pieces of a file."""
 
 
 @dataclass(frozen=True)
@@ -30,8 +54,8 @@ class Plan:
     designs, pieces : number of them; a piece is a design with a sample of its tolerances
     speeds : number of them
     seconds : expected
-    result_bytes : in memory
-    table_bytes : of the CSV
+    memory_bytes : expected at the peak, in this process
+    disk_bytes : of all files
     runs : variables of which every value takes runs of the pipeline's stages, with the reason
     """
 
@@ -39,8 +63,8 @@ class Plan:
     pieces: int
     speeds: int
     seconds: float
-    result_bytes: int
-    table_bytes: int
+    memory_bytes: float
+    disk_bytes: float
     runs: dict[str, str]
 
     @property
@@ -49,62 +73,120 @@ class Plan:
         of_runs = f"; by runs: {', '.join(self.runs)}" if self.runs else ""
         return (
             f"{self.designs} designs, {self.pieces} pieces at {self.speeds} speeds: about "
-            f"{duration(self.seconds)}, result {self.result_bytes / 1e6:.3g} MB, table "
-            f"{self.table_bytes / 1e6:.3g} MB{of_runs}"
+            f"{duration(self.seconds)}, {self.memory_bytes / 1e6:.3g} MB of memory, "
+            f"{self.disk_bytes / 1e6:.3g} MB on disk{of_runs}"
         )
 
 
+class _Tried(NamedTuple):
+    """Pieces that were timed.
+
+    Attributes
+    ----------
+    designs : shape (design, variable), SI
+    evaluation : of them
+    pieces : number of them
+    seconds : processor time of all of them
+    share : of the work of the sweep
+    kept_bytes : memory that results of runs keep of each
+    """
+
+    designs: Array
+    evaluation: Evaluation
+    pieces: int
+    seconds: float
+    share: float
+    kept_bytes: float
+
+
+class _Written(NamedTuple):
+    """What a design takes in files: time, s, and bytes of the table and of compressed values."""
+
+    seconds: float
+    row_bytes: float
+    value_bytes: float
+
+
 def check_size(problem: Problem, count: int) -> None:
-    """Refuse a sweep whose result is too large.
+    """Refuse a sweep that takes more memory than a result may, or than is available.
 
     Raises
     ------
     ParameterError
-        It would take more than 2 GiB.
+        Its result takes more than 2 GiB, or all copies more than the available memory.
     """
-    size = result_bytes(problem, count)
-    if size > MOST_BYTES:
-        raise ParameterError(
-            f"{problem.study.source_file}: design: the result of {count} designs takes "
-            f"{size / 2**30:.1f} GiB; allowed 2 GiB: take fewer points, samples or objectives"
-        )
+    result, needed = _result_bytes(problem, count), memory_bytes(problem, count)
+    available = psutil.virtual_memory().available
+    for what, size, limit in (
+        ("result", result, MOST_BYTES),
+        ("evaluation", needed - _memory_bytes(), available),
+    ):
+        if size > limit:
+            raise ParameterError(
+                f"{problem.study.source_file}: design: the {what} of {count} designs takes "
+                f"{size / 2**30:.1f} GiB; allowed {limit / 2**30:.3g} GiB: take fewer points, "
+                "samples or objectives"
+            )
 
 
-def result_bytes(problem: Problem, count: int) -> int:
-    """Bytes in memory of a sweep's result, twice, as it is put together."""
-    return 16 * count * (len(problem.space.variables) + len(problem.wanted) + 2)
+def _result_bytes(problem: Problem, count: int) -> int:
+    """Bytes of the values of all designs in memory; those of a sample with their variables."""
+    variables = 0 if problem.design.sampling == "grid" else len(problem.space.variables)
+    return count * (8 * len(problem.wanted) + 5 + 8 * variables)
 
 
-def planned(problem: Problem, designs: Array, longest_s: float = LONGEST_S) -> Plan:
-    """What a sweep will take, known from some of its designs.
+def memory_bytes(problem: Problem, count: int) -> float:
+    """Memory of this process at the peak of a sweep, with all copies.
+
+    A sample is copied as its variables are labelled; tables are written block by block.
+    """
+    variables = 0 if problem.design.sampling == "grid" else len(problem.space.variables)
+    copies = 8 * count * variables
+    return _memory_bytes() + _work_bytes(count) + _result_bytes(problem, count) + copies
+
+
+def _work_bytes(count: int) -> float:
+    """Memory of blocks in work and of the report: less where there are few designs."""
+    return _REPORT_MEMORY_BYTES + _BLOCK_BYTES * min(count / BLOCK, 1.0)
+
+
+def planned(
+    problem: Problem, listing: Listing, longest_s: float = LONGEST_S, workers: int = 1
+) -> Plan:
+    """Plan a sweep from some of its pieces.
 
     Parameters
     ----------
     problem : of the study
-    designs : all of them, shape (design, variable)
-    longest_s : refused above
+    listing : its designs
+    longest_s : longest time that it may take
+    workers : processes that evaluate
 
     Raises
     ------
     ParameterError
         It takes longer.
     """
-    count, samples = len(designs), problem.samples()
+    count, samples = listing.count, problem.samples()
     routes = [problem.engine.routes(option) for option in problem.space.options]
     runs = {key: r.reason for each in routes for key, r in each.items() if not r.linear}
     runs.pop(OPTION, None)
-    if runs:
-        seconds = _run_seconds(problem, designs) * _number_of_runs(problem, designs, list(runs))
-    else:
-        seconds = _seconds(problem, designs, samples)
-    columns = len(problem.space.variables) + len(problem.wanted) + 2
+    tried = _tried(problem, listing)
+    written = _written(problem, tried)
+    of_all, pieces = tried.seconds / tried.share, tried.pieces / tried.share
+    repeated = tried.share if runs and workers == 1 else 0.0  # results of runs are kept
+    seconds = of_all * ((1.0 - repeated) / workers + _further_share(problem, count))
+    seconds += count * written.seconds + _report_s(problem, count)
+    rows = count + _REPORT_ROW * min(count, MOST_SHOWN)
+    disk = rows * written.row_bytes + count * written.value_bytes + _REPORT_BYTES
+    growth = tried.kept_bytes * max(min(pieces, KEPT) - tried.pieces, 0.0)
     plan = Plan(
         count,
         count * problem.weight(samples).size,
         len(problem.study.operation.speed_rpm),
         seconds,
-        result_bytes(problem, count),
-        CELL_BYTES * columns * count,
+        memory_bytes(problem, count) + growth,
+        disk,
         runs,
     )
     if seconds > longest_s:
@@ -114,34 +196,79 @@ def planned(problem: Problem, designs: Array, longest_s: float = LONGEST_S) -> P
     return plan
 
 
-def _seconds(problem: Problem, designs: Array, samples: Array) -> float:
-    """Of all designs by linear algebra, from those of some."""
-    tried = max(MOST_TRIED // len(samples), 1)
-    rows = np.linspace(0, len(designs) - 1, min(tried, len(designs))).astype(int)
-    problem.evaluate(designs[rows[:1]], samples[:1])  # what is made once
-    begin = time.perf_counter()
-    problem.evaluate(designs[rows], samples)
-    return (time.perf_counter() - begin) * len(designs) / len(rows)
+def _report_s(problem: Problem, count: int) -> float:
+    """Processor time of the report and its tables."""
+    seconds = _REPORT_S + _SHOWN_S * min(count, MOST_SHOWN)
+    if count > MOST_SHOWN:
+        seconds += _SELECTED_S + _SORTED_S * count
+    if problem.design.sampling != "grid":
+        seconds += _LABELLED_S * count * len(problem.space.variables)
+    return seconds
 
 
-def _run_seconds(problem: Problem, designs: Array) -> float:
-    """Of one design by a run."""
-    rows = np.linspace(0, len(designs) - 1, min(TRIED_RUNS, len(designs))).astype(int)
-    sample = np.full((1, len(problem.pieces.scatters)), 0.5)
-    problem.evaluate(designs[rows[:1]], sample)
-    begin = time.perf_counter()
-    problem.evaluate(designs[rows[1:]], sample)
-    return (time.perf_counter() - begin) / max(len(rows) - 1, 1)
+def _tried(problem: Problem, listing: Listing) -> _Tried:
+    """Evaluate some pieces that follow each other at the begin, in the middle and at the end.
+
+    Pieces that follow each other share results. What is made once is not timed.
+    """
+    evaluate, blocks = evaluating(problem), list(listing.blocks())
+    some = [blocks[n] for n in sorted({0, len(blocks) // 2, len(blocks) - 1})]
+    pieces = [p for block in some for p in problem.split(listing.designs(listing.ordered(block)))]
+    evaluate(pieces[0][:1])
+    parts, seconds, before = [], 0.0, _memory_bytes()
+    for numbers in np.array_split(np.arange(len(pieces)), min(_STARTS, len(pieces))):
+        begin = time.process_time()
+        for number in numbers[:_CONSECUTIVE].tolist():
+            parts.append((pieces[number], evaluate(pieces[number])))
+            if time.process_time() - begin > _TRIED_S:
+                break
+        seconds += time.process_time() - begin
+    designs = np.concatenate([piece for piece, _ in parts])
+    share, kept = len(designs) / listing.count, 0.0
+    if problem.run_columns:
+        kept = (_memory_bytes() - before) / len(parts)
+        share = len(parts) / len(pieces) * sum(block.size for block in some) / listing.count
+    evaluation = joined([evaluation for _, evaluation in parts])
+    return _Tried(designs, evaluation, len(parts), seconds, share, kept)
 
 
-def _number_of_runs(problem: Problem, designs: Array, keys: list[str]) -> int:
-    """Different designs, and pieces where tolerances scatter what takes runs."""
-    names = problem.pieces.wide.names
-    columns = [names.index(key) for key in keys]
-    varied = [column for column in columns if column < designs.shape[1]]
-    different = len(np.unique(designs[:, varied], axis=0)) if varied else 1
-    scattered = {scatter.column for scatter in problem.pieces.scatters} & set(columns)
-    return len(designs) * len(problem.samples()) if scattered else different
+def _memory_bytes() -> int:
+    """Memory of this process."""
+    return int(psutil.Process().memory_info().rss)
+
+
+def _written(problem: Problem, tried: _Tried) -> _Written:
+    """Write a few designs to memory as a sweep writes them: once as text, twice compressed."""
+    rows = slice(min(len(tried.designs), _WRITTEN))
+    variables = problem.space.variables
+    cells = [[v.written(x) for v, x in zip(variables, design, strict=True)]
+             for design in tried.designs[rows].tolist()]  # fmt: skip
+    values = np.concatenate([tried.evaluation.objectives, tried.evaluation.constraints], axis=1)
+    begin = time.process_time()
+    columns = [*zip(*cells, strict=True), *values[rows].T.tolist()]
+    text = "\n".join(map(",".join, zip(*map(_text, columns), strict=True)))
+    shuffled = values[rows].T.reshape(-1, 1).view(np.uint8).T.tobytes()
+    packed = [zlib.compress(shuffled, 4) for _ in range(2)]
+    seconds, count = time.process_time() - begin, len(cells)
+    return _Written(
+        seconds / count, len(text) / count + _FURTHER_BYTES, sum(map(len, packed)) / count
+    )
+
+
+def _text(column: Sequence[str | float]) -> Iterator[str]:
+    return map(str if isinstance(column[0], str) else DIGITS.format, column)
+
+
+def _further_share(problem: Problem, count: int) -> float:
+    """Work of the report over that of the sweep: fresh pieces of the best, and spread designs."""
+    search, samples = problem.design.search, len(problem.samples())
+    runs = set(problem.run_columns)
+    scattered = {scatter.column for scatter in problem.pieces.scatters}
+    if not runs:
+        fresh = search.best * search.fresh_samples * bool(scattered)
+        spread = SPREAD_DESIGNS * (1.0 + len(problem.total_changes()))
+        return (fresh / samples + spread) / count
+    return search.best * (search.fresh_samples if runs & scattered else 1.0) / count
 
 
 def duration(seconds: float) -> str:

@@ -1,6 +1,6 @@
 """Designs and what is wanted of them: one call from rows of numbers to objectives."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -24,10 +24,8 @@ from .space import Space
 from .statistics import by_speed, of_each, over, over_weighted
 from .tolerances import Pieces
 
-LINEAR_PIECE: Final = 256
-RUN_PIECE: Final = 4
-MOST_PIECES: Final = 100_000
-"""That are judged side by side."""
+MOST_ROWS: Final = 16_384
+"""Designs times samples that are computed side by side."""
 MEDIAN: Final = 0.5
 CHANGE_OF_TOTAL: Final = "total_change_db"
 TOTALS: Final = ("level_total_dba", CHANGE_OF_TOTAL)
@@ -106,7 +104,7 @@ class Problem:
         self.figures = [_figure(study, self.design, name, w) for name, w in self.wanted.items()]
         each = zip(self.figures, self.wanted.items(), strict=True)
         needs = [_needs(study, self.design, figure, *item) for figure, item in each]
-        self._radiation = radiation
+        self.radiation = radiation
         self._references: dict[tuple[int, bytes], Compared] = {}
         self._needs = tuple(dict.fromkeys(need for some in needs for need in some))
 
@@ -121,15 +119,41 @@ class Problem:
         routes = [self.engine.routes(option).values() for option in self.space.options]
         return all(route.linear for each in routes for route in each)
 
-    @property
+    @cached_property
+    def run_columns(self) -> list[int]:
+        """Numbers of the variables of which every value takes runs of the pipeline's stages."""
+        routes = [list(self.engine.routes(name).values()) for name in self.space.options]
+        return [
+            n
+            for n, each in enumerate(zip(*routes, strict=True))
+            if not all(route.linear for route in each)
+        ]
+
+    @cached_property
     def piece(self) -> int:
-        """Designs that are evaluated together, here and by workers alike."""
-        return LINEAR_PIECE if self.is_linear else RUN_PIECE
+        """Most designs of a piece."""
+        return max(MOST_ROWS // self.weight(self.samples()).size, 1)
+
+    def split(self, designs: Array) -> Iterator[Array]:
+        """Split designs into pieces that are computed together, here and by workers alike.
+
+        Designs of a piece have the same values of the variables that take runs.
+
+        Parameters
+        ----------
+        designs : shape (design, variable), SI
+        """
+        of_runs = designs[:, [n for n in self.run_columns if n < designs.shape[1]]]
+        changes = np.flatnonzero((np.diff(of_runs, axis=0) != 0.0).any(axis=1)) + 1
+        for part in np.split(designs, changes):
+            yield from (
+                part[first : first + self.piece] for first in range(0, len(part), self.piece)
+            )
 
     @cached_property
     def machines(self) -> list[ComparedMachine]:
         """Samples of the study, the same for all designs, or the nominal machine alone."""
-        return compared_machines(self.study, self.pieces, self._needs, self._radiation)
+        return compared_machines(self.study, self.pieces, self._needs, self.radiation)
 
     @property
     def is_sampled(self) -> bool:
@@ -160,7 +184,7 @@ class Problem:
         samples : of the tolerances, shape (sample, scatter); default: those of `samples()`
         """
         samples = self.samples() if samples is None else samples
-        size = max(MOST_PIECES // self.weight(samples).size, 1)
+        size = max(MOST_ROWS // self.weight(samples).size, 1)
         parts = [
             self._judged(designs[first : first + size], samples, first)
             for first in range(0, len(designs), size)
@@ -240,7 +264,7 @@ class Problem:
 
     def in_units(self, objectives: Array, constraints: Array) -> Array:
         """Wanted values in their units, of signed objectives and constraints; see `Judged`."""
-        sign, side, limit = self._signs
+        sign, side, limit = self.signs
         return np.concatenate([objectives * sign, side * constraints + limit], axis=1)
 
     @property
@@ -291,6 +315,10 @@ class Problem:
         """Wanted values of the pieces of a machine, shape (design, piece and pair, wanted)."""
         pieces = self.pieces.made(designs, shares).reshape(len(designs) * len(shares), -1)
         outcome, pairs = compared.engine.outcome(pieces), compared.machine.weight.size
+        failed = {row // len(shares): why for row, why in outcome.failed.items()}
+        if not outcome.seen:
+            shape = (len(designs), len(shares) * pairs, len(self.wanted))
+            return np.full(shape, np.nan), failed
         seen = by_row(outcome.seen, pairs)
         _, _, reference = self._reference(compared, shares)
 
@@ -306,7 +334,7 @@ class Problem:
             change = None if before is None else np.concatenate([before] * len(designs))
             columns.append(of_each(figure, seen, setting, more_is_better(wanted), change))
         values = np.stack(columns, axis=1).reshape(len(designs), len(shares) * pairs, -1)
-        return values, {row // len(shares): why for row, why in outcome.failed.items()}
+        return values, failed
 
     def _reference(self, compared: ComparedMachine, shares: Array) -> Compared:
         """What is seen of pieces of a machine without an option, kept."""
@@ -346,12 +374,12 @@ class Problem:
 
     def _signed(self, values: Array) -> tuple[Array, Array]:
         """Objectives of which less is better, constraints that are met at zero and below."""
-        sign, side, limit = self._signs
+        sign, side, limit = self.signs
         return values[:, : sign.size] * sign, side * (values[:, sign.size :] - limit)
 
     @property
-    def _signs(self) -> tuple[Array, Array, Array]:
-        """Of the objectives; of the constraints, and their limits."""
+    def signs(self) -> tuple[Array, Array, Array]:
+        """Signs of the objectives; signs of the constraints, and their limits."""
         sign = [-1.0 if w.goal == "greatest" else 1.0 for w in self.design.objectives.values()]
         limits = [
             (1.0, w.at_most) if w.at_most is not None else (-1.0, w.at_least or 0.0)

@@ -45,11 +45,13 @@ def searched_dataset(problem: Problem, searched: Searched) -> xr.Dataset:
     }
     dataset = xr.Dataset({name: stamp(name, one) for name, one in data.items()})
     reasons = Counter(reason for reason in evaluation.failures if reason).most_common(_MOST_REASONS)
+    counts = {"evaluated": len(met), "allowed": int(met.sum())}
     words = {v.key: v.choices for v in problem.space.variables if v.takes_words}
     return dataset.assign_coords(coords).assign_attrs(
         software_attributes("optimise"),
         parameters=canonical_json(problem.study.parameters()),
         failures=json.dumps(reasons),
+        **counts,
         choices=json.dumps(words),
         method=_method(problem, len(met)),
     )
@@ -63,12 +65,12 @@ def _method(problem: Problem, count: int) -> str:
     return (
         f"{name}: {search.population} designs a generation, at most {search.generations} "
         f"generations, seed {search.seed}, {count} designs in all. "
-        f"{_machine(problem)}"
+        f"{machine_words(problem)}"
     )
 
 
-def _machine(problem: Problem) -> str:
-    """Which machine designs were computed for, in sentences."""
+def machine_words(problem: Problem) -> str:
+    """Return for which machine designs were computed, in sentences."""
     samples, machines = problem.samples(), problem.machines
     if not problem.is_sampled:
         return (

@@ -142,17 +142,6 @@ class Space:
         names = dict.fromkeys((REFERENCE_OPTION, self.option_of(design)))
         return study.model_copy(update={"options": {name: study.options[name] for name in names}})
 
-    def grid(self) -> Array:
-        """All combinations of the variables' values, the last variable fastest, (design, variable).
-
-        Raises
-        ------
-        ParameterError
-            A variable has no values for a grid.
-        """
-        axes = self.axes()
-        return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
-
     def axes(self) -> list[Array]:
         """Values of each variable in a grid.
 

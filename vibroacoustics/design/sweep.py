@@ -1,13 +1,14 @@
 """All designs of a grid or a sample, as one dataset."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array
+from ..base.arrays import Array, IndexArray
 from ..base.errors import ParameterError
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import REFERENCE_OPTION
@@ -15,13 +16,12 @@ from ..radiation.given import Radiation
 from ..stages.radiation import transfer_vectors
 from ..study.study import Study
 from .dataset import labelled
-from .evaluation import Evaluate, Evaluation, evaluating
+from .evaluation import Stream, one_by_one
+from .listing import Listing, listed_grid, listed_sample
 from .plan import LONGEST_S, Plan, check_size, planned
-from .problem import Judged, Problem
-from .search.problem import Searched
+from .problem import Problem
+from .sweep_values import SweepValues
 
-BATCH: Final = 20_000
-"""Pieces between two reports of the advance."""
 OBJECTIVES: Final = {
     "level_change_db": {"figure": "level_change_db"},
     "foot_force_n": {"figure": "foot_force_n"},
@@ -74,7 +74,8 @@ def sweep(
     """
     if variables is not None:
         study = with_variables(study, variables)
-    return swept(prepare(Problem(study, radiation), longest_s), progress)
+    prepared = prepare(Problem(study, radiation), longest_s)
+    return as_dataset(prepared, swept(prepared, progress))
 
 
 class Prepared(NamedTuple):
@@ -83,17 +84,23 @@ class Prepared(NamedTuple):
     Attributes
     ----------
     problem : of the study
-    designs : shape (design, variable), SI
+    listing : its designs
     plan : what it will take
     """
 
     problem: Problem
-    designs: Array
+    listing: Listing
     plan: Plan
 
 
-def prepare(problem: Problem, longest_s: float = LONGEST_S) -> Prepared:
-    """Designs that the study asks for and what they will take, refused above `longest_s`.
+def prepare(problem: Problem, longest_s: float = LONGEST_S, workers: int = 1) -> Prepared:
+    """List the designs that the study asks for and plan their evaluation.
+
+    Parameters
+    ----------
+    problem : of the study
+    longest_s : longest time that the sweep may take
+    workers : processes that evaluate
 
     Raises
     ------
@@ -101,39 +108,52 @@ def prepare(problem: Problem, longest_s: float = LONGEST_S) -> Prepared:
         They take too much memory or too long.
     """
     check_size(problem, design_count(problem))
-    designs = designs_of(problem)
-    return Prepared(problem, designs, planned(problem, designs, longest_s))
+    listing = listing_of(problem)
+    return Prepared(problem, listing, planned(problem, listing, longest_s, workers))
 
 
 def swept(
-    prepared: Prepared, progress: Progress = no_progress, evaluate: Evaluate | None = None
-) -> xr.Dataset:
-    """What is seen of the designs, labelled.
+    prepared: Prepared, progress: Progress = no_progress, stream: Stream | None = None
+) -> SweepValues:
+    """Evaluate all designs.
 
     Parameters
     ----------
     prepared : from `prepare`
     progress : called with the advance
-    evaluate : takes designs in SI: from a store, or by workers; here where none is given
+    stream : evaluates pieces: from a store, or by workers; this process where none is given
     """
-    problem, designs, plan = prepared
-    judged = judged_all(problem, designs, progress, evaluate or evaluating(problem))
-    results = labelled(problem, designs, judged)
+    problem, listing, _ = prepared
+    values, waiting = SweepValues(problem, listing), deque[IndexArray]()
+    evaluated = (stream or one_by_one(problem))(_pieces(problem, listing, waiting))
+    done = 0
+    progress("designs", done, listing.count)
+    for evaluation in evaluated:
+        numbers = waiting.popleft()
+        values.take(numbers, evaluation)
+        done += len(numbers)
+        progress("designs", done, listing.count)
+    return values
+
+
+def _pieces(problem: Problem, listing: Listing, waiting: deque[IndexArray]) -> Iterator[Array]:
+    """Give all designs piece by piece; `waiting` gets the numbers of each."""
+    for positions in listing.blocks():
+        numbers = listing.ordered(positions)
+        first = 0
+        for piece in problem.split(listing.designs(numbers)):
+            waiting.append(numbers[first : first + len(piece)])
+            first += len(piece)
+            yield piece
+
+
+def as_dataset(prepared: Prepared, values: SweepValues) -> xr.Dataset:
+    """Label the values of all designs."""
+    problem, listing, plan = prepared
+    results = labelled(problem, listing, values)
     results.attrs["plan"] = plan.text
     results.attrs["routes"] = json.dumps(_routes(problem), ensure_ascii=True)
     return results
-
-
-def as_searched(prepared: Prepared, results: xr.Dataset) -> Searched:
-    """The designs of a sweep as those of a search that has one generation."""
-    problem, designs, _ = prepared
-    values = np.stack([np.ravel(results[name]) for name in problem.names], axis=1)
-    number = np.ravel(results["failure"])
-    reasons = ["", *json.loads(results["failure"].attrs["reasons"])]
-    judged = problem.judged(values, {})
-    failures = tuple(reasons[one] for one in number.tolist())
-    evaluation = Evaluation(judged.objectives, judged.constraints, failures)
-    return Searched(designs, evaluation, np.zeros(len(designs), dtype=np.intp))
 
 
 def design_count(problem: Problem) -> int:
@@ -143,35 +163,18 @@ def design_count(problem: Problem) -> int:
     return int(np.prod([float(axis.size) for axis in problem.space.axes()]))
 
 
-def designs_of(problem: Problem) -> Array:
-    """Designs that the study asks for, shape (design, variable), SI."""
-    if problem.design.sampling == "grid":
-        return problem.space.grid()
-    return problem.space.sample(problem.design.sampling, problem.design.samples)
+def sampling_words(problem: Problem) -> str:
+    """Return how designs are chosen, in words."""
+    design = problem.design
+    return "Grid" if design.sampling == "grid" else f"{design.sampling.capitalize()} sample"
 
 
-def judged_all(problem: Problem, designs: Array, progress: Progress, evaluate: Evaluate) -> Judged:
-    """All designs judged, those of the same runs one after another.
-
-    Parameters
-    ----------
-    problem : of the study
-    designs : shape (design, variable), SI
-    progress : called with the advance
-    evaluate : takes some of them
-    """
-    order = np.lexsort(designs[:, ::-1].T)
-    size = max(BATCH // len(problem.samples()), 1)
-    values = np.full((len(designs), len(problem.wanted)), np.nan)
-    failed: dict[int, str] = {}
-    for first in range(0, len(designs), size):
-        rows = order[first : first + size]
-        part = evaluate(designs[rows])
-        values[rows] = problem.in_units(part.objectives, part.constraints)
-        reasons = zip(rows.tolist(), part.failures, strict=True)
-        failed |= {row: reason for row, reason in reasons if reason}
-        progress("designs", min(first + size, len(designs)), len(designs))
-    return problem.judged(values, failed)
+def listing_of(problem: Problem) -> Listing:
+    """List the designs that the study asks for; what takes runs varies slowest."""
+    design, slow = problem.design, problem.run_columns
+    if design.sampling == "grid":
+        return listed_grid(problem.space.axes(), slow)
+    return listed_sample(problem.space.sample(design.sampling, design.samples), slow)
 
 
 def with_variables(study: Study, variables: Mapping[str, Any]) -> Study:

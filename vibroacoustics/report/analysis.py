@@ -7,6 +7,7 @@ from typing import Any
 
 import xarray as xr
 
+from ..base.folder import Content
 from ..results.number import Number
 from .blocks import Block, Bullets, Part, Text, charts, pictures, tables
 from .charts.svg import picture_file
@@ -46,7 +47,7 @@ class Analysis:
     shown: tuple[Block, ...] = ()
     tables: Mapping[str, DataTable] = field(default_factory=dict)
     numbers: tuple[Number, ...] = ()
-    further: Mapping[str, bytes] = field(default_factory=dict)
+    further: Mapping[str, Content] = field(default_factory=dict)
     figures: str = ""
     in_markdown: str = ""
 
@@ -83,7 +84,7 @@ class Analysis:
             "charts": [chart.data() for chart in charts(self._blocks())],
         }  # fmt: skip
 
-    def files(self, results_sha256: str = "") -> dict[str, bytes]:
+    def files(self, results_sha256: str = "") -> dict[str, Content]:
         """Return page, tables, pictures and further files by name."""
         pictures_of_file = {picture_file(each): each.content for each in pictures(self._blocks())}
         return {

@@ -5,6 +5,7 @@ import json
 import xarray as xr
 
 from ..base.fault import collected
+from ..base.folder import Content
 from ..base.hashing import canonical_json
 from ..base.registry import plugins
 from .columns import COLUMNS
@@ -17,7 +18,7 @@ from .sections import SECTIONS
 from .study import analysis_of_study
 
 
-def render(results: xr.Dataset, results_sha256: str = "") -> dict[str, bytes]:
+def render(results: xr.Dataset, results_sha256: str = "") -> dict[str, Content]:
     """All files of the report, by name; `/` in a name stands for a folder.
 
     The page names the hash of the results' file.

@@ -13,7 +13,7 @@ from pathlib import Path, PurePosixPath
 from typing import Final
 
 from ..base.errors import StorageError
-from ..base.folder import Folder, make_folder, missing_folders, opened_folder
+from ..base.folder import Content, Folder, make_folder, missing_folders, opened_folder
 from .interruption import cleared, cleared_in, uninterrupted
 from .lock import locked
 
@@ -86,7 +86,7 @@ def _remove_tree(name: str, folder: Folder) -> None:
     folder.remove_tree(name)
 
 
-def write(staged: Folder, name: str, content: bytes) -> None:
+def write(staged: Folder, name: str, content: Content) -> None:
     """Write a file and carry it to the disk; folders on the way to it are made.
 
     Raises
@@ -98,7 +98,7 @@ def write(staged: Folder, name: str, content: bytes) -> None:
         staged.write(name, content)
 
 
-def write_together(folder: Path, files: Mapping[str, bytes]) -> None:
+def write_together(folder: Path, files: Mapping[str, Content]) -> None:
     """Write files into a folder, together or not at all.
 
     Raises

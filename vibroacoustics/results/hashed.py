@@ -4,7 +4,6 @@ So content and hash change in one step. HDF5 keeps its own length and does not r
 rewrites the file in place loses or breaks it, and that is seen.
 """
 
-import hashlib
 import os
 import re
 from contextlib import AbstractContextManager
@@ -13,7 +12,7 @@ from typing import BinaryIO, Final, NamedTuple
 
 from ..base.errors import StorageError
 from ..base.folder import Folder
-from ..base.hashing import sha256
+from ..base.hashing import file_sha256, sha256
 from ..base.regular_file import opened
 
 _LINE: Final = re.compile(rb"\nvibroacoustics sha256 ([0-9a-f]{64})\n")
@@ -32,7 +31,7 @@ class Checked(NamedTuple):
 
 def append_hash(file: BinaryIO) -> str:
     """Hash of an open file's content, which becomes its last line."""
-    digest = hashlib.file_digest(file, "sha256").hexdigest()  # type: ignore[arg-type]
+    digest = file_sha256(file)
     file.seek(0, os.SEEK_END)
     file.write(f"\nvibroacoustics sha256 {digest}\n".encode())
     return digest

@@ -13,7 +13,7 @@ from pydantic import AfterValidator, BaseModel, TypeAdapter
 
 from ..base.errors import StorageError
 from ..base.folder import Folder, leads_out, opened_folder
-from ..base.hashing import sha256
+from ..base.hashing import file_sha256
 from . import hashed
 from .files import LOCK_NAME, Staging, only_writer, replace_all, write
 from .interruption import uninterrupted
@@ -177,7 +177,7 @@ def _hash(folder: Folder, name: str) -> str:
     """Hash of a regular file; empty where there is none."""
     try:
         with folder.opened(name, hashed.MAXIMUM_RESULTS_BYTES) as file:
-            return sha256(file.read())
+            return file_sha256(file)
     except (OSError, StorageError):
         return ""
 

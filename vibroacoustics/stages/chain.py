@@ -48,6 +48,10 @@ class Chain:
     results: xr.Dataset = field(default_factory=xr.Dataset)
     products: Mapping[type, object] = field(default_factory=dict)
 
+    def __getstate__(self) -> dict[str, object]:
+        """Return what goes to other processes: all but the progress."""
+        return {**self.__dict__, "progress": no_progress}
+
     def __getitem__(self, kind: type[Product]) -> Product:
         """Return the product of a type.
 

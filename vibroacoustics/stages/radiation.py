@@ -1,13 +1,14 @@
 """The housing's radiation: transfer vectors, from the cache where they are there."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Final
 
 import xarray as xr
 
 from .. import radiation
+from ..base.hashing import canonical_json
 from ..base.progress import Progress
 from ..base.registry import register
 from ..radiation import SurfaceMotion
@@ -34,6 +35,23 @@ def transfer_vectors(
     key = radiation.cache_key_material(*inputs)
     computed = partial(radiation.transfer_vectors, *inputs, progress)
     return cached(_CACHE, key, computed, study.title)
+
+
+@dataclass
+class KeptRadiation:
+    """Transfer vectors that are kept in memory, so that they go with work to other computers."""
+
+    _known: dict[str, xr.Dataset] = field(default_factory=dict, repr=False)
+
+    def __call__(
+        self, study: Study, progress: Progress, motions: Sequence[SurfaceMotion] = ()
+    ) -> tuple[xr.Dataset, bool]:
+        """Return transfer vectors, and whether they were known; see `transfer_vectors`."""
+        key = canonical_json(radiation.cache_key_material(*inputs_of(study, motions)))
+        if key in self._known:
+            return self._known[key].copy(), True
+        self._known[key], was_cached = transfer_vectors(study, progress, motions)
+        return self._known[key].copy(), was_cached
 
 
 @dataclass(frozen=True)

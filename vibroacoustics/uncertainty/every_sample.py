@@ -2,7 +2,6 @@
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
 import numpy as np
@@ -12,7 +11,7 @@ from ..base.errors import ParameterError, SolverError
 from ..base.fault import FaultError
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.processes import side_by_side
-from ..base.threads import processors
+from ..base.threads import mapped_in_threads
 from ..base.vocabulary import stamped
 from ..study.sampling import Sample
 from ..study.uncertainty import Range
@@ -68,8 +67,8 @@ def in_every_sample(
 
 def _in_parallel(compute: Callable[[Item], Result], samples: Sequence[Item]) -> Iterator[Result]:
     """Compute in processes, which share no interpreter's lock, or in threads."""
-    with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as threads:
-        yield from side_by_side(compute, samples, threads.map)
+    with one_thread_of_linear_algebra():
+        yield from side_by_side(compute, samples, mapped_in_threads)
 
 
 def sampled_values(ranges: Sequence[Range], samples: Sequence[Sample]) -> xr.Dataset:

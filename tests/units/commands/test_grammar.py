@@ -174,7 +174,7 @@ def test_json_and_quiet(name: str, inputs: Path, tmp_path: Path) -> None:
     assert bool(files) == (name not in PRINTS_ONLY)
     assert all(path.is_file() for path in files.values())
     written = {
-        path for path in (tmp_path / "out").rglob("*.*") if path.parent.name[-6:] != "chunks"
+        path for path in (tmp_path / "out").rglob("*.*") if path.parent.name[-6:] != "pieces"
     }
     ours = {path for path in written if path.name not in (".lock", "files.json")}
     assert ours <= set(files.values())

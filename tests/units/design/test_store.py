@@ -1,10 +1,11 @@
-"""Chunks of designs on disk: whole, of one plan, and gone on with to the same bits."""
+"""Pieces of designs on disk: whole, of one plan, each evaluated once, resumed to the same bits."""
 
 import os
 import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 from random import Random
 
@@ -13,10 +14,12 @@ import pytest
 
 from vibroacoustics.base.arrays import Array
 from vibroacoustics.base.errors import StorageError
-from vibroacoustics.design.evaluation import Evaluation
+from vibroacoustics.base.folder import opened_folder
+from vibroacoustics.design.evaluation import Evaluation, joined
 from vibroacoustics.design.search.best import search_best
 from vibroacoustics.design.search.problem import Searched, SearchProblem
-from vibroacoustics.design.store.chunks import Stored, opened_store
+from vibroacoustics.design.store import pieces
+from vibroacoustics.design.store.pieces import PieceStore, opened_store, stored
 
 PLAN: dict[str, object] = {"study": "a"}
 
@@ -37,9 +40,11 @@ def searched_in(folder: Path, pause_s: float = 0.0) -> Searched:
         return bowl(designs)
 
     with opened_store(folder, PLAN) as store:
+        each = stored(partial(map, evaluate), store)
         problem = SearchProblem(
-            np.array([-1.0, -1.0]), np.array([1.0, 1.0]), np.zeros(2, bool), Stored(evaluate, store)
-        )
+            np.array([-1.0, -1.0]), np.array([1.0, 1.0]), np.zeros(2, bool),
+            lambda designs: joined(list(each([designs]))),
+        )  # fmt: skip
         return search_best(problem, 12, 25, seed=4)
 
 
@@ -50,17 +55,50 @@ def same(first: Searched, second: Searched) -> None:
     assert first.evaluation.failures == second.evaluation.failures
 
 
-def test_chunk_comes_back_with_its_failures(tmp_path: Path) -> None:
+def test_piece_comes_back_with_its_failures(tmp_path: Path) -> None:
     designs = np.random.default_rng(0).uniform(-1.0, 1.0, (50, 2))
+    for written in (False, True):  # from the batch, then from the file
+        with opened_store(tmp_path / "designs", PLAN) as store:
+            assert (designs in store) == written
+            if not written:
+                store.put(designs, bowl(designs))
+                store.put(designs[:3], bowl(designs[:3]))
+            back = store.get(designs)
+            assert back.objectives.tobytes() == bowl(designs).objectives.tobytes()
+            assert back.failures == bowl(designs).failures
+            assert "too far left" in back.failures
+            assert store.get(designs[:3]).failures == back.failures[:3]
+            assert designs + 1e-15 not in store
+    assert [one.name for one in tmp_path.glob("designs/pieces_*")] == ["pieces_00000000.nc"]
+
+
+def test_pieces_are_written_by_time(tmp_path: Path) -> None:
+    """A file at the first piece that ends 10 s or more after the last file."""
+    now_s = 0.0
+    with opened_folder(tmp_path) as folder:
+        store = PieceStore(folder, lambda: now_s)
+        for number in range(24):
+            now_s += 3.0
+            store.put(np.full((1, 2), float(number)), bowl(np.ones((1, 2))))
+            assert len(list(tmp_path.glob("pieces_*"))) == (number + 1) // 4
+
+
+def test_pieces_are_evaluated_once_in_any_order(tmp_path: Path) -> None:
+    """Some are known, others not, and one is asked for twice at a time."""
+    designs = [np.full((1, 2), 0.1 * number) for number in range(8)]
+    evaluated: list[float] = []
+
+    def evaluate(piece: Array) -> Evaluation:
+        evaluated.append(float(piece[0, 0]))
+        return bowl(piece)
+
     with opened_store(tmp_path / "designs", PLAN) as store:
-        assert store.get(0, designs) is None
-        store.put(0, designs, bowl(designs))
-        back = store.get(0, designs)
-        assert back is not None
-        assert back.objectives.tobytes() == bowl(designs).objectives.tobytes()
-        assert back.failures == bowl(designs).failures
-        assert "too far left" in back.failures
-        assert store.get(0, designs + 1e-15) is None  # of other designs
+        each = stored(partial(map, evaluate), store)
+        list(each([designs[5], designs[2]]))
+        asked = [*designs[::-1], designs[0]]
+        values = [float(one.objectives[0, 0]) for one in each(asked)]
+    assert values == [float((piece**2).sum()) for piece in asked]
+    assert sorted(evaluated[:9]) == sorted(float(piece[0, 0]) for piece in designs)
 
 
 def test_folder_of_another_plan_is_refused(tmp_path: Path) -> None:
@@ -74,9 +112,12 @@ def test_folder_of_another_plan_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("damage", ["cut", "flipped", "removed"])
-def test_damaged_chunk_is_evaluated_again(tmp_path: Path, damage: str) -> None:
+def test_damaged_file_is_evaluated_again(
+    tmp_path: Path, damage: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pieces, "_BATCH_S", 0.0)  # a file a generation
     whole = searched_in(tmp_path)
-    path = sorted(tmp_path.glob("chunk_*.nc"))[7]
+    path = sorted(tmp_path.glob("pieces_*.nc"))[7]
     content = bytearray(path.read_bytes())
     if damage == "removed":
         path.unlink()
@@ -106,11 +147,12 @@ def test_search_killed_at_more_moments(tmp_path: Path, seed: int) -> None:
 
 
 def killed_and_gone_on(folder: Path, seed: int) -> None:
-    """SIGKILL at a random moment while chunks are written, then the search again."""
+    """SIGKILL at a random moment while files are written, then the search again."""
     code = (
         f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
         "from pathlib import Path\n"
-        "from test_store import searched_in\n"
+        "from test_store import pieces, searched_in\n"
+        "pieces._BATCH_S = 0.1\n"
         f"print('begun', flush=True); searched_in(Path({str(folder / 'killed')!r}), 0.02)"
     )
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)

@@ -13,10 +13,11 @@ from support import TINY
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.commands import cli
-from vibroacoustics.design.evaluation import Evaluation
+from vibroacoustics.design.evaluation import Evaluation, joined
 from vibroacoustics.design.workers import scheduler
 from vibroacoustics.design.workers.scheduler import SchedulerAccess, opened_scheduler
-from vibroacoustics.design.workers.spread import in_pieces, local_workers, spread
+from vibroacoustics.design.workers.spread import local_workers, spread
+from vibroacoustics.design.workers.study_task import requirement
 
 PIECE = 8
 DESIGNS = np.random.default_rng(2).normal(size=(400, 3))
@@ -30,7 +31,13 @@ def task_of(folder: Path, deaths: dict[int, int]) -> bytes:
 
 
 def spread_over(parallel_map: Any, task: bytes) -> Evaluation:
-    return spread(parallel_map, builder, task, PIECE, (OBJECTIVES, CONSTRAINTS))(DESIGNS)
+    stream = spread(parallel_map, builder, task, (OBJECTIVES, CONSTRAINTS))
+    return joined(list(stream(np.split(DESIGNS, len(DESIGNS) // PIECE))))
+
+
+def serially(task: bytes) -> Evaluation:
+    """By this process."""
+    return joined(list(map(builder(task), np.split(DESIGNS, len(DESIGNS) // PIECE))))
 
 
 def same(first: Evaluation, second: Evaluation) -> None:
@@ -42,7 +49,7 @@ def same(first: Evaluation, second: Evaluation) -> None:
 
 def test_two_workers_equal_serial_though_some_are_killed(tmp_path: Path) -> None:
     """Of 50 pieces one kills its worker once, and one as often as it is tried."""
-    serial = in_pieces(builder(task_of(tmp_path, {})), PIECE)(DESIGNS)
+    serial = serially(task_of(tmp_path, {}))
     assert "too far" in serial.failures
     with local_workers(2) as parallel_map:
         same(spread_over(parallel_map, task_of(tmp_path, {7: 1})), serial)
@@ -105,7 +112,7 @@ def test_scheduler_that_does_not_answer_is_one_line(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(scheduler, "_CONNECTION_S", 0.5)
     with (
         pytest.raises(ParameterError, match=r"scheduler tcp://127\.0\.0\.1:9: no connection"),
-        opened_scheduler(SchedulerAccess("tcp://127.0.0.1:9", insecure=True)),
+        opened_scheduler(SchedulerAccess("tcp://127.0.0.1:9", insecure=True), requirement([])),
     ):
         pass
 
@@ -123,26 +130,26 @@ def test_scheduler_by_tls(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     }
     security = Security(require_encryption=True, tls_ca_file=str(good["tls_ca"]), **roles)
     task = task_of(tmp_path, {})
-    serial = in_pieces(builder(task), PIECE)(DESIGNS)
+    serial = serially(task)
     with LocalCluster(
         n_workers=1, threads_per_worker=1, processes=False, protocol="tls", security=security,
         host="127.0.0.1", dashboard_address=None,
     ) as cluster:  # fmt: skip
         address = cluster.scheduler_address
         assert address.startswith("tls://127.0.0.1")
-        with opened_scheduler(SchedulerAccess(address, **good)) as parallel_map:
+        with opened_scheduler(SchedulerAccess(address, **good), requirement([])) as parallel_map:
             same(spread_over(parallel_map, task), serial)
         monkeypatch.setattr(scheduler, "_CONNECTION_S", 1.0)
         wrong = [other, {**other, "tls_ca": good["tls_ca"]}, {**good, "tls_ca": other["tls_ca"]}]
         for files in wrong:
             with (
                 pytest.raises(ParameterError, match=f"scheduler {address}: no connection"),
-                opened_scheduler(SchedulerAccess(address, **files)),
+                opened_scheduler(SchedulerAccess(address, **files), requirement([])),
             ):
                 pass
     swapped = {**good, "tls_cert": good["tls_key"]}
     with (
         pytest.raises(ParameterError, match="--tls-key: cannot be used"),
-        opened_scheduler(SchedulerAccess(address, **swapped)),
+        opened_scheduler(SchedulerAccess(address, **swapped), requirement([])),
     ):
         pass

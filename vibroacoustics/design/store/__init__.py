@@ -1,1 +1,1 @@
-"""Evaluated designs on disk: chunks with their hashes, gone on with after any end."""
+"""Evaluated designs on disk: pieces with their hashes, from which a later command resumes."""

@@ -5,18 +5,23 @@ whoever can speak with it has the rights of all of them. So TLS with certificate
 the rule, and its absence must be asked for.
 """
 
+import warnings
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any, Final
 
-from ...base.arrays import Array
 from ...base.errors import ParameterError
-from ..evaluation import Evaluation
-from .spread import ParallelMap
+from ...base.processes import ParallelMap
+from ...base.worker_process import Item, Result
+from .travelling import apply, travelling
 
 _CONNECTION_S: Final = 10.0
+_AHEAD: Final = 4
+"""Items per thread of the workers that are sent ahead of the one whose result is due."""
 _TLS: Final = "--tls-ca, --tls-cert and --tls-key"
 
 
@@ -60,8 +65,13 @@ class SchedulerAccess:
 
 
 @contextmanager
-def opened_scheduler(access: SchedulerAccess) -> Iterator[ParallelMap]:
+def opened_scheduler(access: SchedulerAccess, required: bytes) -> Iterator[ParallelMap]:
     """Connect with a running scheduler; gives the map of its workers.
+
+    Parameters
+    ----------
+    access : to the scheduler
+    required : what workers must have, from `requirement`
 
     Raises
     ------
@@ -84,7 +94,7 @@ def opened_scheduler(access: SchedulerAccess) -> Iterator[ParallelMap]:
             reason = str(error).splitlines()[0]
             raise ParameterError(f"scheduler {access.address}: no connection: {reason}") from None
         with client:
-            yield _map_of(client)
+            yield _map_of(client, required)
 
 
 def _security(library: Any, access: SchedulerAccess) -> Any:
@@ -102,20 +112,32 @@ def _security(library: Any, access: SchedulerAccess) -> Any:
     return security
 
 
-def _map_of(client: Any) -> ParallelMap:
+def _map_of(client: Any, required: bytes) -> ParallelMap:
     """Map whose items the workers of a client's scheduler compute."""
     from distributed import KilledWorker
 
     def parallel_map(
-        function: Callable[[Array], Evaluation],
-        items: Iterable[Array],
-        on_loss: Callable[[Array, str], Evaluation],
-    ) -> Iterator[Evaluation]:
-        futures = [(client.submit(function, item, pure=False), item) for item in items]
-        for future, item in futures:
+        function: Callable[[Item], Result],
+        items: Iterable[Item],
+        on_loss: Callable[[Item, str], Result],
+    ) -> Iterator[Result]:
+        # A task, for the scheduler has it computed again where a worker that held it is gone.
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Sending large graph")
+            content = client.submit(bytes, travelling(function), pure=False)
+        waiting: deque[tuple[Any, Item]] = deque()
+        coming = iter(items)
+        while True:
+            free = max(_AHEAD * sum(client.nthreads().values()), 1) - len(waiting)
+            for item in islice(coming, max(free, 0)):
+                waiting.append((client.submit(apply, required, content, item, pure=False), item))
+            if not waiting:
+                return
+            future, item = waiting.popleft()
             try:
-                yield future.result()
+                result = future.result()
             except KilledWorker as error:
-                yield on_loss(item, f"{error.allowed_failures + 1} in turn")
+                result = on_loss(item, f"{error.allowed_failures + 1} in turn")
+            yield result
 
     return parallel_map

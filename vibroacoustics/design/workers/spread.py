@@ -1,6 +1,6 @@
-"""A batch of designs as workers evaluate it; the bits do not depend on the number of workers."""
+"""Pieces of designs as workers evaluate them; the bits do not depend on the number of workers."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache, partial
 
@@ -8,20 +8,11 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.linear_algebra import one_thread_of_linear_algebra
-from ...base.processes import ProcessPool
-from ..evaluation import Evaluate, Evaluation, joined
+from ...base.processes import ParallelMap, ProcessPool
+from ..evaluation import Evaluate, Evaluation, Stream
 
 Builder = Callable[[bytes], Evaluate]
 """A function of a module that makes an evaluation from the JSON of a task."""
-ParallelMap = Callable[
-    [
-        Callable[[Array], Evaluation],
-        Iterable[Array],
-        Callable[[Array, str], Evaluation],
-    ],
-    Iterator[Evaluation],
-]
-"""Takes a function, items and the result of an item that is lost; `ProcessPool.in_order` is one."""
 
 
 @contextmanager
@@ -32,16 +23,15 @@ def local_workers(number: int) -> Iterator[ParallelMap]:
 
 
 def spread(
-    parallel_map: ParallelMap, builder: Builder, task: bytes, piece: int, counts: tuple[int, int]
-) -> Evaluate:
-    """Make an evaluation by workers.
+    parallel_map: ParallelMap, builder: Builder, task: bytes, counts: tuple[int, int]
+) -> Stream:
+    """Return what evaluates pieces by workers.
 
     Parameters
     ----------
     parallel_map : of the workers
     builder : function of a module that the workers have, which makes the evaluation
     task : JSON for the builder
-    piece : designs that a worker gets at a time
     counts : of objectives and of constraints, for designs that no worker survives
     """
 
@@ -49,21 +39,7 @@ def spread(
         objectives, constraints = (np.full((len(designs), count), np.nan) for count in counts)
         return Evaluation(objectives, constraints, (f"its workers ended: {reason}",) * len(designs))
 
-    def evaluate(designs: Array) -> Evaluation:
-        function = partial(evaluate_piece, builder, task)
-        return joined(list(parallel_map(function, pieces(designs, piece), lost)))
-
-    return evaluate
-
-
-def in_pieces(evaluate: Evaluate, piece: int) -> Evaluate:
-    """Make the same evaluation in this process, in the same pieces and so to the same bits."""
-    return lambda designs: joined([evaluate(part) for part in pieces(designs, piece)])
-
-
-def pieces(designs: Array, piece: int) -> list[Array]:
-    """Split designs into pieces; the last one may be shorter."""
-    return [designs[start : start + piece] for start in range(0, len(designs), piece)]
+    return lambda pieces: parallel_map(partial(evaluate_piece, builder, task), pieces, lost)
 
 
 def evaluate_piece(builder: Builder, task: bytes, designs: Array) -> Evaluation:

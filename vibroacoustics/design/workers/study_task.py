@@ -7,13 +7,16 @@ whoever asks: of another content, or another version of the package.
 import json
 import socket
 from collections.abc import Sequence
+from functools import lru_cache
 from pathlib import Path
 
 from ...base.errors import ParameterError
 from ...base.hashing import canonical_json, sha256
 from ...base.plugin_file import load_plugin
 from ...base.regular_file import read_bytes
+from ...radiation.given import Radiation
 from ...results.provenance import software_version
+from ...stages.radiation import transfer_vectors
 from ...study.loading import load_study
 from ...study.study import Study
 from ..evaluation import Evaluate, evaluating
@@ -37,8 +40,41 @@ def study_plan(study: Study, plugins: Sequence[Path]) -> dict[str, object]:
     }
 
 
+def requirement(plugins: Sequence[Path]) -> bytes:
+    """Return what a worker must have, as JSON: this version of the package, and plug-ins.
+
+    Parameters
+    ----------
+    plugins : files that were loaded before
+    """
+    files = [[str(path.resolve()), _hash_of(path)] for path in plugins]
+    return canonical_json({"version": software_version(), "plugins": files}).encode()
+
+
+@lru_cache(maxsize=2)
+def meet(required: bytes) -> None:
+    """Load the plug-ins of a `requirement` on a worker, once a process.
+
+    Raises
+    ------
+    ParameterError
+        A file is missing there, or is another one, or the version of the package differs.
+    """
+    wanted, here = json.loads(required), f"worker on {socket.gethostname()}"
+    if wanted["version"] != software_version():
+        raise ParameterError(f"{here}: has version {software_version()}, not {wanted['version']}")
+    for name, digest in wanted["plugins"]:
+        try:
+            same = _hash_of(Path(name)) == digest
+        except OSError:
+            same = False
+        if not same:
+            raise ParameterError(f"{here}: plug-in {name}: is missing there, or another one")
+        load_plugin(name)
+
+
 def study_task(path: Path, study: Study, plugins: Sequence[Path]) -> bytes:
-    """What a worker needs to evaluate designs of a study.
+    """Return what a worker needs to evaluate designs of a study, as JSON.
 
     Parameters
     ----------
@@ -49,14 +85,18 @@ def study_task(path: Path, study: Study, plugins: Sequence[Path]) -> bytes:
     said = {
         "study": str(path.resolve()),
         "parameters": study_hash(study),
-        "version": software_version(),
-        "plugins": [[str(one.resolve()), _hash_of(one)] for one in plugins],
+        "requirement": requirement(plugins).decode(),
     }
     return canonical_json(said).encode()
 
 
-def evaluate_task(task: bytes) -> Evaluate:
-    """The evaluation of the designs of a task's study, on a worker.
+def evaluate_task(task: bytes, radiation: Radiation = transfer_vectors) -> Evaluate:
+    """Return the evaluation of the designs of a task's study, on a worker.
+
+    Parameters
+    ----------
+    task : from `study_task`
+    radiation : gives the transfer vectors
 
     Raises
     ------
@@ -64,21 +104,12 @@ def evaluate_task(task: bytes) -> Evaluate:
         A file is missing there, or is another one.
     """
     said = json.loads(task)
-    here = f"worker on {socket.gethostname()}"
-    if said["version"] != software_version():
-        raise ParameterError(f"{here}: has version {software_version()}, not {said['version']}")
-    for name, digest in said["plugins"]:
-        try:
-            same = _hash_of(Path(name)) == digest
-        except OSError:
-            same = False
-        if not same:
-            raise ParameterError(f"{here}: plug-in {name}: is missing there, or another one")
-        load_plugin(name)
+    meet(said["requirement"].encode())
     study = load_study(said["study"])
     if study_hash(study) != said["parameters"]:
+        here = f"worker on {socket.gethostname()}"
         raise ParameterError(f"{here}: {said['study']}: is another study there")
-    return evaluating(Problem(study))
+    return evaluating(Problem(study, radiation))
 
 
 def study_hash(study: Study) -> str:

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
-from threading import Lock
 from typing import Final
 
 import numpy as np
@@ -12,9 +11,10 @@ from numpy.typing import NDArray
 
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
 from ...base.errors import ParameterError
+from ...base.processes import distributed
 from ...base.progress import Progress, no_progress
 from ...base.revolution import Profile
-from ...base.threads import in_threads, processors
+from ...base.threads import in_threads, mapped_in_threads, processors
 from ..arrays import Array, ComplexArray, IndexArray
 from ..patterns import Pattern
 from .mesh import mesh
@@ -131,30 +131,29 @@ class RevolutionSide:
         addition: Addition | None = None,
     ) -> Sampled:
         """Pressures at points (point, 3) at evenly spaced frequencies, with an addition to them."""
-        delay_s, done, lock = self.delays_s(points), list[int](), Lock()
+        delay_s, done = self.delays_s(points), 0
         expected = min(_SOLVED * first_solved(table_hz).size, table_hz.size)
 
-        def pressures_at(index: int) -> tuple[ComplexArray, Array]:
-            pressure, error = self.pressures(float(table_hz[index]), points)
-            return (pressure if addition is None else pressure + addition(index)), error
+        def solved(index: int) -> tuple[list[WallPressure], ComplexArray, Array]:
+            hertz = float(table_hz[index])
+            pressure, error = self.pressures(hertz, points)
+            total = pressure if addition is None else pressure + addition(index)
+            return self._walls(hertz), total, error
 
         def solve(indices: IndexArray) -> tuple[ComplexArray, Array]:
-            total = max(expected, len(done) + indices.size)
-
-            def counted(index: int) -> tuple[ComplexArray, Array]:
-                result = pressures_at(index)
-                with lock:
-                    done.append(index)
-                    progress(name, min(len(done), total - 1), total)
-                return result
-
-            in_order = in_threads([partial(counted, int(index)) for index in indices])
-            pressure, error = zip(*in_order, strict=True)
+            nonlocal done
+            total, parts = max(expected, done + indices.size), []
+            for walls, *part in distributed(solved, indices.tolist(), mapped_in_threads):
+                self._solved[walls[0].frequency_hz] = walls  # of another process
+                parts.append(part)
+                done += 1
+                progress(name, min(done, total - 1), total)
+            pressure, error = zip(*parts, strict=True)
             return np.array(pressure), np.array(error)
 
         progress(name, 0, expected)
         sampled = sample(table_hz, delay_s, solve)
-        progress(name, len(done), len(done))
+        progress(name, done, done)
         return sampled
 
     def with_small(

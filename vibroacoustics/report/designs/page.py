@@ -38,7 +38,8 @@ def analysis_of_designs(search: xr.Dataset) -> Analysis:
     """
     designs, study = evaluated(search), parameters(search)
     reason, no_change = no_best(search), search.attrs["no_change"]
-    counts = f"{designs.count} designs were evaluated, {designs.met.sum()} meet every constraint"
+    evaluated_count, allowed = search.attrs["evaluated"], search.attrs["allowed"]
+    counts = f"{evaluated_count} designs were evaluated, {allowed} meet every constraint"
     best: list[Block] = [Text(f"{counts}{_failed(search)}.", "note")]
     shown_best: list[Block] = []
     tables = {"designs.csv": designs_data(search)}
