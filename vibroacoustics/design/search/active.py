@@ -15,6 +15,7 @@ from scipy.stats import norm, qmc
 from ...base.arrays import Array, IndexArray
 from ...base.errors import SolverError
 from ...base.progress import Progress, no_progress
+from ..evaluation import Evaluation
 from .best import comparable
 from .gaussian_process import Process, Runs, fitted
 from .problem import History, Searched, SearchProblem
@@ -95,6 +96,21 @@ class Models:
             mean, deviation = process.posterior(designs)
             probability *= norm.cdf(-mean / np.maximum(deviation, np.finfo(float).tiny))
         return probability
+
+    def expected(self, designs: Array, constraints: int) -> Evaluation:
+        """Return expected values of designs.
+
+        Parameters
+        ----------
+        designs : as shares of the ranges, shape (design, variable)
+        constraints : their number
+        """
+        objective, *limited = (
+            process.posterior(designs)[0]
+            for process in (self.objective, *self.limited[:constraints])
+        )
+        columns = np.reshape(limited, (constraints, len(designs))).T
+        return Evaluation(objective[:, None], columns, ("",) * len(designs))
 
     def promise(self, designs: Array) -> Array:
         """Negative expected objective; minus infinity where constraints are rather not met."""
@@ -185,7 +201,7 @@ def search_active(
         )
     promised = slice(search.count, search.count + repeats + 1)
     search.finish(best, repeats)
-    return ActiveSearch(search.searched(), search.codes(best), promised, models, gains[-1])
+    return ActiveSearch(search.searched(), problem.at_shares(best), promised, models, gains[-1])
 
 
 class _Search:
@@ -195,7 +211,6 @@ class _Search:
         self._problem, self._seed, self._progress, self._runs = problem, seed, progress, runs
         self._history = History(problem.evaluate)
         self._shares = np.empty((0, len(problem.lower)))
-        self._span = np.maximum(problem.upper - problem.lower, np.finfo(float).tiny)
 
     @property
     def count(self) -> int:
@@ -205,11 +220,6 @@ class _Search:
     def searched(self) -> Searched:
         """All runs so far."""
         return self._history.searched()
-
-    def codes(self, shares: Array) -> Array:
-        """Designs as the problem codes them, shape (..., variable)."""
-        codes = self._problem.lower + shares * self._span
-        return np.where(self._problem.integer, np.round(codes), codes)
 
     def run(self, shares: Array) -> None:
         """Evaluate designs, each with scatter of its run."""
@@ -223,7 +233,7 @@ class _Search:
         self._progress("runs", self.count, self.count)
 
     def _evaluate(self, shares: Array, numbers: IndexArray) -> None:
-        self._history(np.column_stack([self.codes(shares), numbers]))
+        self._history(np.column_stack([self._problem.at_shares(shares), numbers]))
         self._shares = np.concatenate([self._shares, shares])
 
     def first_designs(self) -> Array:
@@ -294,4 +304,4 @@ class _Search:
 
     def _snapped(self, shares: Array) -> Array:
         """Shares of designs that the problem can code, rounded."""
-        return np.round((self.codes(shares) - self._problem.lower) / self._span, DIGITS)
+        return np.round(self._problem.shares(self._problem.at_shares(shares)), DIGITS)
