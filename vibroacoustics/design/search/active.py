@@ -37,6 +37,8 @@ DISTANCES: Final = (0.1, 0.02, 0.004)
 """Standard deviations about the best candidate, as shares of the ranges."""
 DIGITS: Final = 6
 """Of designs as shares of the ranges: rounding noise does not reach the next run."""
+CERTAIN: Final = 1e-12
+"""Least standard deviation, by which differences are divided."""
 AS_MEANT: Final = -1
 """Number of the run without any scatter."""
 
@@ -49,7 +51,7 @@ def expected_improvement(mean: Array, deviation: Array, best: float) -> Array:
     mean, deviation : of Y, shape (design,)
     best : value that Y shall be below
     """
-    deviation = np.maximum(deviation, np.finfo(float).tiny)
+    deviation = np.maximum(deviation, CERTAIN)
     share = (best - mean) / deviation
     return np.asarray((best - mean) * norm.cdf(share) + deviation * norm.pdf(share))
 
@@ -63,7 +65,7 @@ def augmented_improvement(mean: Array, deviation: Array, best: float, noise: flo
     best : mean of the effective best design
     noise : variance of a run
     """
-    total = np.sqrt(np.maximum(deviation**2 + noise, np.finfo(float).tiny))
+    total = np.sqrt(np.maximum(deviation**2 + noise, CERTAIN**2))
     gain = expected_improvement(mean, deviation, best)
     return np.asarray(gain * (1.0 - np.sqrt(noise) / total))
 
@@ -94,7 +96,7 @@ class Models:
         probability = np.ones(len(designs))
         for process in self.limited:
             mean, deviation = process.posterior(designs)
-            probability *= norm.cdf(-mean / np.maximum(deviation, np.finfo(float).tiny))
+            probability *= norm.cdf(-mean / np.maximum(deviation, CERTAIN))
         return probability
 
     def expected(self, designs: Array, constraints: int) -> Evaluation:
