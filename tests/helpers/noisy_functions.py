@@ -58,7 +58,7 @@ def search_problem(name: str, seed: int) -> SearchProblem:
     function, size = FUNCTIONS[name]
 
     def evaluate(designs: Array) -> Evaluation:
-        rngs = [np.random.default_rng((17, seed, int(run) + 1)) for run in designs[:, -1]]
+        rngs = [np.random.default_rng((17, size, seed, int(run) + 1)) for run in designs[:, -1]]
         noise = NOISE_DB * np.array([rng.standard_normal() for rng in rngs])
         objective = function(designs[:, :-1]) + noise
         return Evaluation(objective[:, None], np.empty((len(designs), 0)), ("",) * len(designs))
@@ -89,8 +89,9 @@ def regrets(name: str, seed: int) -> Regrets:
     problem, (function, size) = search_problem(name, seed), FUNCTIONS[name]
     search = search_active(problem, RUNS, REPEATS, LEAST_GAIN_DB, seed)
     repeats = search.searched.evaluation.objectives[search.promised][1:]
-    designs = np.random.default_rng((23, seed)).random((RUNS, size))
+    designs = np.random.default_rng((23, size, seed)).random((RUNS, size))
     values = problem.evaluate(np.column_stack([designs, 1000 + np.arange(RUNS)])).objectives
     random = designs[np.argmin(values)]
     true_db, random_db = function(np.stack([search.best, random]))
-    return Regrets(float(repeats.mean()), float(true_db), float(random_db), len(search.searched.designs))
+    runs = len(search.searched.designs)
+    return Regrets(float(repeats.mean()), float(true_db), float(random_db), runs)
