@@ -29,10 +29,13 @@ def test_regret_of_noisy_functions(name: str) -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_regret_on_eight_of_ten_seeds(name: str) -> None:
+    """Of the mean over all starts. The mean of eight is uncertain by 0.24/√8 = 0.085 dB: of a search
+    that hits the optimum 12 % exceed 0.1 dB, so that it is shown and not asserted.
+    """
     each = [regrets(name, seed) for seed in range(10)]
     for seed, one in enumerate(each):
-        print(f"{name} seed {seed}: {one}")
-    assert sum(one.repeats_db <= 0.1 for one in each) >= 8
+        print(f"{name} {seed}: {one.runs} runs, regret {one.true_db:.3f} dB, by eight repeats "
+              f"{one.repeats_db:.3f} dB, random search {one.random_db:.3f} dB")  # fmt: skip
     assert sum(one.true_db <= 0.1 for one in each) >= 8
     assert np.mean([one.true_db for one in each]) < np.mean([one.random_db for one in each])
 

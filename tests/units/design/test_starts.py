@@ -31,10 +31,9 @@ def radiation(study, *_):
 
 def nominal(variables=STROKE, more=STARTS + ACTIVE) -> Study:
     """The nominal machine with a twin ring, whose keys are nearly dry."""
+    study = study_with(design_table('"twin-oldham"', variables) + more, SOURCES_STUDY)
     with pytest.warns(UserWarning, match="oil_layer_um"):
-        study = study_with(design_table('"twin-oldham"', variables) + more, SOURCES_STUDY)
-        study = study.replace(DRY)
-    return study.model_copy(update={"ranges": ()})
+        return study.replace(DRY).model_copy(update={"ranges": ()})
 
 
 @pytest.fixture(scope="module")

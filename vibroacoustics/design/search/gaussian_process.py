@@ -142,7 +142,7 @@ class Process:
         repeated = total - len(runs.count)
         within = repeated * np.log(self.noise) + float(np.log(runs.count).sum())
         within += runs.squares / self.noise
-        return -0.5 * (fit + determinant + within + total * float(np.log(2.0 * np.pi)))
+        return float(-0.5 * (fit + determinant + within + total * np.log(2.0 * np.pi)))
 
     @cached_property
     def slope(self) -> Array:
@@ -209,9 +209,8 @@ def fitted(runs: Runs, first: Sequence[Process] = ()) -> Process:
         raise ParameterError("a Gaussian process: needs runs of two designs or more")
     spread = max(float(runs.mean.var()), 1e-12)
     size = runs.designs.shape[1]
-    bounds = np.log([
-        np.multiply(spread, SIGNAL_SHARES), *[LENGTHS] * size, np.multiply(spread, NOISE_SHARES)
-    ])  # fmt: skip
+    ends = [np.multiply(spread, SIGNAL_SHARES), np.multiply(spread, NOISE_SHARES)]
+    bounds = np.log(np.array([ends[0], *np.tile(LENGTHS, (size, 1)), ends[1]]))
     noise = min(runs.pure_error or 0.01 * spread, spread)
     begins = [[spread, *[length] * size, max(noise, 1e-6 * spread)] for length in FIRST_LENGTHS]
     begins += [[one.signal, *one.lengths, one.noise] for one in first]
