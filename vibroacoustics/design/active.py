@@ -20,7 +20,7 @@ from .search_dataset import searched_dataset, with_best, with_shares, with_total
 SPREAD_DESIGNS: Final = 1024
 """Designs that fill the space, whose expected values show what decides."""
 CONFIDENCE: Final = 0.95
-"""Of the interval of the mean of the last runs."""
+"""Confidence of the interval of the mean of the last runs."""
 
 
 def actively_searched(problem: Problem, evaluate: Evaluate, progress: Progress) -> xr.Dataset:

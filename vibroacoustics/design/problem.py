@@ -282,8 +282,8 @@ class Problem:
 
         An active search has the mean of nominal pieces, each of which is a run.
         """
-        nominal = "mean" if self.design.search.method == "active" else MOST_PIECES_KEEP
-        default: Statistic = MEDIAN if self.is_sampled else nominal
+        nominal: Statistic = "mean" if self.design.search.method == "active" else MOST_PIECES_KEEP
+        default = MEDIAN if self.is_sampled else nominal
         return default if wanted.samples is None else wanted.samples
 
     def _shared_out(self, samples: Array) -> list[tuple[ComparedMachine, Array]]:

@@ -29,8 +29,8 @@ def test_regret_of_noisy_functions(name: str) -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_regret_on_eight_of_ten_seeds(name: str) -> None:
-    """Of the mean over all starts. The mean of eight is uncertain by 0.24/√8 = 0.085 dB: of a search
-    that hits the optimum 12 % exceed 0.1 dB, so that it is shown and not asserted.
+    """Of the mean over all starts. The mean of eight is uncertain by 0.24/√8 = 0.085 dB: at the
+    optimum 12 % of them exceed 0.1 dB, so that it is shown and not asserted.
     """
     each = [regrets(name, seed) for seed in range(10)]
     for seed, one in enumerate(each):

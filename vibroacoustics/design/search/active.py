@@ -36,7 +36,7 @@ NEAR: Final = 256
 DISTANCES: Final = (0.1, 0.02, 0.004)
 """Standard deviations about the best candidate, as shares of the ranges."""
 DIGITS: Final = 6
-"""Of designs as shares of the ranges: rounding noise does not reach the next run."""
+"""Decimal digits of shares of the ranges: rounding noise does not reach the next run."""
 CERTAIN: Final = 1e-12
 """Least standard deviation, by which differences are divided."""
 AS_MEANT: Final = -1
@@ -212,7 +212,7 @@ class _Search:
     def __init__(self, problem: SearchProblem, seed: int, progress: Progress, runs: int) -> None:
         self._problem, self._seed, self._progress, self._runs = problem, seed, progress, runs
         self._history = History(problem.evaluate)
-        self._shares = np.empty((0, len(problem.lower)))
+        self._shares: Array = np.empty((0, len(problem.lower)))
 
     @property
     def count(self) -> int:

@@ -125,9 +125,9 @@ class Process:
         ones, total, level = self._weights
         across = matern(self.runs.designs, designs, self.signal, self.lengths)
         mean = level + across.T @ self._residual
-        known = np.einsum("ij,ij->j", across, self._solve(across))
+        explained = np.einsum("ij,ij->j", across, self._solve(across))
         unknown_level = (1.0 - across.T @ ones) ** 2 / total
-        variance = self.signal - known + unknown_level
+        variance = self.signal - explained + unknown_level
         return np.asarray(mean), np.sqrt(np.maximum(variance, 0.0))
 
     @cached_property
@@ -213,7 +213,7 @@ def fitted(runs: Runs, first: Sequence[Process] = ()) -> Process:
     bounds = np.log(np.array([ends[0], *np.tile(LENGTHS, (size, 1)), ends[1]]))
     noise = min(runs.pure_error or 0.01 * spread, spread)
     begins = [[spread, *[length] * size, max(noise, 1e-6 * spread)] for length in FIRST_LENGTHS]
-    begins += [[one.signal, *one.lengths, one.noise] for one in first]
+    begins += [[process.signal, *process.lengths, process.noise] for process in first]
 
     def cost(logarithms: Array) -> tuple[float, Array]:
         process = _process(runs, logarithms)
