@@ -12,6 +12,7 @@ from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.design.evaluation import evaluating
 from vibroacoustics.design.optimising import optimise
 from vibroacoustics.design.problem import Problem
+from vibroacoustics.sources.oldham_keys.rattle import start_rates
 from vibroacoustics.study.study import Study
 
 STROKE = {"options.twin-oldham.stroke_ratio": "range = [0.6, 1.4]"}
@@ -34,6 +35,16 @@ def nominal(variables=STROKE, more=STARTS + ACTIVE) -> Study:
     study = study_with(design_table('"twin-oldham"', variables) + more, SOURCES_STUDY)
     with pytest.warns(UserWarning, match="oil_layer_um"):
         return study.replace(DRY).model_copy(update={"ranges": ()})
+
+
+def test_start_is_from_rest_or_with_random_rates() -> None:
+    """Each rate moves a key at 0.05 m/s at most; 200 starts come near that."""
+    assert not start_rates(0, 0.055).any()
+    np.testing.assert_array_equal(start_rates(7, 0.055), start_rates(7, 0.055))
+    radii = np.array([1.0, 1.0, 0.055, 0.055])
+    speeds = np.abs([radii * start_rates(number, 0.055) for number in range(1, 201)])
+    assert (speeds <= 0.05).all()
+    assert (speeds.max(axis=0) > 0.045).all()  # 0.9^200 of missing it: 1e-9
 
 
 @pytest.fixture(scope="module")

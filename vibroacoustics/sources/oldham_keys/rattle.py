@@ -33,8 +33,8 @@ mean and to 0.01 whatever the phase of the steps."""
 LOADED_STEP_RATIO: Final = 1.0
 """Likewise where no key leaves its face; 0.6 in its place changes no level by 0.0005 dB, 0.2 none
 by more than 0.03 dB."""
-START_SPEED_M_PER_S: Final = 0.1
-"""Largest speed of a key across its slot where the start is random."""
+START_SPEED_M_PER_S: Final = 0.05
+"""Largest speed of a key across its slot by each coordinate where the start is random."""
 STICKING_SPEED_M_PER_S: Final = 2e-3
 """Friction grows as tanh of sliding speed over this one; at rated load a quarter of it
 changes no peak by more than 0.2 N. The ring slides at up to 1.3 m/s at 3500 rpm."""
@@ -171,14 +171,14 @@ def start_rates(start: int, radius_m: float) -> Array:
 
     Parameters
     ----------
-    start : 0 from rest; any other number is the seed of random speeds of the keys across their
-        slots, at most 0.1 m/s
+    start : 0 from rest; any other number is the seed of random rates, each of which moves a key
+        across its slot at 0.05 m/s at most
     radius_m : distance of the keys from the ring's centre
     """
     if start == 0:
         return np.zeros(COORDINATES)
     share = np.random.default_rng(start).uniform(-1.0, 1.0, COORDINATES)
-    return np.asarray(0.5 * START_SPEED_M_PER_S * share / [1.0, 1.0, radius_m, radius_m])
+    return np.asarray(START_SPEED_M_PER_S * share / [1.0, 1.0, radius_m, radius_m])
 
 
 def _turns(
