@@ -2,8 +2,8 @@
 At the neighbour's window
 =========================
 
-The rating level at a window, with the adjustment for tones, against the limit at night
-(:doc:`/rating`); coarsely, to 250 Hz.
+The rating level at a window, with the adjustment for tones, and the limit at night
+(:doc:`/rating`). The study is coarse, to 250 Hz.
 
 .. literalinclude:: /gallery/studies/neighbour.toml
    :language: toml
@@ -18,9 +18,9 @@ study = va.load_study("studies/neighbour.toml")
 results = va.run(study)
 
 # %%
-# Will it be allowed?
-# -------------------
-# Rating levels of all options if the machine runs the whole hour, and half of it.
+# Rating levels of options
+# ------------------------
+# The machine runs for the full hour, or for half of it.
 at = results.sel(speed=2900.0)
 rows = np.arange(at.sizes["option"])
 figure, axes = plt.subplots(layout="constrained")

@@ -2,10 +2,9 @@
 A balancer of your own
 ======================
 
-A balancing option that the package does not have is one class. This one is a weight on a second
-shaft that turns the other way at the same speed: with a counterweight on the crank it takes the
-first order of a mass that slides to and fro. A file with such a class is taken in by ``--plugin
-FILE.py`` too: :doc:`/add_a_balancer`.
+A further balancing option is one class. This one is a weight on a second shaft that rotates against
+the crank at the same speed: with a counterweight on the crank it balances the first order of a
+reciprocating mass. ``--plugin FILE.py`` loads a file with such a class: :doc:`/add_a_balancer`.
 """
 
 from typing import ClassVar
@@ -35,7 +34,7 @@ class BackTurningWeight(va.Option):
 
 
 # %%
-# A study may now name the kind; units and ranges are checked as for the built-in ones:
+# A study may now name the kind. Units and ranges are checked as for built-in kinds:
 #
 # .. literalinclude:: /gallery/studies/balancer.toml
 #    :language: toml
@@ -44,8 +43,8 @@ study = va.load_study("studies/balancer.toml")
 results = va.run(study, radiation=rough_radiation)
 
 # %%
-# The ring's force is a line along x. It is the sum of two forces that turn in opposite senses; the
-# weight takes the one that turns back, and a circle is left.
+# The force of the ring is a line along x, the sum of two counter-rotating forces. The weight
+# cancels the backward one, and a circle remains.
 figure, axes = plt.subplots(layout="constrained")
 for option in results["option"].values:
     force = results["force"].sel(speed=2900.0, option=option).sum("source")
@@ -54,7 +53,7 @@ axes.set(xlabel="force x, N", ylabel="force y, N", aspect="equal")
 axes.legend(fontsize="small")
 
 # %%
-# Beside the built-in counterweight, at both speeds:
+# Comparison with the built-in counterweight, at both speeds:
 foot = results["foot_force_amplitude"].sel(order=1).max("foot")
 level = results["change_1x"].sel(receiver="front_1m")
 for option in results["option"].values:

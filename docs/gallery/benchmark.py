@@ -2,8 +2,8 @@
 The open benchmark
 ==================
 
-Ten cases with expected values and tolerances, and a scorer that needs no package. Here
-``vibroacoustics benchmark`` answers them; how another program is scored: :doc:`/benchmark`.
+Ten cases with expected values and tolerances, and a scorer without dependencies. Here
+``vibroacoustics benchmark`` answers them. How to score another program: :doc:`/benchmark`.
 """
 
 import csv
@@ -23,9 +23,9 @@ done = subprocess.run(
 files = json.loads(done.stdout)["files"]
 
 # %%
-# The scorer alone
-# ----------------
-# A file of its own scores the submission of any program, here with one wrong sign.
+# Scorer
+# ------
+# One file scores the submission of any program, here also one with a wrong sign.
 with (folder / "submission.csv").open(encoding="utf-8", newline="") as file:
     answers = list(csv.DictReader(file))
 wrong = [
@@ -41,8 +41,8 @@ for name in ("submission.csv", "wrong.json"):
     print(f"{name}, exit code {scored.returncode}", *scored.stdout.splitlines()[-11:], sep="\n")
 
 # %%
-# How near the answers are
-# ------------------------
+# Errors of the answers
+# ---------------------
 # Largest error of each case as a share of its tolerance.
 cases = sorted({row["case"] for row in answers})
 shares = []

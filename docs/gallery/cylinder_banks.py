@@ -3,8 +3,8 @@ Banks of cylinders: four, six, eight
 ====================================
 
 The compressors of Tsuji et al., figure 1: two opposite crank throws, on each the rods of two, three
-or four banks. Throws and banks decide which orders of the force are left. Closed forms beside ours:
-:doc:`/machines/reciprocating`.
+or four banks. Throws and banks determine the remaining orders of the force. Comparison with closed
+forms: :doc:`/machines/reciprocating`.
 
 .. literalinclude:: /gallery/studies/banks.toml
    :language: toml
@@ -21,9 +21,9 @@ results = va.run(study, radiation=rough_radiation)
 # %%
 # Orders of force and moment
 # --------------------------
-# Opposite throws leave no force of the first order but a couple, which turns with the crank where
-# the banks stand evenly over half a turn: counterweights take it. The second order has the same
-# sign on both throws and adds up.
+# Opposite throws have no force of the first order but a couple. It rotates with the crank if the
+# banks are evenly spaced over half a turn, and counterweights balance it. The second order has the
+# same sign on both throws and adds up.
 figure, axes = plt.subplots(1, 2, layout="constrained", figsize=(8.0, 3.6))
 shown = {"force_amplitude": "force, N", "moment_amplitude": "moment, N m"}
 for panel, (name, label) in zip(axes, shown.items(), strict=True):
@@ -34,7 +34,7 @@ for panel, (name, label) in zip(axes, shown.items(), strict=True):
 axes[0].legend(fontsize="small")
 
 # %%
-# More cylinders run more evenly: the gas of the banks shares out over the revolution.
+# With more cylinders the gas torque is more even, and the speed fluctuation is smaller.
 figures = results["reported_figure"].sel(speed=1000.0, figure="speed_fluctuation_percent")
 for option in results["option"].values:
-    print(f"{option:20s} {figures.sel(option=option).item():6.2f} % swing of the shaft's speed")
+    print(f"{option:20s} {figures.sel(option=option).item():6.2f} % speed fluctuation")

@@ -2,10 +2,10 @@
 Designs: a counterweight or a sprung mass, and which mounts
 ===========================================================
 
-Which balancer, how heavy, tuned to what, on which mounts? The table ``design`` of a study says what
-may vary, what is wanted and how far pieces scatter; :func:`vibroacoustics.optimise` looks for the
-front, on the command line ``vibroacoustics optimise designs.toml``; ``vibroacoustics sweep`` takes
-a grid or a sample of the same table. All keys: :doc:`/designs`.
+The best balancer, its mass and tuning, and the best mounts. The table ``design`` of a study has
+variables, objectives and tolerances. :func:`vibroacoustics.optimise` finds the front, on the
+command line ``vibroacoustics optimise designs.toml``; ``vibroacoustics sweep`` computes a grid or a
+sample of the same table. All keys: :doc:`/designs`.
 
 .. literalinclude:: /gallery/studies/designs.toml
    :language: toml
@@ -22,8 +22,8 @@ search = va.optimise(study, radiation=rough_radiation)
 # %%
 # The front
 # ---------
-# No design of the front is better than another in both objectives. The sprung mass holds it: a
-# counterweight turns, the ring's force swings to and fro, so at best half of it goes.
+# No design of the front is better than another in both objectives. It consists of sprung masses: a
+# rotating counterweight balances at best half of the oscillating force of the ring.
 values = search["wanted_value"].sel(wanted=["line", "foot"])
 allowed, front = search["meets_constraints"] == 1, search["on_front"] == 1
 figure, axes = plt.subplots(layout="constrained", figsize=(6.4, 4.0))
@@ -34,9 +34,9 @@ axes.set(xlim=(-12, 6), ylim=(0.15, 0.6))
 axes.legend()
 
 # %%
-# What pieces keep
-# ----------------
-# Nine of ten pieces out of 2000 that the search has not seen reach the promised values.
+# Promised values
+# ---------------
+# Nine of ten of 2000 specimens that the search did not use reach the promised values.
 for rank in search["best_rank"].values:
     row = int(search["best_design"].sel(best_rank=rank))
     design = search["design_value"].sel(design=row).dropna("design_variable")
@@ -50,10 +50,10 @@ for rank in search["best_rank"].values:
         print(f"{rank}  {name:10s} as meant {meant:6.2f}, promised {promised:6.2f}")
 
 # %%
-# What decides
-# ------------
-# Share of each variable alone in the variance over the whole space, with the lower end of its
-# bootstrap interval; below the floor it is no more than chance gives.
+# Influence of the variables
+# --------------------------
+# Share of each variable in the variance over the design space, with the lower end of its bootstrap
+# interval. Below the floor it is not resolved from chance.
 print(search["design_share"].to_pandas().T.round(2).to_string())
 print(search["design_share_low"].to_pandas().T.round(2).to_string())
 print(search["design_share_floor"].to_pandas().round(3).to_string())

@@ -2,9 +2,9 @@
 Designs: stroke, offset and clearance of a slider-link compressor
 =================================================================
 
-Dagilis, Vaitkus and Kirejchick ask for efficiency and silence together. Both hang on the crank's
-radius, the offset of the link and the clearance of the piston; none of them is linear, so each
-design is a run.
+Efficiency and silence together, as Dagilis, Vaitkus and Kirejchick require. Both depend on the
+crank radius, the offset of the link and the clearance of the piston. None of them is linear, so
+each design is a run.
 
 .. literalinclude:: /gallery/studies/designs_slider_link.toml
    :language: toml
@@ -21,7 +21,7 @@ search = va.optimise(study, radiation=rough_radiation)
 # %%
 # Efficiency against force
 # ------------------------
-# A longer stroke and a wide clearance help the efficiency; the force grows with the stroke.
+# A longer stroke and a wide clearance improve the efficiency. The force grows with the stroke.
 values = search["wanted_value"].sel(wanted=["efficiency", "foot"])
 front = search["on_front"] == 1
 figure, axes = plt.subplots(layout="constrained", figsize=(6.4, 4.0))

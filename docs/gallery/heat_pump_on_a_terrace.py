@@ -1,9 +1,9 @@
 """
-On a terrace
-============
+A heat pump on a terrace
+========================
 
 Lawn instead of a hard floor, a fence towards the neighbour, and under the feet a base of sheet
-steel that radiates (:doc:`/outdoors`, :doc:`/structure_borne`); coarsely, to 250 Hz.
+steel that radiates (:doc:`/outdoors`, :doc:`/structure_borne`). The study is coarse, to 250 Hz.
 
 .. literalinclude:: /gallery/studies/terrace.toml
    :language: toml
@@ -18,10 +18,10 @@ study = va.load_study("studies/terrace.toml")
 results = va.run(study)
 
 # %%
-# What lawn and fence do
-# ----------------------
-# Pressure at the neighbour's per velocity of the machine, against the hard floor. Over a hard floor
-# a machine that shakes up and down (``tz``) cancels almost with its image; lawn undoes that.
+# Effect of lawn and fence
+# ------------------------
+# Pressure at the neighbour's per velocity of the machine, relative to the hard floor. Over a hard
+# floor vertical vibration (``tz``) and its image nearly cancel; over lawn they do not.
 ways = "radiation.surroundings.ground", "radiation.surroundings.barrier"
 hard = va.radiate(study.replace(dict.fromkeys(ways)))["transfer_vector"]
 lawn = va.radiate(study.replace({ways[1]: None}))["transfer_vector"]
@@ -36,13 +36,13 @@ for name, vectors, style in (
             ratio["frequency"], 20.0 * np.log10(ratio), style, color=colour, label=f"{dof}, {name}"
         )
 axes.axhline(0.0, color="grey", linewidth=0.5)
-axes.set(xlabel="frequency, Hz", ylabel="dB against the hard floor")
+axes.set(xlabel="frequency, Hz", ylabel="dB relative to the hard floor")
 axes.legend()
 
 # %%
-# By air or by the feet
-# ---------------------
-# The 1× line at the neighbour's by each way, with the span that holds 90 % of such plates.
+# Airborne and structure-borne sound
+# ----------------------------------
+# The 1× line at the neighbour's by each path. The range holds 90 % of such plates.
 at = results.sel(receiver="neighbour", speed=2900.0)
 by_air = at["order_level"].sel(order=1, weighting="A")
 by_plate = at["structure_borne_line_level"].sel(line="order 1", weighting="A")
@@ -53,8 +53,8 @@ figure, axes = plt.subplots(layout="constrained")
 axes.barh(
     rows, (high - low).values, left=(by_plate + low).values, height=0.5, color="C1", alpha=0.3
 )
-axes.plot(by_plate, rows, "|", color="C1", markersize=14, label="by the feet and the base")
-axes.plot(by_air, rows, "o", color="C0", label="by air")
+axes.plot(by_plate, rows, "|", color="C1", markersize=14, label="structure-borne")
+axes.plot(by_air, rows, "o", color="C0", label="airborne")
 axes.set(yticks=rows, yticklabels=options, xlabel="1× at the neighbour's, dB(A)")
 axes.set_xlim(left=-60.0)
 figure.legend(loc="outside lower center", ncols=2)

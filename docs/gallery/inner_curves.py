@@ -1,11 +1,10 @@
 """
-What goes on inside a machine
-=============================
+Inner curves of a machine
+=========================
 
-Pressures, films, friction, torques and critical speeds are no part of a run's results;
-``va.curves`` computes them for a study, or for a machine alone. On the command line that is
-``vibroacoustics curves FILE.toml``, with a picture and a table of each. What each machine has:
-:doc:`/curves`.
+Pressures, films, friction, torques and critical speeds are not in the results of a run.
+``va.curves`` computes them for a study or a machine. On the command line ``vibroacoustics curves
+FILE.toml`` writes a picture and a table of each. List of curves: :doc:`/curves`.
 """
 
 import matplotlib.pyplot as plt
@@ -21,18 +20,18 @@ for name, curve in inner.data_vars.items():
 # %%
 # The picture of a curve
 # ----------------------
-# ``va.plot.curves`` draws any of them, with units for reading.
+# ``va.plot.curves`` plots any of them, in the units of the machine file.
 figure = va.plot.curves(inner, "friction_torque")
 
 # %%
-# What the best bore is made of: efficiency over bore and speed.
+# Efficiency over bore and speed, which determines the best bore.
 figure = va.plot.curves(inner, "mechanical_efficiency")
 
 # %%
-# Numbers and pictures of your own
-# --------------------------------
-# A curve is a labelled array in SI units, angles in radians. The scroll of a study with sources:
-# its source of gas forces shows pockets and force, its keys what they carry.
+# Your own numbers and pictures
+# -----------------------------
+# A curve is a labelled array in SI units, angles in radians. For a scroll with sources the gas has
+# pressures and forces, and the keys have contact forces.
 scroll = va.curves(va.load_study("studies/sources.toml"))
 force = scroll["gas_force"]
 print(force.dims, force.attrs["units"], force.attrs["long_name"], sep=" | ")
@@ -43,6 +42,6 @@ axes.set(xlabel="crank angle since the pocket has closed, °", ylabel="pressure,
 axes.grid(alpha=0.3)
 
 # %%
-# Each says where its equation stands.
+# Each has the source of its equation.
 for name in ("pocket_pressure", "gas_force", "key_force"):
     print(f"{name}: {scroll[name].attrs['source']}")

@@ -2,9 +2,9 @@
 Listening to options
 ====================
 
-The sound of options at a microphone as files, all at one gain, with the calibration tone; then what
-an ear makes of it. On the command line it is ``vibroacoustics listen results.nc --calibration 94``,
-and ``vibroacoustics tones FILE`` for a recording. What a sound is made of: :doc:`/listening`.
+The sound of options at a microphone as files, all at one gain, with the calibration tone, and its
+tones. On the command line: ``vibroacoustics listen results.nc --calibration 94``, and
+``vibroacoustics tones FILE`` for a recording. Method: :doc:`/listening`.
 
 .. literalinclude:: /gallery/studies/by_table.toml
    :language: toml
@@ -28,8 +28,8 @@ with tempfile.TemporaryDirectory() as folder:
 # %%
 # Some revolutions
 # ----------------
-# Lines have the phase of the model and the noise is the same for all options, so that what differs
-# is the option.
+# Lines have the phase of the model. The noise is the same for all options, so differences are those
+# of the options.
 speed, rate = 800.0, 48000
 figure, axes = plt.subplots(layout="constrained")
 for option in sounds:
@@ -43,8 +43,8 @@ axes.legend(fontsize="small")
 # %%
 # Tones
 # -----
-# A tone of 80 dB at 1 kHz is put on the sound and looked for as in a recording: its level, and its
-# ratios to the noise of its critical band and to the bands beside it.
+# A tone of 80 dB at 1 kHz is added and found as in a recording: its level, and its ratios to the
+# noise of its critical band and to the neighbouring bands.
 time = np.arange(pressure.size) / rate
 recorded = pressure + np.sqrt(2.0) * 0.2 * np.sin(2.0 * np.pi * 1000.0 * time)
 bands = va.sound.narrow_bands(recorded, rate)

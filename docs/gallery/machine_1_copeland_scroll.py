@@ -2,9 +2,9 @@
 Machine: Copeland scroll with Oldham ring
 =========================================
 
-The thesis's machine. Its Oldham ring slides to and fro and nothing balances it: at 2900 rpm that
-is the force at shaft frequency which every option of this study is about. Equations and published
-numbers: :doc:`/machines/copeland_scroll`.
+The machine of the thesis. Its Oldham ring oscillates without balance, which is the force at shaft
+frequency, at 2900 rpm, that the options of this study balance. Equations and published values:
+:doc:`/machines/copeland_scroll`.
 
 .. literalinclude:: /gallery/studies/copeland.toml
    :language: toml
@@ -17,13 +17,13 @@ from rough_radiation import rough_radiation
 import vibroacoustics as va
 
 study = va.load_study("studies/copeland.toml")
-results = va.run(study, radiation=rough_radiation)  # the package's own method without `radiation=`
+results = va.run(study, radiation=rough_radiation)  # default: radiation of the package
 
 # %%
-# Who makes the force
-# -------------------
-# Force along the ring's stroke over one revolution, by moving part. Orbiting scroll, crank pin and
-# counterweights cancel; what remains is the ring.
+# Force by moving part
+# --------------------
+# Force along the stroke of the ring over one revolution. Orbiting scroll, crank pin and
+# counterweights cancel; the force of the ring remains.
 force = results["force"].sel(speed=2900.0, option="none", axis="x")
 degrees = np.degrees(results["crank_angle"])
 figure, (parts, rest) = plt.subplots(2, 1, sharex=True, layout="constrained", figsize=(6.4, 6.4))
@@ -33,14 +33,14 @@ for part in force:
 rest.plot(degrees, force.sum("source"), "k", label="sum of all")
 rest.plot(degrees, force.sel(source="oldham"), "--", label="oldham")
 parts.set(ylabel="force along the stroke, N", xlim=(0, 360))
-rest.set(xlabel="crank angle, °", ylabel="what remains, N")
+rest.set(xlabel="crank angle, °", ylabel="sum, N")
 parts.legend(fontsize="small", ncols=2, loc="lower center")
 rest.legend(fontsize="small")
 
 # %%
 # Options compared
 # ----------------
-# First order of the resultant force, and what reaches the worst of the four feet.
+# First order of the resultant force, and the largest force into a foot.
 table = results[["force_amplitude", "foot_force_amplitude"]].sel(order=1, speed=2900.0)
 worst = table["foot_force_amplitude"].max("foot")
 for option in results["option"].values:
@@ -48,7 +48,7 @@ for option in results["option"].values:
     print(f"{option:20s} {force_n.item():7.1f} N   {foot_n.item():6.2f} N into a foot")
 
 # %%
-# Change of the 1x line against the machine as it is, at one metre.
+# Change of the 1x line relative to no balancer, at one metre.
 change = results["change_1x"].sel(speed=2900.0, receiver="front_1m").drop_sel(option="none")
 figure, axes = plt.subplots(layout="constrained")
 axes.barh(change["option"].values, change)

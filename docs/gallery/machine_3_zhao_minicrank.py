@@ -2,9 +2,9 @@
 Machine: scroll with mini-cranks
 ================================
 
-The scroll of Zhao et al. is held by small cranks. Where their radius differs from the main
-crank's, the mechanism is no parallelogram, and speed, torque and force swing. Equations and
-published numbers: :doc:`/machines/zhao_minicrank`.
+The scroll of Zhao et al. is guided by small cranks. If their radius differs from that of the main
+crank, the linkage is no parallelogram, and speed, torque and force fluctuate. Equations and
+published values: :doc:`/machines/zhao_minicrank`.
 
 .. literalinclude:: /gallery/studies/zhao.toml
    :language: toml
@@ -33,8 +33,8 @@ axes.legend(fontsize="small")
 # %%
 # Orders of the force
 # -------------------
-# The mini-cranks' own mass moment makes the first order; the ideal parallelogram alone does not
-# take it away, counterweights on the mini-cranks do: of both together no bar is left.
+# The mass moment of the mini-cranks makes the first order. Counterweights on the mini-cranks
+# balance it, the ideal parallelogram does not. With both no bar remains.
 amplitude = results["force_amplitude"].sel(speed=3000.0, order=[1, 2])
 figure, axes = plt.subplots(layout="constrained")
 options = ["none", "matched-links", "balanced-minicranks", "matched-and-balanced"]

@@ -2,9 +2,8 @@
 Machine: slider-link compressor on springs
 ==========================================
 
-The household compressor of Dagilis et al.: the crank pin runs in a link of the piston, and the
-block hangs on springs inside the shell. Equations and published numbers:
-:doc:`/machines/slider_link`.
+The household compressor of Dagilis et al.: the crank pin moves in a link of the piston, and the
+block is on springs in the shell. Equations and published values: :doc:`/machines/slider_link`.
 
 .. literalinclude:: /gallery/studies/dagilis.toml
    :language: toml
@@ -21,7 +20,7 @@ results = va.run(study, radiation=rough_radiation)
 # %%
 # Two stages of isolation
 # -----------------------
-# The block moves a hundred times as far as the shell: that is what its springs are for.
+# The displacement of the block is a hundred times that of the shell.
 first = {"order": 1, "speed": 2950.0, "option": "none", "dof": "tx"}
 for name in ("block_velocity_order", "velocity_order"):
     along = abs(results[name].sel(first).sum("source")).item()
@@ -32,8 +31,8 @@ for name in ("block_velocity_order", "velocity_order"):
 print(*(f"{value:.1f}" for value in results["natural_frequency"].values), "Hz")
 
 # %%
-# Softer springs or a better balance?
-# -----------------------------------
+# Softer springs and better balance
+# ---------------------------------
 foot = results["foot_force_amplitude"].sel(speed=2950.0, order=1).max("foot")
 figure, axes = plt.subplots(layout="constrained")
 axes.barh(foot["option"].values, 1e3 * foot)

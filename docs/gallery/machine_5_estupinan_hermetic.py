@@ -2,9 +2,8 @@
 Machine: hermetic compressor with oil films
 ===========================================
 
-The compressor of Estupiñan & Santos: its crankshaft bends and orbits in the oil films of two
-bearings while the block swings on springs. Equations and published numbers:
-:doc:`/machines/estupinan_hermetic`.
+The compressor of Estupiñan & Santos: a flexible crankshaft in the oil films of two bearings, and a
+block on springs. Equations and published values: :doc:`/machines/estupinan_hermetic`.
 
 .. literalinclude:: /gallery/studies/estupinan.toml
    :language: toml
@@ -21,9 +20,9 @@ study = va.load_study("studies/estupinan.toml")
 results = va.run(study, radiation=rough_radiation)
 
 # %%
-# What the revolution reports
-# ---------------------------
-# Smallest film, power, swing of the speed, each for every option.
+# Reported figures
+# ----------------
+# Minimum film, power and speed fluctuation for every option.
 print(f"{'':40s}", *(f"{name:>18s}" for name in results["option"].values))
 for name in results["figure"].values:
     values = results["reported_figure"].sel(figure=name).isel(speed=0).values

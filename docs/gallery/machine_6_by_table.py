@@ -1,9 +1,9 @@
 """
-Machine: one that is known by a table of its forces
-===================================================
+Machine: given by a table of its forces
+=======================================
 
-A multibody program or a test bench gives force and moment by order; the machine stands on five feet
-with mounts whose stiffness grows with frequency. File layouts: :doc:`/machines/table` and
+Force and moment by order from a multibody program or a test bench. The machine has five feet, with
+mounts whose stiffness grows with frequency. File layouts: :doc:`/machines/table` and
 :doc:`/mounts`.
 
 .. literalinclude:: /gallery/studies/by_table.toml
@@ -19,9 +19,9 @@ study = va.load_study("studies/by_table.toml")
 results = va.run(study, radiation=rough_radiation)
 
 # %%
-# Forces of the table, and what options add
-# -----------------------------------------
-# The table itself has no option; what slides and where weights sit is told beside it.
+# Forces of the table and of options
+# ----------------------------------
+# The table has no options; further tables give the sliding mass and the planes of the weights.
 shown = results["force_amplitude"].sel(speed=950.0, order=[1, 2, 4])
 for option in shown["option"].values:
     print(f"{option:20s}", *(f"{value:9.2f}" for value in shown.sel(option=option).values), "N")

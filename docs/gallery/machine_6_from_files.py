@@ -2,9 +2,10 @@
 Machine: from files to the report
 =================================
 
-A reciprocating compressor of which there are a table of forces, a data sheet of its mounts and a
-run-up on the test stand. What stands in this page's folder is what a user writes; how, say
-:doc:`/machines/table`, :doc:`/mounts` and :doc:`/measured_baseline`.
+A reciprocating compressor with a table of forces, a data sheet of its mounts and a run-up on the
+test stand. This page writes the files of a user. Layouts: :doc:`/machines/table`, :doc:`/mounts`
+and
+:doc:`/measured_baseline`.
 """
 
 import subprocess
@@ -22,8 +23,8 @@ folder = Path(tempfile.mkdtemp())
 # %%
 # Forces and mounts
 # -----------------
-# Peaks and phases by order, as a multibody program writes them, at two speeds; dynamic transfer
-# stiffness and loss factor over frequency, as ISO 10846 has them.
+# Peaks and phases by order from a multibody program, at two speeds; dynamic transfer stiffness and
+# loss factor over frequency by ISO 10846.
 head = "speed_rpm,order,source"
 for name, unit in zip(("fx", "fy", "fz", "mx", "my", "mz"), 3 * ["n"] + 3 * ["nm"], strict=True):
     head += f",{name}_{unit},{name}_phase_deg"
@@ -41,10 +42,9 @@ rows = [
 # %%
 # Machine and study
 # -----------------
-# The machine is a copy of one that comes with the package, with names of files and a few values of
-# its own; so is the study. ``vibroacoustics new table`` writes both with comments to start from,
-# ``vibroacoustics schema`` what an editor needs to complete keys, and
-# ``vibroacoustics check study.toml`` tells mistakes, time and memory before a run.
+# The machine is a copy of a shipped one with other files. ``vibroacoustics new table`` writes
+# a machine and a study with comments, ``vibroacoustics schema`` the schemas for an editor, and
+# ``vibroacoustics check study.toml`` gives errors, time and memory before a run.
 data = Path("../../data")
 machine = (data / "machines" / "reciprocating_table.toml").read_text()
 machine = machine.replace("../tables/reciprocating_forces.csv", "forces.csv")
@@ -78,8 +78,7 @@ model = va.run(study, radiation=rough_radiation)
 # %%
 # The test stand
 # --------------
-# It is played here: the modelled orders, tones of the gas that no model has, and noise; a tacho
-# gives its pulse at 90°.
+# Synthetic here: the modelled orders, gas tones without a model, noise, and a tacho pulse at 90°.
 rate, seconds, first, last = 2048, 30.0, 800.0, 1050.0
 time = np.arange(int(rate * seconds)) / rate
 rpm = first + (last - first) * time / seconds
@@ -91,7 +90,7 @@ lines = lines.isel(line=slice(1, 11)).transpose("option", "speed", "line")
 
 
 def orders_at(option, speeds):
-    """Complex peaks of the machine, order by speed: straight lines between the study's speeds."""
+    """Interpolate complex peaks of the machine, order by speed, between the study's speeds."""
     share = (np.asarray(speeds) - 850.0) / 150.0
     slow, fast = lines.sel(option=option).values
     return gas[:, None] + slow[:, None] * (1.0 - share) + fast[:, None] * share
@@ -105,8 +104,8 @@ recording = va.label_recording([pressure, tacho], rate, ["front_1m", "tacho"], [
 va.export_recording(recording, folder / "stand.csv")
 
 # %%
-# Its orders, on the command line ``vibroacoustics orders stand.csv …``; the map keeps what third
-# octaves over speed need.
+# Its orders, on the command line ``vibroacoustics orders stand.csv …``. The map is needed for third
+# octaves over speed.
 command = [sys.executable, "-m", "vibroacoustics", "orders", str(folder / "stand.csv")]
 command += ["--speed-channel", "tacho", "--pulses", "1", "--orders", "1,2,3,4,5,6,7,8,9,10"]
 command += ["--maximum-order", "45", "--resolution", "0.1", "--speed-step", "25", "--map"]
@@ -117,7 +116,7 @@ print("\n".join(done.stdout.splitlines()[:3]))
 # The baseline
 # ------------
 # Two lines in the study: measured - modelled (none) + modelled (option), as complex peaks. The
-# truth is what the stand would have recorded with the counterweight.
+# truth is the recording with the counterweight.
 with (folder / "study.toml").open("a") as file:
     file.write('\n[measured.baseline]\nfile = "orders.nc"\ntacho_angle_deg = 90.0\n')
 study = va.load_study(folder / "study.toml")
@@ -139,8 +138,8 @@ for speed in (850.0, 1000.0):
 # %%
 # The report
 # ----------
-# ``vibroacoustics run study.toml`` does all of this section. It says what was measured, and what
-# that cannot tell.
+# ``vibroacoustics run study.toml`` does all of this section. The report lists measured bands and
+# the limits of the measurement.
 va.write_report(results, folder / "report")
 print(*sorted(file.name for file in (folder / "report").iterdir()))
 figure = va.plot.baseline_third_octaves(results)

@@ -2,9 +2,9 @@
 Machine: rolling-piston compressor
 ==================================
 
-The compressor of most air conditioners: the gas torque of its single cylinder swings the shaft's
-speed, and the rotor's reaction rolls the machine once a revolution. An inverter whose torque
-follows the load, or a second cylinder at 180°, stops that. Equations and checks:
+The compressor of most air conditioners: the gas torque of its single cylinder makes the shaft speed
+fluctuate, and the reaction of the rotor rolls the machine at 1×. An inverter whose torque follows
+the load, or a second cylinder at 180°, reduces this. Equations and checks:
 :doc:`/machines/rolling_piston`.
 
 .. literalinclude:: /gallery/studies/rolling_piston.toml
@@ -22,9 +22,9 @@ study = va.load_study("studies/rolling_piston.toml")
 results = va.run(study, radiation=rough_radiation)
 
 # %%
-# What the revolution reports
-# ---------------------------
-# Swing of the speed, residual torque, vane, roller and bearings at 3000 rpm.
+# Reported figures
+# ----------------
+# Speed fluctuation, residual torque, vane, roller and bearings at 3000 rpm.
 print(f"{'':34s}", *(f"{name:>24s}" for name in results["option"].values))
 for name in results["figure"].values:
     values = results["reported_figure"].sel(figure=name, speed=3000.0).values
@@ -33,7 +33,7 @@ for name in results["figure"].values:
 # %%
 # Torques over the crank angle
 # ----------------------------
-# Load, motor and what is left of both, without and with an ideal torque control.
+# Load, motor and residual torque, without and with an ideal torque control.
 figure, axes = plt.subplots(1, 2, sharey=True, figsize=(9, 3.6), layout="constrained")
 for panel, option in zip(axes, ("none", "torque-control"), strict=True):
     machine = study.options[option].applied_to(study.machine)
@@ -48,7 +48,7 @@ axes[0].legend(fontsize="small")
 # %%
 # Roll moment on the machine
 # --------------------------
-# With two cylinders only even orders are left.
+# With two cylinders only even orders remain.
 figure, axes = plt.subplots(layout="constrained")
 for option in results["option"].values:
     moment = results["moment"].sel(option=option, axis="z", speed=3000.0).sum("source")

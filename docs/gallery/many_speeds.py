@@ -2,8 +2,7 @@
 Many speeds
 ===========
 
-A range of speeds in place of a list, up to a thousand of them; at each as many orders as the
-highest frequency holds.
+A range of up to a thousand speeds; each has the orders up to the highest frequency.
 
 .. literalinclude:: /gallery/studies/many_speeds.toml
    :language: toml
@@ -21,9 +20,9 @@ print(results.sizes["speed"], "speeds,", results.sizes["order"] - 1, "orders at 
 # %%
 # Level over the speed
 # --------------------
-# The spring-mass is tuned to 3500 rpm: a narrow valley there, and a hill at 2000 rpm, where mass
-# and ring swing against each other. A counterweight does the same at every speed. The total hardly
-# follows: most of it is not modelled.
+# The spring-mass is tuned to 3500 rpm: a narrow minimum there, and a maximum at 2000 rpm, where
+# mass and ring vibrate in opposite phase. A counterweight has the same effect at every speed. The
+# total hardly changes, as most of it is unmodelled noise.
 figure = va.plot.levels_over_speed(results)
 
 # %%
@@ -35,13 +34,12 @@ figure = va.plot.orders_over_speed(results, "foot force rear_left z", "spring-ma
 # %%
 # Campbell diagram
 # ----------------
-# Of a rigid machine the modes on the mounts alone, far below 1×. Shell and gas need sources that
-# drive them: :doc:`/over_speed`.
+# A rigid machine has only modes on its mounts, far below 1×. Modes of shell and gas need sources
+# that drive them: :doc:`/over_speed`.
 figure = va.plot.campbell(results, option="spring-mass")
 
 # %%
 # Speeds to avoid
 # ---------------
-# Where level or foot force stands out by 3 dB; shaded here, in the report also a table and
-# ``speeds.csv``.
+# Maxima of level or foot force by 3 dB: shaded here, in the report also a table and ``speeds.csv``.
 figure = va.plot.levels_over_speed(results, options=["spring-mass"])

@@ -2,9 +2,9 @@
 Orders of a recording
 =====================
 
-The recording of an electric motor that comes with the package has no tacho. The command ``orders``
-finds the speed in the signal, resamples to crank angle and writes the orders; a result file opens
-like that of a simulation. Method and limits: :doc:`/orders`.
+The recording of an electric motor in the package has no tacho. The command ``orders`` finds the
+speed in the signal, resamples it to crank angle and writes the orders, in a file like that of a
+simulation. Method and limits: :doc:`/orders`.
 """
 
 import subprocess
@@ -33,8 +33,8 @@ print("\n".join(done.stdout.splitlines()[:-1]))
 # %%
 # The order map
 # -------------
-# Lines that stand upright are orders of the speed that was found. Whether that is the shaft's no
-# analysis can tell: see :doc:`/orders`.
+# Vertical lines are orders of the speed found. The analysis cannot determine whether this is the
+# speed of the shaft: see :doc:`/compare`.
 orders = va.open_results(f"{folder.name}/orders.nc")
 level = abs(orders["order_map"].isel(channel=0)).clip(min=1e-3)
 figure, axes = plt.subplots(layout="constrained")

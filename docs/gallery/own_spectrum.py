@@ -1,10 +1,10 @@
 """
-Your spectrum as evidence
-=========================
+A measured spectrum as evidence
+===============================
 
-Third octaves of the machine itself say more about its sources than its published level. A study
-names one table of them; they weigh the samples together with the level. Method and limits:
-:doc:`/sources_of_sound`.
+Third octaves of the machine contain more information on its sources than its published level. A
+study names a table of them, which weights the samples together with the level. Method and limits:
+:doc:`/uncertainty`.
 
 .. literalinclude:: /gallery/studies/own_spectrum.toml
    :language: toml
@@ -29,8 +29,8 @@ print(
 )
 
 # %%
-# What the spectrum settled
-# -------------------------
+# Shares with and without the spectrum
+# ------------------------------------
 # Shares of the energy of the machine, mean and 80 % interval: with the published level alone, and
 # with the spectrum too.
 at = {"speed": 2900.0, "option": "none", "receiver": "front_1m"}
@@ -46,10 +46,10 @@ for name, (variable, where) in shares.items():
     )
 
 # %%
-# Where the model still differs
-# -----------------------------
-# Before the data the model expects a wide range in each band. Bands in which the weighted samples
-# still miss the measured level are named in the report.
+# Difference of model and measurement
+# -----------------------------------
+# Before the data the model has a wide range in each band. The report names bands in which the
+# weighted samples miss the measured level.
 bands = results["spectrum_band"].values
 figure, axes = plt.subplots(figsize=(7.0, 3.5))
 for name, label, colour in (

@@ -2,10 +2,10 @@
 Radiation, map and directivity
 ==============================
 
-The package's own method for the sound of the shaking shell, on a coarse grid: cut cells around
-the shell, joined by reciprocity with the floor's Green's function (:doc:`/radiation`). Asked for
-besides the microphones: sound power by ISO 3744, a map of levels and the directivity.
-``vibroacoustics radiation STUDY.toml`` (``va.radiate``) computes the radiation alone.
+Sound of the vibrating shell on a coarse grid: cut cells around the shell, joined by reciprocity
+with the Green's function of the floor (:doc:`/radiation`). The study also has sound power by ISO
+3744, a map of levels and the directivity. ``vibroacoustics radiation STUDY.toml`` (``va.radiate``)
+computes the radiation alone.
 
 .. literalinclude:: /gallery/studies/field.toml
    :language: toml
@@ -36,7 +36,7 @@ axes.legend()
 # %%
 # A map of the 1x line
 # --------------------
-# In the plane along the stroke. The machine shakes along x: two lobes above their mirror images.
+# In the plane along the stroke. The machine vibrates along x: two lobes above their mirror images.
 level = results["map_level"].sel(speed=2900.0, option="none")
 level = level.clip(min=level.max() - 40.0)  # the plane between the lobes is silent
 figure, axes = plt.subplots(layout="constrained")
@@ -51,7 +51,7 @@ axes.set(xlabel="x, m", ylabel="z, m", aspect="equal")
 around = abs(results["directivity_transfer_vector"].isel(line_frequency=0))
 figure, axes = plt.subplots(subplot_kw={"projection": "polar"}, layout="constrained")
 azimuth = np.append(around["azimuth"], 2.0 * np.pi)
-for dof, name in (("tx", "to and fro along x"), ("ty", "to and fro along y")):
+for dof, name in (("tx", "motion along x"), ("ty", "motion along y")):
     ring = around.sel(dof=dof).isel(polar_angle=-1)
     decibel = 20.0 * np.log10(np.maximum(ring / ring.max(), 1e-2))
     axes.plot(azimuth, np.append(decibel, decibel[0]), label=name)

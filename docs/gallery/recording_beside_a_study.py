@@ -1,10 +1,10 @@
 """
-A recording beside a study
-==========================
+Comparison of a recording with a study
+======================================
 
-Does the machine on the test stand do what the model says? This page makes a recording of the
-simulated force, as a sensor would that reads 5 % too much, finds its orders and holds them
-against the study, in level and phase. The limits of agreement are drawn in.
+A synthetic recording of the simulated force, by a sensor that reads 5 % too much, and the
+comparison of its orders with the study in level and phase, with limits of agreement
+(:doc:`/compare`).
 """
 
 import subprocess
@@ -22,7 +22,7 @@ results = va.run(va.load_study("studies/copeland.toml"), radiation=rough_radiati
 force = results["force"].sel(option="pendulum-side", speed=2900.0).sum("source")
 
 # %%
-# A test stand made up
+# Synthetic test stand
 # --------------------
 # 100 revolutions, noise of 0.5 N, and a tacho that pulses when the crank points along +x.
 samples, revolutions = force.sizes["crank_angle"], 100
@@ -52,10 +52,10 @@ done = subprocess.run(command, capture_output=True, text=True, check=True)
 print("\n".join(done.stdout.splitlines()[:-1]))
 
 # %%
-# Held against the study
-# ----------------------
-# ``vibroacoustics compare`` does the same with two result files. Where an order drowns in noise its
-# coherence tells.
+# Comparison
+# ----------
+# ``vibroacoustics compare`` does the same with two result files. A low coherence shows orders that
+# noise masks.
 measured = va.open_results(folder / "orders.nc")
 compared = va.compare(results, measured, option="pendulum-side")
 figure, axes = plt.subplots(2, 1, sharex=True, layout="constrained")
@@ -70,7 +70,7 @@ axes[1].set(ylabel="phase, °", xlabel="order", xticks=[1, 2, 3])
 axes[0].legend(fontsize="small")
 
 # %%
-# The 5 % are 0.42 dB in every order that stands out of the noise.
+# The 5 % are 0.42 dB in every order above the noise.
 first = compared["order_difference"].sel(order=1).isel(speed=0)
 for channel in first["channel"].values:
     print(f"{channel}: {first.sel(channel=channel).item():+.2f} dB")

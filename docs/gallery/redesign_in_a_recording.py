@@ -2,10 +2,10 @@
 A redesign in a recording
 =========================
 
-How would my machine sound with this option? The recording is one's own: its noise, its room and
-all that no model holds. Each order that the study has is taken out, multiplied by what the option
-makes of it, and put back. On the command line it is ``vibroacoustics replay machine.wav --results
-results.nc --option softer-mounts --pair mic=front_1m --rpm 950``. What is certain: :doc:`/replay`.
+The sound of an option in a recording of your machine, with its noise, its room and all sound that
+is not modelled. Each order of the study is separated, multiplied by the ratio of the option, and
+added again. On the command line: ``vibroacoustics replay machine.wav --results results.nc --option
+softer-mounts --pair mic=front_1m --rpm 950``. Limits: :doc:`/replay`.
 """
 
 import matplotlib.pyplot as plt
@@ -17,9 +17,9 @@ import vibroacoustics as va
 results = va.run(va.load_study("studies/by_table.toml"), radiation=rough_radiation)
 
 # %%
-# A recording made up
+# Synthetic recording
 # -------------------
-# Orders of the study without an option, 3 dB louder than the model says, and noise.
+# Orders of the study without an option, 3 dB louder than the model, and noise.
 speed, rate = 950.0, 8192
 lines = va.sound.ingredients(results, "none", "front_1m", speed).lines
 time = np.arange(12 * rate) / rate
@@ -44,11 +44,11 @@ summary = replayed.summary.sel(channel="mic")
 for line in summary["line"].values:
     level = summary.sel(line=line)
     before, after = (float(level[f"{name}_line_level"]) for name in ("recorded", "replayed"))
-    if np.isfinite(after):  # others stay: they are below the noise
+    if np.isfinite(after):  # others are below the noise
         print(f"{line}: {before:.1f} dB before, {after:.1f} dB after")
 
 # %%
-# Spectra before and after: orders that the option changes, and noise that stays.
+# Spectra before and after: orders that the option changes, and unchanged noise.
 figure, axes = plt.subplots(layout="constrained")
 for name, sound in (("before", replayed.before), ("after", replayed.after)):
     pressure = np.asarray(sound)[0]

@@ -1,9 +1,9 @@
 """
-Results on file, and figures of your own
-========================================
+Results and your own figures
+============================
 
-Everything that a run computes is one ``xarray.Dataset``, on file one netCDF. Its variables, with
-dimensions, units and meaning, are on the page :doc:`/generated/vocabulary`.
+The results of a run are one ``xarray.Dataset``, stored as netCDF. Its variables, with dimensions,
+units and meaning: :doc:`/generated/vocabulary`.
 """
 
 import tempfile
@@ -18,21 +18,21 @@ import vibroacoustics as va
 results = va.run(va.load_study("studies/copeland.toml"), radiation=rough_radiation)
 
 # %%
-# Each variable says what it is
-# -----------------------------
+# Attributes of variables
+# -----------------------
 for name in ("force", "transfer_vector", "level_modelled", "score"):
     variable = results[name]
     print(name, variable.dims, variable.attrs["units"], "|", variable.attrs["long_name"])
 
 # %%
-# Where the numbers come from is in the attributes: study, machine, versions, hash.
+# Attributes of the dataset have study, machine, versions and hash.
 for name in sorted(results.attrs):
     print(f"{name:25s} {str(results.attrs[name])[:60]}")
 
 # %%
-# Select, reduce, draw
-# --------------------
-# The first order at every microphone as an ordinary bar chart.
+# Selections and figures
+# ----------------------
+# The first order at every microphone as a bar chart.
 level = results["order_level"].sel(speed=2900.0, order=1, weighting="Z")
 figure, axes = plt.subplots(layout="constrained")
 place = np.arange(level.sizes["receiver"])
@@ -43,8 +43,7 @@ axes.set_ylabel("level of the 1× line, dB")
 axes.legend(fontsize="small")
 
 # %%
-# Sound by phasors: the pressure at the microphone over one revolution is the real part of the sum
-# of the lines.
+# The pressure at the microphone over one revolution is the real part of the sum of the lines.
 line = results["pressure_line"].sel(speed=2900.0, receiver="front_1m").isel(sound_source=0)
 angle = np.linspace(0.0, 2.0 * np.pi, 721)
 figure, axes = plt.subplots(layout="constrained")
@@ -58,8 +57,8 @@ axes.legend(fontsize="small")
 # %%
 # The report
 # ----------
-# ``va.write_report`` makes HTML, Markdown and tables of the results; ``vibroacoustics run`` calls
-# it, ``vibroacoustics report RESULTS.nc`` does it again from the results alone.
+# ``va.write_report`` writes HTML, Markdown and tables of results, as ``vibroacoustics run`` and
+# ``vibroacoustics report RESULTS.nc`` do.
 with tempfile.TemporaryDirectory() as folder:
     va.write_report(results, folder)
     print(*sorted(path.name for path in Path(folder).iterdir()), sep="\n")
@@ -67,9 +66,9 @@ with tempfile.TemporaryDirectory() as folder:
 # %%
 # The data sheet
 # --------------
-# ``vibroacoustics datasheet RESULTS.nc --option twin-oldham`` writes what a maker states of a
-# machine, predicted (:doc:`/data_sheet`). Bands outside the model are empty; beside them stands the
-# unmodelled noise of the published level.
+# ``vibroacoustics datasheet RESULTS.nc --option twin-oldham`` writes the predicted declaration of a
+# machine (:doc:`/data_sheet`). Bands outside the model are empty; unmodelled noise completes the
+# published level.
 sheet = va.data_sheet(results, "twin-oldham", points_m={"discharge": (0.0, 0.08, 0.35)})
 power = sheet.sound_power
 print(f"L_WA = {power.level_dba:.1f} dB, of the model alone {power.modelled_dba:.1f} dB")

@@ -1,13 +1,13 @@
-"""Sound of a shaking shell in a second instead of minutes, for the pages of this gallery.
+"""Sound of a vibrating shell in a second instead of minutes, for the pages of this gallery.
 
 The shell's surface is a layer of small sources, each with its mirror image in the hard floor:
 
     p = sum of j omega rho v_n exp(-j k r) / (4 pi r) dA
 
-A layer alone leaves out the air that flows around a body that shakes to and fro. In the flow around
-a long cylinder that is as much again, around a sphere half as much (potential flow). With these
-factors the sound of a shaking shell comes out within 1 to 3 dB of the package's own method, which
-`va.run` takes where `radiation=` is left out.
+A layer alone neglects the air that flows around a vibrating body. For a long cylinder that is as
+much again, for a sphere half as much (potential flow). With these factors the sound of a vibrating
+shell is within 1 to 3 dB of the radiation of the package, which `va.run` computes without
+`radiation=`.
 """
 
 import numpy as np
@@ -43,7 +43,7 @@ def rough_radiation(study, progress, motions=()):
     shared = {"receiver": list(study.receivers), "frequency": frequency, "distance": distance}
     rigid_part, shape_part = np.split(pressure, [len(AROUND)], axis=1)
     vectors = {"transfer_vector": labelled(rigid_part, "dof", AROUND, shared)}
-    # Told in the report: the estimate is good to about 2 dB, 25 % of the pressure.
+    # For the report: the estimate errs by about 2 dB, 25 % of the pressure.
     error = labelled(0.25 * np.abs(rigid_part), "dof", AROUND, shared)
     vectors["transfer_vector_error"] = error
     if motions:

@@ -1,10 +1,9 @@
 """
-Transfer vectors of your own
-============================
+Your own transfer vectors
+=========================
 
-``va.run`` takes the radiation as an argument: any function from a study to transfer vectors,
-measured ones or a second method's. The other pages use this one, which needs a tenth of a
-second:
+The radiation is an argument of ``va.run``: any function from a study to transfer vectors, measured
+or by a second method. The other pages use this one, which takes a tenth of a second:
 
 .. literalinclude:: /gallery/rough_radiation.py
    :language: python
@@ -21,8 +20,8 @@ rough, _ = rough_radiation(study, None)
 print(rough)
 
 # %%
-# Beside the package's own
-# ------------------------
+# Comparison with the radiation of the package
+# --------------------------------------------
 own = va.run(study)["transfer_vector"]
 figure, axes = plt.subplots(layout="constrained")
 for number, dof in enumerate(("tx", "tz", "ry")):

@@ -2,10 +2,10 @@
 A run-up
 ========
 
-While a machine runs up, orders are straight lines over the speed, natural frequencies stay where
-they are, and where both meet it gets loud. Three jobs around that, each a command and a verb:
-``map`` draws spectra over the speed, ``track`` follows orders through the crossing (Vold-Kalman),
-``export`` writes the recording for other programs. Methods: :doc:`/orders`, :doc:`/recordings`.
+In a run-up orders are straight lines over the speed, natural frequencies are constant, and levels
+are high where they cross. Three commands: ``map`` shows spectra over the speed, ``track`` follows
+orders through the crossing (Vold-Kalman), ``export`` writes the recording for other programs.
+Methods: :doc:`/orders`, :doc:`/recordings`.
 """
 
 import tempfile
@@ -17,10 +17,10 @@ from scipy.signal import lfilter
 import vibroacoustics as va
 
 # %%
-# A test stand made up
+# Synthetic test stand
 # --------------------
-# From 900 to 3900 rpm within 15 s. Orders 1 and 4 drive a structure that rings at 140 Hz; the
-# microphone hears it, and noise.
+# From 900 to 3900 rpm within 15 s. Orders 1 and 4 drive a structure with a resonance at 140 Hz; the
+# microphone records it with noise.
 rate_hz, seconds = 1024.0, 15.0
 time = np.arange(int(rate_hz * seconds)) / rate_hz
 speed_rpm = 900.0 + 3000.0 * time / seconds
@@ -41,7 +41,7 @@ mapped = va.speed_frequency_map(recording, va.SpeedChannel("speed"), resolution_
 figure = va.plot.speed_frequency_map(mapped, "front")
 
 # %%
-# The level over the speed has its peak where order 4 meets 140 Hz, at 2100 rpm.
+# The level over the speed has its maximum where order 4 crosses 140 Hz, at 2100 rpm.
 figure = va.plot.levels_over_speed(mapped)
 level = mapped["block_level"].sel(channel="front", weighting="Z")
 loudest = level["block_speed"][int(np.argmax(level.values))].item()
@@ -62,7 +62,7 @@ print(
 # %%
 # For other programs
 # ------------------
-# ``vibroacoustics export run_up.csv --out run_up.wav``; the ending chooses CSV, WAV or netCDF.
+# ``vibroacoustics export run_up.csv --out run_up.wav``; the suffix selects CSV, WAV or netCDF.
 with tempfile.TemporaryDirectory() as folder:
     for ending in ("csv", "wav", "nc"):
         file = va.export_recording(recording, Path(folder) / f"run_up.{ending}")

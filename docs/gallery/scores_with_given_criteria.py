@@ -2,8 +2,8 @@
 Scores with given criteria
 ==========================
 
-What no model computes, such as cost or free room, is given in the study beside what is computed.
-Fixed scales turn both into utilities from 0 to 1, weights into a score. See :doc:`/criteria`.
+Criteria without a model, such as cost or space, are given in the study. Fixed scales give utilities
+from 0 to 1, and weights a score. See :doc:`/criteria`.
 
 .. literalinclude:: /gallery/studies/given.toml
    :language: toml
@@ -33,9 +33,9 @@ for option in results["option"].values:
     print(f"{option:15s}", *values, f"{score:8.2f} {rank:5.0f}")
 
 # %%
-# How much the ranking depends on the weights
-# -------------------------------------------
-# The share of random weightings in which an option comes first.
+# Dependence of the ranking on the weights
+# ----------------------------------------
+# Share of random weightings in which an option ranks first.
 figure, axes = plt.subplots(layout="constrained")
 axes.bar(results["option"].values, 100.0 * results["first_place_share"])
 axes.set_ylabel("first place, % of random weightings")
@@ -43,8 +43,8 @@ axes.set_ylabel("first place, % of random weightings")
 # %%
 # Other weights
 # -------------
-# ``va.score`` ranks finished results again (``vibroacoustics score RESULTS.nc``), here with cost
-# counting more and more. The settings of the study are changed through a copy.
+# ``va.score`` ranks results again (``vibroacoustics score RESULTS.nc``), here with increasing
+# weight of the cost, in a copy of the settings.
 shares = np.linspace(0.0, 0.9, 10)
 scores = []
 for share in shares:

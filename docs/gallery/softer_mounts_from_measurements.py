@@ -1,11 +1,10 @@
 """
-Softer mounts, from measurements alone
-======================================
+Softer mounts, from measurements
+================================
 
-A compressor stands on two mounts on a plate. How loud would it be on softer ones, with a mass on
-the plate, or with an absorber? Neither the source nor the plate is modelled: hammer tests and one
-recording of the running machine are enough. The formula, files and units:
-:doc:`/measured_changes`.
+A compressor is on two mounts on a plate. Its level on softer mounts, with a mass on the plate, or
+with an absorber, follows from hammer tests and one recording of the running machine, without a
+model of source or plate. Formula, files and units: :doc:`/measured_changes`.
 """
 
 import subprocess
@@ -22,10 +21,10 @@ folder = Path(tempfile.mkdtemp())
 random = np.random.default_rng(1)
 
 # %%
-# A bench, made up
-# ----------------
+# Synthetic bench
+# ---------------
 # Heave and pitch of a machine of 25 kg, fifteen modes of a plate, two mounts, a microphone. The
-# prediction never sees what stands here; at the end it is the truth to compare with.
+# prediction does not use these values; at the end they are the truth.
 frequency = np.arange(24.0, 601.0, 4.0)
 omega = 2.0 * np.pi * frequency[:, None]
 mode = np.arange(1, 16)
@@ -42,7 +41,7 @@ as_measured = mounts.T @ np.diag([2.5e5 * (1.0 + 0.12j)] * 2) @ mounts
 
 
 def state(stiffness):
-    """Responses of two feet, two points of the plate, one microphone: per force, and running."""
+    """Return responses of two feet, two plate points and a microphone: per force, and running."""
     diagonal = mass * (own**2 * (1.0 + 0.02j) - omega**2)
     dynamic = np.einsum("fm,mn->fmn", diagonal, np.eye(17)) + shape.T @ stiffness @ shape
     seen = np.concatenate(
@@ -53,7 +52,7 @@ def state(stiffness):
 
 
 def noisy(values):
-    """With an error of 3 %."""
+    """Return values with an error of 3 %."""
     error = random.standard_normal(values.shape) + 1j * random.standard_normal(values.shape)
     return values * (1.0 + 0.03 * error / np.sqrt(2.0))
 
@@ -62,7 +61,7 @@ def noisy(values):
 # Files of the measurement
 # ------------------------
 # Three hammer tests as UFF 58b, accelerances and sound pressure by force, and a table of operating
-# spectra. The repeats tell how good the frequency responses are.
+# spectra. The repeats give the error of the frequency responses.
 nodes = [va.Node(1, "+z"), va.Node(2, "+z"), va.Node(11, "+z"), va.Node(12, "+z"), va.Node(101)]
 units = ["m"] * 4 + ["Pa"]
 responses, running = state(as_measured)
@@ -82,8 +81,8 @@ spectra = [
 print(va.export_functions(spectra, folder / "running.csv").read_text()[:140])
 
 # %%
-# What is asked
-# -------------
+# Settings
+# --------
 measured = """
 [measured]
 frequency_responses = ["hammer_1.uff", "hammer_2.uff", "hammer_3.uff"]
@@ -131,10 +130,10 @@ done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=f
 print(done.stdout)
 
 # %%
-# The band, and the truth
-# -----------------------
-# Dots are the bench with softer mounts. Where a line falls by 20 dB, 3 % of what was measured are a
-# third of what is left: the band says so.
+# Interval and truth
+# ------------------
+# Dots are the bench with softer mounts. If a line falls by 20 dB, 3 % of the measured value are a
+# third of the residual, and the interval is wide.
 predicted = va.open_results(folder / "prediction.nc")
 after = state(mounts.T @ np.diag([8.0e4 * (1.0 + 0.12j)] * 2) @ mounts)[1][:, 4]
 truth = 20.0 * np.log10(np.abs(after) / np.sqrt(2.0) / 20e-6)
@@ -144,20 +143,20 @@ figure.axes[0].plot(frequency, truth, "k.", markersize=3)
 at = predicted.sel(option="softer", receiver="front")
 held = (at["predicted_level_low"] <= truth) & (truth <= at["predicted_level_high"])
 error = np.abs(at["predicted_level"] - truth)
-print(f"within the band: {held.mean().item():.0%} of {frequency.size} lines")
+print(f"within the interval: {held.mean().item():.0%} of {frequency.size} lines")
 print(f"error: median {error.median().item():.2f} dB")
 before = 20.0 * np.log10(np.abs(running[:, 4]) / np.sqrt(2.0) / 20e-6)
 total = 10.0 * np.log10(np.sum(10.0 ** (truth / 10.0)) / np.sum(10.0 ** (before / 10.0)))
 print(f"change of the total, truth: {total:+.1f} dB")
 
 # %%
-# What the source does by itself
-# ------------------------------
-# The same measurements give its blocked forces (ISO 20270), which hold on every other structure: on
-# the command line ``vibroacoustics blocked-forces source.toml``, see :doc:`/blocked_forces`. The
-# microphone, which they were not found from, validates them.
+# Blocked forces of the source
+# ----------------------------
+# The same measurements give blocked forces (ISO 20270), which hold on every other structure: on the
+# command line ``vibroacoustics blocked-forces source.toml``, see :doc:`/blocked_forces`. The
+# microphone, which the inversion does not use, validates them.
 (folder / "source.toml").write_text(f"""
-title = "The source where it stands"
+title = "The source in place"
 {measured}
 [blocked_forces]
 points = ["foot_1", "foot_2"]

@@ -2,9 +2,8 @@
 Sound power from ten microphones
 ================================
 
-Recordings of microphones around a machine become its sound power in one command,
-``vibroacoustics sound-power``, with the background and the room taken off (ISO 3744,
-:doc:`/sound_power`).
+``vibroacoustics sound-power`` computes sound power from recordings of microphones around a machine,
+corrected for background and room (ISO 3744, :doc:`/sound_power`).
 """
 
 import subprocess
@@ -22,14 +21,14 @@ folder = Path(tempfile.mkdtemp())
 # %%
 # Ten microphones
 # ---------------
-# Made up here: noise of 70 dB re 1 pW in each third octave, a quieter background, one metre away.
+# Synthetic: noise of 70 dB re 1 pW in each third octave, a quieter background, one metre away.
 random = np.random.default_rng(1)
 rate, names = 25600.0, [f"microphone {number}" for number in range(1, 11)]
 frequency = np.fft.rfftfreq(int(2 * rate), 1.0 / rate)
 
 
 def noise(level_db):
-    """Ten signals with this level in each third octave at 1 m on a hemisphere."""
+    """Return ten signals with this level in each third octave at 1 m on a hemisphere."""
     phase = np.exp(2j * np.pi * random.random((10, frequency.size)))
     density = 10.0 ** (level_db / 10.0) / (0.2308 * np.maximum(frequency, 1.0))
     peak = 20e-6 * np.sqrt(2.0 * density * 0.5 / (2.0 * np.pi))
@@ -43,8 +42,8 @@ for name, signal in (("running", noise(70.0) + still), ("still", still)):
     )
 
 # %%
-# One command
-# -----------
+# Command
+# -------
 command = [sys.executable, "-m", "vibroacoustics", "sound-power", "running.wav", "--unit", "*=Pa"]
 command += ["--hemisphere", "1.0", "--background", "still.wav", "--out", "."]
 command += ["--reverberation-time", "0.3", "--volume", "300"]
@@ -52,9 +51,9 @@ done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=f
 print(done.stdout)
 
 # %%
-# What was made up, and what came out
-# -----------------------------------
-# 70 dB, and K2 below it: the room was said to reflect, and these signals hold no reflections.
+# Comparison with the truth
+# -------------------------
+# 70 dB less K2: the command corrects for room reflections, which these signals do not have.
 power = va.open_results(folder / "sound_power.nc")
 found = power["measured_power_level"] + power["environment_correction"]
 print(f"largest error of a band: {abs(found - 70.0).max().item():.2f} dB")

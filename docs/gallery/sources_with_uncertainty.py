@@ -1,10 +1,10 @@
 """
-Dominant sources, and how well they are known
-=============================================
+Dominant sources and their uncertainty
+======================================
 
 Gas forces, Oldham keys and motor drive an elastic shell. Uncertain parameters are sampled from
-their ranges, and every quantity is computed in every sample. Method and findings:
-:doc:`/sources_of_sound`.
+their ranges, and every quantity is computed in every sample. Results: :doc:`/sources_of_sound`;
+method: :doc:`/uncertainty`.
 
 .. literalinclude:: /gallery/studies/sources.toml
    :language: toml
@@ -26,7 +26,7 @@ print(f"{results.sizes['sample']} rows in all cases: samples with ten discrepanc
 # Levels by source
 # ----------------
 # ``va.estimate`` gives the median of the weighted samples and its 80 % interval; the nominal value
-# has a variable of its own. Levels of parts do not add up to that of the machine.
+# has a variable of its own. Levels of sources do not add up to that of the machine.
 none = results.sel(option="none")
 for source in none["sound_source"].values:
     low, value, high = va.estimate(none, "source_level", sound_source=source)
@@ -50,7 +50,7 @@ print(f"{'sum':15s} {100.0 * sum(shares.values()):6.1f} %")
 # Changes
 # -------
 # A change is the median of the changes in the samples. Its probability is the weight of the samples
-# in which it is at least what could be measured.
+# with a measurable change.
 damping = results.sel(option="damping")
 low, value, high = (round(one, 1) + 0.0 for one in va.estimate(damping, "change_total"))
 print(f"damping changes the total by {value:+.1f} dB ({low:+.1f} to {high:+.1f})")
@@ -60,9 +60,9 @@ print(f"probability that it is louder by 0.5 dB or more: {100.0 * louder:.0f} %"
 # %%
 # What would change the answer
 # ----------------------------
-# The same samples, reweighted: with less evidence, another prior of unmodelled noise, no
-# discrepancy, or other oil on the keys (:doc:`/changed_inputs`). The report shows a row where 20
-# samples are effective.
+# The same samples, reweighted: with fewer data, another prior of unmodelled noise, no discrepancy,
+# or other oil on the keys (:doc:`/changed_inputs`). The report shows rows with at least 20
+# effective samples.
 for name in none["alternative"].values:
     row = none.sel(alternative=name)
     level, share = (row[f"alternative_{what}"] for what in ("level", "share"))
@@ -73,16 +73,16 @@ for name in none["alternative"].values:
 # Transfer paths
 # --------------
 # Source, where it acts, in which direction: shares of the modelled energy add up to one over all
-# paths, and those that work against the others are negative (:doc:`/report`). Paths have phases, so
-# they are those of the representative sample.
+# paths, and those of opposing paths are negative (:doc:`/report`). They are those of the
+# representative sample.
 share = results["path_share"].sel(option="none", path_speed=2900.0)
 for path in share["path"].values[np.argsort(-abs(share.values))[:6]]:
     print(f"{path:35s} {100.0 * share.sel(path=path).item():+6.1f} %")
 
 # %%
-# The samples themselves
-# ----------------------
-# Dots are samples with a discrepancy; the larger, the more weight. Lines are medians, crosses are
+# Samples
+# -------
+# Dots are samples with a discrepancy, with an area by weight. Lines are medians, crosses are
 # nominal values.
 sampled = none["source_level_by_sample"]
 size = 400.0 * results["sample_weight"].isel(prior=0)
@@ -95,10 +95,9 @@ for number, source in enumerate(("gas", "keys", "moving_parts")):
 axes.set(xticks=range(3), xticklabels=["gas", "keys", "moving parts"], ylabel="level, dB(A)")
 
 # %%
-# What makes the spread
-# ---------------------
-# Rank correlation of each sampled value with the level of all modelled sources, the twelve largest;
-# more samples make it sharper.
+# Uncertain parameters
+# --------------------
+# The twelve largest rank correlations of a sampled value with the level of all modelled sources.
 level = none["level_modelled_by_sample"]
 ranks = {
     name: np.argsort(np.argsort(results["sampled_value"].sel(uncertain_parameter=name)))

@@ -2,9 +2,9 @@
 A stop
 ======
 
-After switch-off the motor's torque is gone and the gas brakes the machine within two or three
-revolutions. Force, foot force and sound around that moment, from each speed. In a study with
-samples the machine is the representative sample. Model and neglected effects: :doc:`/mechanisms`.
+After switch-off the gas brakes the machine within two or three revolutions. Force, foot force and
+sound around that time, from each speed, in a study with samples for the representative sample.
+Model and neglected effects: :doc:`/mechanisms`.
 
 .. literalinclude:: /gallery/studies/stopping.toml
    :language: toml
@@ -43,10 +43,10 @@ axes[2].plot(time, one["stopping_moment"].sel(axis="z"))
 axes[2].set(ylabel="roll moment, N m", xlabel="time from switch-off, s", xlim=(-0.05, 0.2))
 
 # %%
-# What follows
-# ------------
-# Trapped gas turns the shaft back until the brake jams; a valve shuts. Where a source drives the
-# elastic shell its sound goes through that too.
+# Reverse rotation
+# ----------------
+# Trapped gas turns the shaft back until the brake jams, and a valve shuts. If a source drives the
+# elastic shell, the sound of the brake is computed through it.
 onwards = va.run(study.replace({"operation.turning_back": True}), radiation=rough_radiation)
 one = onwards.sel(speed=2900.0)
 turned = np.degrees(one["stopping_turned_back_angle"].item())

@@ -1,10 +1,10 @@
 """
-Two compressors that beat
-=========================
+Beats of two compressors
+========================
 
 Two reciprocating compressors side by side, at 1200 and 1192 rpm. Each runs as an ordinary study;
-together their orders beat at 0.133 Hz times the order (:doc:`/several_machines`). The two scrolls
-of ``pipelines/two_compressors.toml`` do so at 2900 and 2880 rpm, with gas, keys and motor.
+together their orders beat at 0.133 Hz times the order (:doc:`/several_machines`).
+``pipelines/two_compressors.toml`` has two scrolls at 2900 and 2880 rpm, with gas, keys and motor.
 
 .. literalinclude:: /gallery/studies/two_compressors.toml
    :language: toml
@@ -25,10 +25,9 @@ print(f"together   {front['machines_level'].item():5.1f} dB(A)")
 print(f"at maximum {front['machines_highest_level'].item():5.1f} dB(A)")
 
 # %%
-# Between which levels each order beats
-# -------------------------------------
-# The sum of the energies is what a long average measures, the maximum what a listener hears once a
-# beat.
+# Levels of the beats
+# -------------------
+# The sum of the energies is that of a long average; the maximum occurs once a beat.
 figure, axes = plt.subplots(layout="constrained")
 loud = front.sel(beat=front["beat_highest_level"] > 0.0)
 beat = loud["beat_frequency"]
@@ -41,8 +40,7 @@ axes.legend()
 # %%
 # Over time
 # ---------
-# Order 2 of both from its lines: once a beat, every 3.75 s, its envelope is
-# the sum of both.
+# Order 2 of both machines: once a beat, every 3.75 s, the envelope is the sum of both peaks.
 time = np.arange(0.0, 8.0, 1e-3)
 lines = [f"{name}: order 2" for name in ("west", "east")]
 two = front.sel(machine_line=lines)
@@ -58,7 +56,7 @@ axes.legend()
 # %%
 # Both on one frame
 # -----------------
-# On a light frame with mounts of its own each machine moves the other one, which radiates too.
+# On a light frame with its own mounts each machine moves the other one, which radiates too.
 frame = {
     "base_frame.position_mm": [0.0, 0.0],
     "base_frame.height_mm": 150.0,

@@ -2,9 +2,8 @@
 A motor on an inverter
 ======================
 
-The scroll with variable speed: a synchronous motor with permanent magnets in place of the capacitor
-motor, which the study leaves out. Its torque by order and at the sidebands of the switching
-frequency: :doc:`/motors`.
+The scroll with variable speed: a permanent-magnet synchronous motor in place of the capacitor
+motor. Its torque by order and at the sidebands of the switching frequency: :doc:`/motors`.
 
 .. literalinclude:: ../../pipelines/copeland_inverter.toml
    :language: toml

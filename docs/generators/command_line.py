@@ -20,7 +20,7 @@ def page() -> str:
     """Markdown of the page."""
     commands = typer.main.get_command(cli.app).commands
     overview = [(f"[`{name}`](#{name})", one.help) for name, one in commands.items()]
-    parts = [HEAD, table(("command", "does"), overview)]
+    parts = [HEAD, table(("command", "purpose"), overview)]
     return "\n\n".join([*parts, *(section(name, one) for name, one in commands.items())]) + "\n"
 
 

@@ -18,9 +18,9 @@ from .tables import first_sentence
 ROOT: Final = Path(__file__).resolve().parents[2]
 HEAD: Final = """# Errors
 
-Every refusal derives from `VibroacousticsError` and is one line that a user can act on. On the
-command line it goes to the terminal, with exit code 2 and without a traceback; in Python it is
-raised. The lines below are what the examples gave when this page was made.
+Every error derives from `VibroacousticsError` and is one line that names what to do. The command
+line prints it with exit code 2 and without a traceback; in Python it is raised. The lines below are
+the output of the examples.
 """
 EXAMPLES: Final = {
     "VibroacousticsError": """

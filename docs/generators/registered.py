@@ -17,11 +17,10 @@ from .tables import code, first_sentence, table
 
 HEAD: Final = """# Kinds, criteria and units
 
-What is built in, from the code's registries. Each list is open: one Python file adds to it, without
-a change of the package ([balancer](../add_a_balancer.md), [machine](../add_a_machine.md),
+Built-in kinds, from the registries of the code. One Python file adds a further one
+([balancer](../add_a_balancer.md), [machine](../add_a_machine.md),
 [source](../add_a_source.md), [criterion](../add_a_criterion.md),
-[section](../add_a_section.md)). Fields are in SI; a file may write any of the units below in their
-place.
+[section](../add_a_section.md)). Fields are in SI; a file may use any of the units below.
 """
 
 
@@ -29,14 +28,14 @@ def page() -> str:
     """Markdown of the page."""
     parts = [
         HEAD,
-        "## Kinds of machine\n\n`kind` of a machine's file.",
+        "## Kinds of machine\n\n`kind` of a machine file.",
         table(
-            ("kind", "is"),
+            ("kind", "description"),
             [(code(n), first_sentence(package_of(m).__doc__)) for n, m in MACHINES.items()],
         ),
         "## Kinds of option\n\nTables `[options.NAME]` of a study.",
         table(
-            ("kind", "does", "needs", "fields"),
+            ("kind", "effect", "needs", "fields"),
             [
                 (code(n), first_sentence(o.__doc__), o.needs.words if o.needs else "", fields(o))
                 for n, o in OPTIONS.items()
@@ -44,7 +43,7 @@ def page() -> str:
         ),
         "## Kinds of source\n\nTables `[sources.NAME]` of a study.",
         table(
-            ("kind", "does", "tables of the machine", "fields"),
+            ("kind", "description", "tables of the machine", "fields"),
             [
                 (code(n), first_sentence(s.__doc__), ", ".join(map(code, s.tables)), fields(s))
                 for n, s in SOURCES.items()
@@ -52,17 +51,19 @@ def page() -> str:
         ),
         "## Criteria\n\nTables of `[scoring.criteria]`; less is better if `best` is below `worst`.",
         table(
-            ("name", "is", "unit"), [(code(n), one.label, one.unit) for n, one in CRITERIA.items()]
+            ("name", "description", "unit"),
+            [(code(n), one.label, one.unit) for n, one in CRITERIA.items()],
         ),
         "## Figures of designs\n\nObjectives and constraints of `[design]`.",
         table(
-            ("name", "is"), [(code(n), first_sentence(one.__doc__)) for n, one in FIGURES.items()]
+            ("name", "description"),
+            [(code(n), first_sentence(one.__doc__)) for n, one in FIGURES.items()],
         ),
         "## Sections of the report",
         table(("name", "title"), [(code(n), one.title) for n, one in SECTIONS.items()]),
         "## Columns of the comparison",
         table(("name", "head"), [(code(n), one.head or "") for n, one in COLUMNS.items()]),
-        "## Units\n\nSuffix of a key in a file, and what it becomes.",
+        "## Units\n\nSuffix of a key in a file, and its conversion to SI.",
         table(
             ("suffix", "unit", "SI suffix", "factor"),
             [(code(n), u.symbol, code(u.si_suffix), f"{u.factor:.10g}") for n, u in UNITS.items()],

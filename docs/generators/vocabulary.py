@@ -33,11 +33,10 @@ STATISTICS: Final = {
 }
 HEAD: Final = """# Vocabulary of results
 
-Every variable and coordinate that a result may hold, by subject. Nothing leaves a
-stage without passing this list: a variable that is not in it, or has other dimensions or another
-unit, is refused (`SchemaError`). Phasors are complex peaks, x(t) = Re{X exp(jωt)}; for degrees of
-freedom that turn, the unit has rad in place of m. Conventions: [](../conventions.md).
-In a run with samples a variable is nominal where its meaning names no other
+All variables and coordinates of results, by subject. A variable that is not in this list, or has
+other dimensions or another unit, is refused (`SchemaError`). Phasors are complex peaks,
+x(t) = Re{X exp(jωt)}; for rotations the unit has rad in place of m. Conventions:
+[](../conventions.md). In a run with samples a variable is nominal unless its meaning names another
 [statistic](../results.md#values-intervals-and-nominal-values).
 """
 

@@ -1,4 +1,4 @@
-"""What docs/orders.md shows is what comes out: its Python, its commands, its links."""
+"""Check that Python and commands of docs/orders.md and docs/compare.md print what these show."""
 
 import contextlib
 import io
@@ -18,7 +18,8 @@ from vibroacoustics.commands import cli
 from vibroacoustics.results import storage
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs" / "orders.md"
+PAGES = [ROOT / "docs" / name for name in ("orders.md", "compare.md")]
+TEXT = "".join(page.read_text("utf-8") for page in PAGES)
 FENCED = re.compile(r"^```(python|text|console)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NUMBER = re.compile(r"[-+]?\d+(?:\.(\d+))?")
 
@@ -58,11 +59,11 @@ def test_page_shows_what_comes_out(workplace, left_out):
     """But for commands that name a folder that is left out: each takes seconds."""
     namespace: dict[str, object] = {}
     shown, printed = [], []
-    for kind, block in FENCED.findall(PAGE.read_text()):
+    for kind, block in FENCED.findall(TEXT):
         if kind == "python":
             output = io.StringIO()
             with contextlib.redirect_stdout(output):
-                exec(compile(block, str(PAGE), "exec"), namespace)  # noqa: S102 - our own page
+                exec(compile(block, "docs", "exec"), namespace)  # noqa: S102 - our own page
             printed.append(output.getvalue())
         elif kind == "text":
             shown.append(block)
@@ -93,13 +94,13 @@ def check_alike(expected: str, found: str) -> None:
 
 
 def test_links_of_the_page_lead_somewhere():
-    for target in re.findall(r"\]\(([^)#]+)\)", PAGE.read_text()):
-        assert (PAGE.parent / target).exists(), target
+    for target in re.findall(r"\]\(([^)#]+)\)", TEXT):
+        assert (ROOT / "docs" / target).exists(), target
 
 
 def test_tests_that_the_page_names_are_there():
     sources = {path.stem: path.read_text() for path in (ROOT / "tests").rglob("test_*.py")}
-    named = re.findall(r"`(test_\w+)::(test_\w+)`", PAGE.read_text())
+    named = re.findall(r"`(test_\w+)::(test_\w+)`", TEXT)
     assert len(named) >= 10
     for module, function in named:
         assert f"def {function}(" in sources[module], (module, function)

@@ -280,13 +280,13 @@ def test_the_level_is_that_of_comparison_csv(
 ) -> None:
     none = next(row for row in tables["comparison.csv"] if row["option"] == "none")
     (text, *_) = sentences(sampled)
-    name, _, rest = text.partition(" at 2900 rpm: ")
+    name, _, rest = text.partition(" at 2900 rpm: predicted ")
     assert name == json.loads(sampled.attrs["parameters"])["machine"]["name"]
     level, rest = rest.split(" dB(A) at front_1m ")
     interval, published = rest.split("; published ")
     value, low, high = of_parts(none, "level_total", "_dba")
     assert_written(level, [value])
-    assert_written(interval.replace("80\u00a0%: ", ""), [low, high])
+    assert_written(interval.replace("80\u00a0% interval ", ""), [low, high])
     assert published == "56)."
 
 
@@ -306,8 +306,12 @@ def test_the_best_option_for_the_feet_is_that_of_the_median_changes(
 ) -> None:
     change = sampled["foot_force_change_1x"].squeeze()
     best = change["option"].values[int(np.argmin(change.values))]
-    text = next(one for one in sentences(sampled) if one.startswith("Best for the feet: "))
-    name, _, size = text.removeprefix("Best for the feet: ").partition(", 1× foot force ")
+    text = next(
+        one
+        for one in sentences(sampled)
+        if one.startswith("Smallest force on the feet at shaft speed (1×): option ")
+    )
+    name, _, size = text.partition(": option ")[2].partition(", ")
     assert name == best
     ratios = [
         100.0
@@ -347,6 +351,25 @@ def test_the_word_on_a_change_follows_interval_and_probabilities(
     one = changed(sum(ends) / 2.0, *ends, up, down)
     assert first_screen.word(one) == expected
     assert first_screen.largest(one) == 1
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (changed(1.3, 0.6, 2.0, 0.9, 0.0), "Option twin raises it: +1.3 dB (+0.6 to +2.0)."),
+        (changed(1.0, 0.0, 2.0, 0.6, 0.0), "Option twin may raise it: +1.0 dB (0.0 to +2.0)."),
+        (
+            changed(-2.0, -9.0, 9.0, 0.6, 0.6),
+            "Option twin may raise or lower it: −2.0 dB (−9.0 to +9.0).",
+        ),
+    ],
+)
+def test_a_claim_says_which_way_an_option_may_change_the_level(
+    results: xr.Dataset, change: Shift, words: str
+) -> None:
+    speeds = results.isel(speed=[0]).reindex(speed=[1.0, results.speed.item(0)])
+    claim = first_screen._claim(speeds, {"twin": change}, ["twin"], "raise")
+    assert claim.replace("\N{NO-BREAK SPACE}", " ") == words
 
 
 def test_parts_of_the_level_are_those_of_the_results(sampled: xr.Dataset) -> None:

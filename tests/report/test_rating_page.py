@@ -49,8 +49,8 @@ def test_the_first_screen_has_the_worst_window_alone(results: xr.Dataset) -> Non
     assert float(chance.sel(rating_window=window)) == chance.min().item()
     assert window != results["rating_window"].values[0]
     first = sentences(results)[0]
-    assert f" rating level at {window} (worst of 3 windows), limit " in first
-    assert sum("rating level" in line for line in sentences(results)) == 1
+    assert f"Rating level at window {window} (worst of 3): " in first
+    assert sum("Rating level" in line for line in sentences(results)) == 1
     assert words_of(list(sentences(results))) <= MOST_WORDS
     assert words_of(in_terminal(results)) <= MOST_WORDS
 
@@ -67,7 +67,7 @@ def test_sentence_table_file_and_sheet_have_one_adjustment(
     for window in map(str, results["rating_window"].values):
         cells = {str(row[0]): str(row[3]) for row in rating_table(results, window).rows}
         sheet = {one.window: one.adjustment_db for one in va.data_sheet(results, "none").windows}
-        added = re.search(r"tone adds (\S+) dB", rating_sentence(results, window))
+        added = re.search(r"with (\S+) dB for the tone", rating_sentence(results, window))
         assert in_file["none", window] == sheet[window] == float(cells["none"].split()[0])
         assert in_file["none", window] == (float(added[1]) if added else 0.0)
 
@@ -84,7 +84,7 @@ def test_page_at_both_widths(
         browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
         browser.get(page.as_uri())
         shown = browser.execute_script(_SHOWN)
-        assert "(worst of 3 windows)" in shown[0]
+        assert "(worst of 3)" in shown[0]
         assert words_of(shown) <= MOST_WORDS
         browser.execute_script("document.querySelectorAll('details').forEach(d => d.open = true)")
         assert browser.execute_script("return document.documentElement.scrollWidth") <= width

@@ -178,8 +178,8 @@ def test_the_first_screen_names_the_source_with_most_of_the_energy() -> None:
         gas: " ".join(sentences(with_sources({"none": 40.0}, gas_dba=gas))).replace("\u00a0", " ")
         for gas in (50.0, 60.0)
     }
-    assert "is not settled: gas forces 30 % (10 % to 50 %) of the sound energy" in texts[50.0]
-    assert "Gas forces make most of it: 9" in texts[60.0]
+    assert "is not settled; the largest modelled one: gas forces, 30 % (10 % to 50 %) of the sound energy" in texts[50.0]
+    assert "The dominant source is gas forces: 9" in texts[60.0]
 
 
 def test_shares_are_means_of_the_samples_and_add_up(results: xr.Dataset) -> None:

@@ -53,8 +53,7 @@ def test_flow_into_the_shell_is_what_the_cylinder_delivers() -> None:
     (flow,) = [load for port, load in loads.lines.items() if port.name == "discharge_dome"]
     delivered = steady_cycle(machine(), SPEED).gas.delivered_kg * SPEED / 60.0
     density = machine().gas.discharge_density_kg_per_m3
-    # before the suction port is passed the closing reed lets some gas back
-    assert flow[0, 0].real * density == pytest.approx(delivered, rel=0.03)
+    assert flow[0, 0].real * density == pytest.approx(delivered, rel=1e-3)
     assert abs(flow[0, 1]) > flow[0, 0].real
 
 

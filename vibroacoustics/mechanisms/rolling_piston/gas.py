@@ -30,9 +30,8 @@ class GasTurn(NamedTuple):
     flow_kg_per_s : through the discharge valve, shape (samples,)
     lift_m : of the reed, shape (samples,)
     mass_kg : in the compression chamber with its clearance, shape (samples,)
-    delivered_kg : through the valve from the closing of the suction port to the end of the turn,
-        less what flows back
-    leaked_kg : to the suction chamber in a turn
+    delivered_kg : through the valve in a turn, less what flows back until the reed is seated
+    leaked_kg : to the suction chamber in a turn, through the gaps
     """
 
     compression_pa: Array
@@ -88,8 +87,8 @@ def gas_turn(
 def _turn(states: Array, chamber: Chamber) -> GasTurn:
     flow = discharge_flow(states, chamber)
     angle = np.linspace(0.0, 2.0 * pi, chamber.steps + 1)
-    is_closed = angle >= chamber.closes_at
-    delivered = float(np.trapezoid(np.where(is_closed, flow, 0.0), angle)) / chamber.angular_speed
+    since_closing = np.where(angle >= chamber.closes_at, flow, 0.0)
+    delivered, compressed = np.trapezoid([flow, since_closing], angle) / chamber.angular_speed
     at_closing = float(np.interp(chamber.closes_at, angle, chamber.volume_m3))
     kept = float(states[MASS, -1])
     return GasTurn(
@@ -97,8 +96,8 @@ def _turn(states: Array, chamber: Chamber) -> GasTurn:
         flow[:-1],
         states[LIFT, :-1],
         states[MASS, :-1],
-        delivered,
-        chamber.suction_density * at_closing - kept - delivered,
+        float(delivered),
+        float(chamber.suction_density * at_closing - kept - compressed),
     )
 
 

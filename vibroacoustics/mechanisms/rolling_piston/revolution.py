@@ -153,6 +153,8 @@ def rolling_courses(machine: RollingPistonTables, speed_rpm: float, samples: int
         at_sample = np.rint(contact.impacts.angle_rad * samples / (2.0 * np.pi)).astype(int)
         force[at_sample] = contact.impacts.impulse_n_s
         landing += cycle.over_shaft(force, number) / step_s
+    # The gas turns at constant speed: its mass per crank angle is kept where the speed varies.
+    flow *= rotation.speed_rad_per_s / (2.0 * np.pi * shaft_frequency_hz(speed_rpm))
     return RollingCourses(
         rotation.speed_rad_per_s,
         flow / machine.gas.discharge_density_kg_per_m3,

@@ -15,7 +15,7 @@ from ..quantities import NO_BREAK
 from ..tables import DataTable, Table, long_table
 from . import Section, hold
 
-_PERIOD: Final = {"night": "at night", "day": "by day"}
+_PERIOD: Final = {"night": "Night", "day": "Day"}
 _VARIABLES: Final = ("rating_level", "rating_adjustment", "limit_probability")
 
 
@@ -50,8 +50,8 @@ def rating_sentence(results: xr.Dataset, window: str, among: str = "") -> str:
     level = band(results, "rating_level", **case).middle_text(rounding.level)
     limit = results["rating_limit"].sel(rating_window=window).item()
     return (
-        f"{level} dB(A) rating level at {window}{among}, limit {limit:g} {_PERIOD[period]}: "
-        f"{_verdict(results, case)}{_tone_words(results, window)}."
+        f"Rating level at window {window}{among}: {level} dB(A){_tone_words(results, window)}. "
+        f"{_PERIOD[period]} limit of {limit:g}: {_verdict(results, case)}."
     )
 
 
@@ -106,9 +106,10 @@ def _tone_words(results: xr.Dataset, window: str) -> str:
     case = {"speed": nearest_speed(results), "option": REFERENCE_OPTION, "rating_window": window}
     name = decisive_tone(results, window, REFERENCE_OPTION)
     if not name:
-        return "; no tone adds to it"
+        return ", nothing for tones"
     added = band(results, "rating_adjustment", **case).middle_text(_step)
-    return f"; the {name} tone adds {added} dB"
+    tone = name.replace("×", "× shaft speed")
+    return f", with {added} dB for the tone at {tone}"
 
 
 def _step(adjustment_db: float) -> str:

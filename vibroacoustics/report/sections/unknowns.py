@@ -177,7 +177,7 @@ def most_valuable(results: xr.Dataset) -> str:
         return ""
     if overall_noise(results) is None:
         return "the A-weighted level at a microphone, as none is published"
-    return "a third-octave spectrum, which separates the sources"
+    return "a third-octave spectrum at a microphone"
 
 
 def measure_next_sentence(results: xr.Dataset) -> str:

@@ -74,7 +74,7 @@ def contributions(results: xr.Dataset) -> Intervals:
     where = f"{catalogue_receiver(results)}, {speed:g} rpm"
     of = ", median and 80 % interval" if has_samples(results) else ""
     caption = f"Contributions to the level at {where}"
-    note = "Each part alone; levels of parts do not add up to that of the machine."
+    note = "Each source alone; minor ones are omitted, and medians do not add up to a median."
     return Intervals(caption, ("", f"dB(A){of}"), tuple(rows), scale, None, note)
 
 
@@ -87,10 +87,14 @@ def changes(results: xr.Dataset) -> Intervals | None:
     rows += [_change(results, option, least) for option in balancers(results)]
     ends = [abs(end) for row in rows for end in (row.low, row.high) if np.isfinite(end)]
     span = float(np.ceil(max(*ends, _LEAST_SPAN_DB)))
-    several = " At the speed where it is largest." if len(speeds(results)) > 1 else ""
+    several = (
+        " Each change is given at the speed where it is largest."
+        if len(speeds(results)) > 1
+        else ""
+    )
     head = ("Option", "dB, median and 80 % interval" if has_samples(results) else "dB")
-    caption = f"Change of the total level at {catalogue_receiver(results)} by option"
-    note = f"Grey: ±{least:g} dB, not measurable.{several}"
+    caption = f"Change of the level at {catalogue_receiver(results)} by design option"
+    note = f"Grey band: changes within ±{least:g} dB cannot be measured.{several}"
     return Intervals(caption, head, tuple(rows), (-span, span), (-least, least), note)
 
 
@@ -127,11 +131,12 @@ def largest(of_quantity: Shift) -> int:
 def _level(results: xr.Dataset) -> str:
     speed = nearest_speed(results)
     level = band(results, "level_total", **at_catalogue(results, speed=speed))
-    interval = f"80{NO_BREAK}%: {level.ends(rounding.level)}" if has_samples(results) else ""
+    ends = level.ends(rounding.level)
+    interval = f"80{NO_BREAK}% interval {ends}" if has_samples(results) else ""
     notes = "; ".join(filter(None, [interval, _published(results, speed)]))
     where = catalogue_receiver(results)
     return (
-        f"{parameters(results)['machine']['name']} at {speed:g} rpm: "
+        f"{parameters(results)['machine']['name']} at {speed:g} rpm: predicted "
         f"{level.middle_text(rounding.level)} dB(A) at {where} ({notes})."
     )
 
@@ -155,7 +160,7 @@ def _windows(results: xr.Dataset) -> str:
     if "rating_level" not in results:
         return ""
     count = len(windows(results))
-    among = f" (worst of {count} windows)" if count > 1 else ""
+    among = f" (worst of {count})" if count > 1 else ""
     return rating_sentence(results, worst_window(results), among)
 
 
@@ -175,15 +180,15 @@ def _source(results: xr.Dataset) -> str:
         at = at_catalogue(results, speed=speed)
         modelled = band(results, "level_modelled", **at).middle_text(rounding.level)
         rest = "" if overall_noise(results) is None else "; the rest is unmodelled noise"
-        return f"Shaft orders of the rigid machine make {modelled} dB(A) of it{rest}."
+        return f"Shaft orders of the rigid machine alone make {modelled} dB(A){rest}."
     source, makes_most = leading_source(results)
     name = source_name(results, source)
     text = f"{source_share(results, source, speed).in_percent()} of the sound energy"
     if makes_most:
-        return f"{name[0].upper()}{name[1:]} make most of it: {text}."
+        return f"The dominant source is {name}: {text}."
     if not has_samples(results):
         return f"The dominant modelled source is {name}: {text}."
-    return f"What makes it is not settled: {name} {text}."
+    return f"The dominant source is not settled; the largest modelled one: {name}, {text}."
 
 
 def leading_source(results: xr.Dataset) -> tuple[str, bool]:
@@ -200,7 +205,7 @@ def _options(results: xr.Dataset) -> str:
     if not shifts:
         return ""
     lower, higher = by_effect(results)
-    none = f"No option lowers it by {measurable(results).level_db:g} dB or more."
+    none = f"No option reliably lowers the level by {measurable(results).level_db:g} dB or more."
     lowered = _claim(results, shifts, lower, "lower") or none
     sentences = [lowered, _claim(results, shifts, higher, "raise")]
     return " ".join(filter(None, sentences))
@@ -221,10 +226,13 @@ def _claim(
     if not names:
         return ""
     first, *others = names
-    does = f"may {verb}" if word(shifts[first]) == "uncertain" else f"{verb}s"
+    if shifts[first].improves and shifts[first].worsens:  # at different speeds
+        does = "may raise or lower"
+    else:
+        does = f"may {verb}" if word(shifts[first]) == "uncertain" else f"{verb}s"
     too = f"{len(others)} others" if len(others) > 1 else "".join(others)
-    too = f", {too} too" if too else ""
-    return f"{first} {does} it: {_largest_change(results, shifts[first], 'dB')}{too}."
+    too = f"; also {too}" if too else ""
+    return f"Option {first} {does} it: {_largest_change(results, shifts[first], 'dB')}{too}."
 
 
 def _vibration(results: xr.Dataset) -> str:
@@ -232,11 +240,11 @@ def _vibration(results: xr.Dataset) -> str:
         return ""
     best, sure = best_for_feet(results)
     if not best:
-        return "No option reduces the 1× foot force measurably."
+        return "No option measurably reduces the force on the feet at shaft speed (1×)."
     change = _largest_change(results, shift(results, FOOT_FORCE, best), "%")
     if not sure:
-        return f"{best} may reduce the 1× foot force: {change}."
-    return f"Best for the feet: {best}, 1× foot force {change}."
+        return f"Option {best} may reduce the force on the feet at shaft speed (1×): {change}."
+    return f"Smallest force on the feet at shaft speed (1×): option {best}, {change}."
 
 
 def best_for_feet(results: xr.Dataset) -> tuple[str, bool]:
