@@ -18,7 +18,7 @@ def is_plain(study: Study, keys: list[str]) -> bool:
 
 def _is_field(study: Study, key: str, redesigned: bool) -> bool:
     first, *tables, last = key.split(".")
-    thing: Any = study.machine if first == "machine" else study.options
+    thing: Any = getattr(study, first)
     for name in tables:
         thing = thing.get(name) if isinstance(thing, dict) else getattr(thing, name, None)
     if first == "machine" and redesigned:
@@ -36,7 +36,7 @@ def changed(study: Study, values: Mapping[str, float | int]) -> Study:
         A class refuses them, in its own words.
     """
     machine: dict[str, Any] = {}
-    options: dict[str, dict[str, Any]] = {}
+    others: dict[str, dict[str, Any]] = {"options": {}, "sources": {}}
     for key, value in values.items():
         first, *tables, last = key.split(".")
         field, factor = si_key(last)
@@ -44,13 +44,14 @@ def changed(study: Study, values: Mapping[str, float | int]) -> Study:
         if first == "machine":
             _put(machine, [*tables, field], in_si)
         else:
-            options.setdefault(tables[0], {})[field] = in_si
+            others[first].setdefault(tables[0], {})[field] = in_si
     try:
-        new = {name: _validated(study.options[name], fields) for name, fields in options.items()}
-        update = {
-            "machine": _validated(study.machine, machine) if machine else study.machine,
-            "options": {**study.options, **new},
-        }
+        update: dict[str, Any] = {
+            name: {**(present := getattr(study, name)),
+                   **{key: _validated(present[key], fields) for key, fields in new.items()}}
+            for name, new in others.items()
+        }  # fmt: skip
+        update["machine"] = _validated(study.machine, machine) if machine else study.machine
         return Study.model_validate({**dict(iter(study)), **update})
     except ValidationError as error:
         raise ParameterError(str(error.errors()[0]["msg"])) from None

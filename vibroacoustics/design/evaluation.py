@@ -11,7 +11,7 @@ from ..base.arrays import Array, IndexArray
 from ..base.linear_algebra import one_thread_of_linear_algebra
 
 if TYPE_CHECKING:
-    from .problem import Problem
+    from .problem import Judged, Problem
 
 
 @dataclass(frozen=True)
@@ -57,12 +57,25 @@ def joined(parts: list[Evaluation]) -> Evaluation:
 
 
 def evaluating(problem: "Problem") -> Evaluate:
-    """The evaluation of designs in SI in this process."""
+    """Return the evaluation of designs in SI in this process.
+
+    Designs with a column more have there the number of a run of an active search, with scatter of
+    its own.
+    """
+    columns = len(problem.space.variables)
 
     def evaluate(designs: Array) -> Evaluation:
+        if designs.shape[1] > columns:
+            return joined([evaluate_run(row[:-1], round(row[-1])) for row in designs])
         with one_thread_of_linear_algebra():
-            judged = problem.evaluate(designs)
-        reasons = tuple(judged.failed.get(row, "") for row in range(len(designs)))
+            return evaluation(problem.evaluate(designs), len(designs))
+
+    def evaluate_run(design: Array, run: int) -> Evaluation:
+        with one_thread_of_linear_algebra():
+            return evaluation(problem.evaluate(design[None], problem.samples_of_run(run)), 1)
+
+    def evaluation(judged: "Judged", count: int) -> Evaluation:
+        reasons = tuple(judged.failed.get(row, "") for row in range(count))
         return Evaluation(judged.objectives, judged.constraints, reasons)
 
     return evaluate

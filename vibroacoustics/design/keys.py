@@ -16,19 +16,19 @@ def acts_on(key: str, option: str) -> bool:
 
 
 def check_key(key: str, options: Sequence[str], where: str) -> None:
-    """Refuse a key that is no value of the machine or of an option that designs choose among."""
+    """Refuse a key of no value of the machine, of a source or of an option of the designs."""
     first, _, rest = key.partition(".")
-    if first == "machine" and rest:
+    if first in ("machine", "sources") and rest:
         return
     names = dict.fromkeys(name for option in options for name in (option, *joined_names(option)))
     if first == "options" and any(key.startswith(f"options.{name}.") for name in names):
         return
-    allowed = ", ".join(["machine.…", *(f"options.{name}.…" for name in names)])
+    allowed = ", ".join(["machine.…", "sources.…", *(f"options.{name}.…" for name in names)])
     raise ParameterError(f"{where}: no such value; allowed {allowed}")
 
 
 def present_value(study: Study, key: str) -> float:
-    """A number of the study in SI, by its dotted key.
+    """Return a number of the study in SI, by its dotted key; an integer stays one.
 
     Raises
     ------
@@ -36,10 +36,10 @@ def present_value(study: Study, key: str) -> float:
         There is none.
     """
     first, *tables, last = key.split(".")
-    thing: Any = study.machine if first == "machine" else study.options
+    thing: Any = getattr(study, first)
     for name in tables:
         thing = thing.get(name) if isinstance(thing, Mapping) else getattr(thing, name, None)
     value = getattr(thing, si_key(last)[0], None)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise ParameterError(f"{key}: there is no such number")
-    return float(value)
+    return value

@@ -1,23 +1,19 @@
 """The best design of a study, or the front of several objectives."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
-import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array
 from ..base.progress import Progress, no_progress
 from ..radiation.given import Radiation
 from ..stages.radiation import transfer_vectors
 from ..study.study import Study
+from .active import actively_searched
+from .coding import Coding
 from .evaluation import Evaluate, evaluating
 from .explaining import explained
 from .problem import Problem
 from .search.best import search_best
 from .search.front import search_front
-from .search.problem import Searched, SearchProblem
-from .variable import Variable
+from .search.problem import Searched
 
 
 def optimise(
@@ -27,6 +23,7 @@ def optimise(
 
     With one objective the best design, by differential evolution and a polish; with several the
     front, by NSGA-II. The best few are then told by fresh pieces that the search has not seen.
+    With `method = "active"` a Gaussian process chooses one run after another.
 
     Parameters
     ----------
@@ -68,6 +65,8 @@ def searched_designs(
 ) -> xr.Dataset:
     """`optimise` with an evaluation of one's own, which takes designs in SI."""
     settings = problem.design.search
+    if settings.method == "active":
+        return actively_searched(problem, evaluate, progress)
     coding = Coding(problem.space.variables)
     space = coding.problem(evaluate)
     sizes = settings.population, settings.generations, settings.seed
@@ -79,33 +78,3 @@ def searched_designs(
         coded = search_front(space, *sizes, progress=progress)
     searched = Searched(coding.designs(coded.designs), coded.evaluation, coded.generation)
     return explained(problem, searched, evaluate)
-
-
-@dataclass(frozen=True)
-class Coding:
-    """Designs as numbers that a search may change freely.
-
-    Attributes
-    ----------
-    variables : of the designs, in the order of the columns
-    """
-
-    variables: Sequence[Variable]
-
-    def problem(self, evaluate: Evaluate) -> SearchProblem:
-        """What a search needs to know; `evaluate` takes designs in SI."""
-        ends = [
-            variable.limits if variable.values is None else (0.0, variable.values.size - 1.0)
-            for variable in self.variables
-        ]
-        lower, upper = np.array(ends, dtype=float).T
-        integer = np.array([variable.values is not None for variable in self.variables])
-        return SearchProblem(lower, upper, integer, lambda codes: evaluate(self.designs(codes)))
-
-    def designs(self, codes: Array) -> Array:
-        """Designs in SI, shape (design, variable)."""
-        columns = [
-            column if variable.values is None else variable.values[column.astype(int)]
-            for variable, column in zip(self.variables, codes.T, strict=True)
-        ]
-        return np.stack(columns, axis=1)

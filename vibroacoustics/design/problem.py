@@ -175,6 +175,18 @@ class Problem:
         """
         return self.pieces.samples(count or self.design.tolerance_samples, number)
 
+    def samples_of_run(self, run: int) -> Array:
+        """Samples of the tolerances for a run of an active search, shape (sample, scatter).
+
+        Parameters
+        ----------
+        run : its number; -1 is the run without scatter
+        """
+        count = len(self.machines)
+        if run < 0:
+            return np.full((1, len(self.pieces.scatters)), 0.5)
+        return self.pieces.of_run(self.design.search.seed, run, count)
+
     def evaluate(self, designs: Array, samples: Array | None = None) -> Judged:
         """What is wanted of designs.
 
@@ -290,8 +302,12 @@ class Problem:
         return np.stack(columns, axis=1)
 
     def statistic(self, wanted: Wanted) -> Statistic:
-        """Return the statistic over samples: without one the median, of nominal pieces 90 %."""
-        default = MEDIAN if self.is_sampled else MOST_PIECES_KEEP
+        """Return the statistic over samples: without one the median, of nominal pieces 90 %.
+
+        An active search has the mean of nominal pieces, each of which is a run.
+        """
+        nominal: Statistic = "mean" if self.design.search.method == "active" else MOST_PIECES_KEEP
+        default = MEDIAN if self.is_sampled else nominal
         return default if wanted.samples is None else wanted.samples
 
     def _shared_out(self, samples: Array) -> list[tuple[ComparedMachine, Array]]:
@@ -320,7 +336,9 @@ class Problem:
             shape = (len(designs), len(shares) * pairs, len(self.wanted))
             return np.full(shape, np.nan), failed
         seen = by_row(outcome.seen, pairs)
-        _, _, reference = self._reference(compared, shares)
+        reference: list[Array | None] = [None] * len(self.figures)
+        if any(figure.is_change for figure in self.figures):
+            _, _, reference = self._reference(compared, shares)
 
         def unmodelled() -> Array:
             of_options = map(compared.machine.unmodelled, self.space.options)

@@ -28,18 +28,21 @@ class Scatter:
     ratio : r
     distance : d, SI
     limits : of the range, SI; none where the value scatters about what is meant
+    integer : whether the value is rounded to an integer
     """
 
     column: int
     ratio: float = 0.0
     distance: float = 0.0
     limits: tuple[float, float] | None = None
+    integer: bool = False
 
     def at(self, meant: Array, share: Array) -> Array:
         """Values of pieces; shares from 0 to 1 of the way from the lowest to the highest."""
         if self.limits is not None:
             low, high = self.limits
-            return np.asarray(low + share * (high - low) + 0.0 * meant)
+            value = low + share * (high - low) + 0.0 * meant
+            return np.asarray(np.rint(value) if self.integer else value)
         unit = 2.0 * share - 1.0
         return np.asarray(meant * (1.0 + self.ratio * unit) + self.distance * unit)
 
@@ -75,22 +78,21 @@ class Pieces:
             check_key(key, space.options, where)
             unit = split_key(key.rpartition(".")[2])[1]
             symbol, factor = (unit.symbol, unit.factor) if unit else ("", 1.0)
+            integer = False
             if key not in names:
                 try:
                     value = present_value(space.study, key)
                 except ParameterError as error:
                     raise ParameterError(f"{where}: {error}") from None
+                integer = isinstance(value, int)
                 names.append(key)
                 present.append(value)
-                further.append(Variable(key, symbol, factor, (value, value)))
+                further.append(Variable(key, symbol, factor, (value, value), integer=integer))
             limits = (
                 None if given.range is None else (factor * given.range[0], factor * given.range[1])
             )
-            scatters.append(
-                Scatter(
-                    names.index(key), given.ratio or 0.0, factor * (given.plus_minus or 0.0), limits
-                )
-            )
+            ratio, distance = given.ratio or 0.0, factor * (given.plus_minus or 0.0)
+            scatters.append(Scatter(names.index(key), ratio, distance, limits, integer))
         wide = Space(space.study, space.options, (*space.variables, *further))
         pieces = cls(wide, tuple(scatters), np.array(present))
         wide.check_ends(pieces.limits, "tolerances")
@@ -130,6 +132,18 @@ class Pieces:
             return np.zeros((1, 0))
         sampler = qmc.LatinHypercube(len(self.scatters), rng=_RANDOM + number)
         return np.asarray(sampler.random(count))
+
+    def of_run(self, seed: int, run: int, count: int) -> Array:
+        """Random shares of the ranges for a run of an active search, shape (sample, scatter).
+
+        Parameters
+        ----------
+        seed : of the search
+        run : number of the run; other runs have independent shares
+        count : of samples
+        """
+        rng = np.random.default_rng((_RANDOM, seed, run))
+        return rng.random((count, len(self.scatters)))
 
     def made(self, designs: Array, samples: Array) -> Array:
         """Values of pieces, shape (design, sample, variable).

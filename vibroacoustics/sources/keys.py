@@ -77,6 +77,8 @@ class OldhamKeyForces(Source):
     drives_shell: ClassVar[bool] = True
     revolutions: int = Field(default=8, ge=1, le=1000)
     """Revolutions over which the forces are taken."""
+    start: int = Field(default=0, ge=0, le=2**31 - 1)
+    """Number of the start: 0 from rest, others with random speeds; impacts scatter with it."""
 
     @classmethod
     def tables_read(cls, machine: Machine) -> Mapping[str, type[Parameters]]:
@@ -143,7 +145,7 @@ class OldhamKeyForces(Source):
         keys, numbers = ring.keys, (ring.mass_kg, ring.stroke_m)
         histories = (ring.moment_n_m.tobytes(), ring.force.force_n.tobytes())
         return case.shared(
-            ("keys", keys, *numbers, case.speed_rpm, self.revolutions, *histories),
+            ("keys", keys, *numbers, case.speed_rpm, self.revolutions, self.start, *histories),
             lambda: steady_key_forces(
                 keys,
                 *numbers,
@@ -151,6 +153,7 @@ class OldhamKeyForces(Source):
                 ring.moment_n_m,
                 ring.force.force_n,
                 self.revolutions,
+                self.start,
             ),
         )
 

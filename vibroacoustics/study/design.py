@@ -95,6 +95,8 @@ class Constraint(Wanted):
 class Search(Parameters):
     """Search for the best designs."""
 
+    method: Literal["evolution", "active"] = "evolution"
+    """Generations of designs, or one run after another where a Gaussian process expects most."""
     population: int = Field(default=64, ge=8, le=10_000)
     """Designs a generation."""
     generations: int = Field(default=100, ge=1, le=100_000)
@@ -104,6 +106,17 @@ class Search(Parameters):
     """Designs that are reported one by one."""
     fresh_samples: int = Field(default=10_000, ge=100, le=1_000_000)
     """Samples of the tolerances that the search has not used; a design's promise rests on them."""
+    runs: int = Field(default=60, ge=30, le=1000)
+    """Runs of an active search at most, with those of the best design at its end."""
+    repeats: int = Field(default=8, ge=2, le=100)
+    """Runs of the best design at the end of an active search, whose mean it promises."""
+    least_gain: float = Field(default=0.001, ge=0.0, le=1e6)
+    """Expected gain of a run, in the unit of the objective, below which an active search ends."""
+
+    def contradictions(self) -> Contradictions:
+        most = self.runs // 2 - 5
+        if self.method == "active" and self.repeats > most:
+            yield f"repeats = {self.repeats}: must be 2 to {most} with runs = {self.runs}"
 
 
 class Design(Parameters):
@@ -137,6 +150,8 @@ class Design(Parameters):
     def contradictions(self) -> Contradictions:
         if len(set(self.option)) < len(self.option):
             yield "option: names one twice"
+        if self.search.method == "active" and len(self.objectives) > 1:
+            yield "search.method = active: must have one objective; make the others constraints"
 
 
 def flattened(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

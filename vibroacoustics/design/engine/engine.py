@@ -97,7 +97,9 @@ class Engine:
         unmodelled = self._unmodelled(option)
         wanted = ARRAYS | figures | ({"thirds"} if unmodelled[0] is not None else set())
         explorer = Explorer(samples, limits, speeds, wanted, self.template is not None)
-        by_runs = any(need.what == "criterion" for need in self.needs)
+        design = space.study.design
+        active = design is not None and design.search.method == "active"
+        by_runs = active or any(need.what == "criterion" for need in self.needs)
         variables = dict(enumerate(space.variables))
         idle = [
             n for n, one in variables.items() if one.key == OPTION or not acts_on(one.key, option)

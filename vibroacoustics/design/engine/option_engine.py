@@ -83,11 +83,12 @@ class OptionEngine:
         """Products in which loads and matrices are linear, and which way each variable goes."""
         if self.template is not None:
             return self.template.recognised
-        routes = [Route(False, "takes words, or a criterion is asked for")] * len(
-            self.explorer.limits
-        )
+        reason = "takes words, a criterion is asked for, or the search is active"
+        routes = [Route(False, reason)] * len(self.explorer.limits)
         for number in self.idle:
             routes[number] = Route(True, NO_EFFECT)
+        if not (self.linear or self.forms):
+            return Terms((), ((),)), tuple(routes)
         base, bases = self._base(), []
         of_forms = {number for form in self.forms for number in form.variables}
         groups = dict.fromkeys(form.variables for form in self.forms)

@@ -26,6 +26,16 @@ class SearchProblem:
     integer: npt.NDArray[np.bool_]
     evaluate: Evaluate
 
+    def at_shares(self, shares: Array) -> Array:
+        """Return designs at shares of the ranges, integers rounded, shape (..., variable)."""
+        designs = self.lower + shares * (self.upper - self.lower)
+        return np.where(self.integer, np.round(designs), designs)
+
+    def shares(self, designs: Array) -> Array:
+        """Return designs as shares of the ranges, shape (..., variable)."""
+        span = np.maximum(self.upper - self.lower, np.finfo(float).tiny)
+        return np.asarray((designs - self.lower) / span)
+
 
 @dataclass(frozen=True)
 class Searched:

@@ -31,7 +31,7 @@ def study_plan(study: Study, plugins: Sequence[Path]) -> dict[str, object]:
     A longer search of the same space goes on where a shorter one ended.
     """
     parameters = study.parameters()
-    for name in ("generations", "best", "fresh_samples"):
+    for name in ("generations", "best", "fresh_samples", "runs", "repeats", "least_gain"):
         parameters["design"]["search"].pop(name)
     return {
         "parameters": sha256(canonical_json(parameters).encode()),

@@ -14,7 +14,7 @@ from ...base.units import shaft_frequency_hz
 from ...mechanics.rotation import uniform_crank_angle
 from .contact import contact_mass_kg, key_face
 from .equations import COORDINATES, KEYS, Coupling
-from .integration import integrate
+from .integration import SPEED, integrate
 from .parameters import OldhamKeys
 
 SETTLING_REVOLUTIONS: Final = 4
@@ -33,6 +33,8 @@ mean and to 0.01 whatever the phase of the steps."""
 LOADED_STEP_RATIO: Final = 1.0
 """Likewise where no key leaves its face; 0.6 in its place changes no level by 0.0005 dB, 0.2 none
 by more than 0.03 dB."""
+START_SPEED_M_PER_S: Final = 0.05
+"""Largest speed of a key across its slot by each coordinate where the start is random."""
 STICKING_SPEED_M_PER_S: Final = 2e-3
 """Friction grows as tanh of sliding speed over this one; at rated load a quarter of it
 changes no peak by more than 0.2 N. The ring slides at up to 1.3 m/s at 3500 rpm."""
@@ -113,6 +115,7 @@ def steady_key_forces(
     moment_n_m: Array,
     ring_force_n: Array,
     revolutions: int,
+    start: int = 0,
 ) -> KeyForces:
     """Simulate ring and scroll between the faces of the slots.
 
@@ -132,6 +135,7 @@ def steady_key_forces(
     ring_force_n : force of a balancer on the ring along x, at the same samples, shape (samples,)
     revolutions : to be returned, after those in which the motion settles; only one of those that
         repeat exactly
+    start : number of the start, see `start_rates`
 
     Raises
     ------
@@ -147,7 +151,8 @@ def steady_key_forces(
     coupling = _coupling(keys, ring_mass_kg, stroke_m, speed_rpm, moment_n_m, ring_force_n)
     period = 1.0 / shaft_frequency_hz(speed_rpm)
     samples = 2 ** int(np.ceil(np.log2(SAMPLE_RATE_HZ * period)))
-    turns = _turns(SETTLING_REVOLUTIONS + revolutions, samples, period / samples, coupling)
+    count, rates = SETTLING_REVOLUTIONS + revolutions, start_rates(start, keys.radius_m)
+    turns = _turns(count, samples, period / samples, coupling, rates)
     before, *kept_turns = turns[SETTLING_REVOLUTIONS - 1 :]
     if before is kept_turns[-1]:
         kept_turns = kept_turns[:1]
@@ -161,8 +166,23 @@ def steady_key_forces(
     return KeyForces(speed_rpm, len(kept_turns), *kept)
 
 
+def start_rates(start: int, radius_m: float) -> Array:
+    """Return the rates of the coordinates at the start, shape (4,), m/s and rad/s.
+
+    Parameters
+    ----------
+    start : 0 from rest; any other number is the seed of random rates, each of which moves a key
+        across its slot at 0.05 m/s at most
+    radius_m : distance of the keys from the ring's centre
+    """
+    if start == 0:
+        return np.zeros(COORDINATES)
+    share = np.random.default_rng(start).uniform(-1.0, 1.0, COORDINATES)
+    return np.asarray(START_SPEED_M_PER_S * share / [1.0, 1.0, radius_m, radius_m])
+
+
 def _turns(
-    count: int, samples: int, interval_s: float, coupling: Coupling
+    count: int, samples: int, interval_s: float, coupling: Coupling, rates: Array
 ) -> list[tuple[Array, ...]]:
     """Normal force, friction and impacts of each revolution, from keys that touch no face.
 
@@ -174,6 +194,7 @@ def _turns(
         for ratio in (LOADED_STEP_RATIO, STEP_RATIO)
     )
     motion, deflections = np.zeros((3, COORDINATES)), np.zeros((2, KEYS))
+    motion[SPEED] = rates
     turns: list[tuple[Array, ...]] = []
     steps = loaded
     while len(turns) < count:

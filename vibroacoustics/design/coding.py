@@ -1,0 +1,41 @@
+"""Designs as numbers that a search may change freely."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..base.arrays import Array
+from .evaluation import Evaluate
+from .search.problem import SearchProblem
+from .variable import Variable
+
+
+@dataclass(frozen=True)
+class Coding:
+    """Designs as numbers that a search may change freely.
+
+    Attributes
+    ----------
+    variables : of the designs, in the order of the columns
+    """
+
+    variables: Sequence[Variable]
+
+    def problem(self, evaluate: Evaluate) -> SearchProblem:
+        """What a search needs to know; `evaluate` takes designs in SI."""
+        ends = [
+            variable.limits if variable.values is None else (0.0, variable.values.size - 1.0)
+            for variable in self.variables
+        ]
+        lower, upper = np.array(ends, dtype=float).T
+        integer = np.array([variable.values is not None for variable in self.variables])
+        return SearchProblem(lower, upper, integer, lambda codes: evaluate(self.designs(codes)))
+
+    def designs(self, codes: Array) -> Array:
+        """Designs in SI, shape (design, variable)."""
+        columns = [
+            column if variable.values is None else variable.values[column.astype(int)]
+            for variable, column in zip(self.variables, codes.T, strict=True)
+        ]
+        return np.stack(columns, axis=1)
