@@ -1,7 +1,8 @@
 """The way from motion and loads to the microphones, made by the pipeline's stages."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -11,18 +12,57 @@ from ...base.hashing import canonical_json, sha256
 from ...base.progress import no_progress
 from ...levels.by_source import GAIN_BANDS, a_weight_by_band, membership
 from ...machine.machine import Machine
+from ...machine.shell_structure import ShellStructure, ShellVariation
 from ...machine.source import Shared
-from ...mechanics.added import InsertionLoss
-from ...mechanics.loads import Lines, Loads, in_shell
+from ...mechanics.ports import BodyPort, Port
 from ...radiation.given import Radiation
 from ...radiation.pressure import pressure_per_shell_velocity
 from ...radiation.transfer_vectors import pressure_per_velocity
 from ...stages.shell import shell_path
 from ...study.study import Study
+from ...transfer.bending import BendingShell, bending_shell
+from ...transfer.load_path import LoadPath
+from ...transfer.machine import on_mounts
 from ...transfer.observers import Observers
 from ...transfer.received import Transmission
+from .layout import Layout, RandomLoad
 
 _VECTORS: Final = ("transfer_vector", "pattern_transfer_vector")
+_READ: Final = (ShellStructure, ShellVariation)
+"""Tables beside the shell's shape that its modes follow from."""
+
+
+@dataclass(frozen=True)
+class RandomResponse:
+    """Mean square pressure of random loads of a source per density of these.
+
+    Attributes
+    ----------
+    source : number of the source
+    per_density : shape (line, force times force, receiver), Pa² Hz per unit
+    a_weight, member : share of each line in each gain band, A-weighted and not, (line, band)
+    """
+
+    source: int
+    per_density: ComplexArray
+    a_weight: Array
+    member: Array
+
+
+@dataclass(frozen=True)
+class Responses:
+    """Pressure per motion and load at the lines of one speed.
+
+    Attributes
+    ----------
+    per_velocity : of the rigid motions, shape (receiver, 6, line), Pa s/m
+    per_load : on the ports in the shell, shape (receiver, component, line), Pa/N
+    random : of random loads
+    """
+
+    per_velocity: ComplexArray
+    per_load: ComplexArray
+    random: tuple[RandomResponse, ...]
 
 
 @dataclass(frozen=True)
@@ -31,51 +71,66 @@ class SoundWay:
 
     Attributes
     ----------
-    key : hash of what it is made of
     content : hash of the transfer vectors
-    receivers : number of them
     transmission : microphones, and the elastic shell where a source drives it
     highest_hz : of the transfer vectors; higher lines are silent
     """
 
-    key: str
     content: str
-    receivers: int
     transmission: Transmission
     highest_hz: float
 
-    def per_velocity(self, frequency_hz: Array) -> ComplexArray:
-        """Pressure per velocity of the rigid motions, shape (receiver, 6, line), Pa s/m."""
-        return self.transmission.microphones.rigid(np.minimum(frequency_hz, self.highest_hz))
+    def responses(self, machine: Machine, layouts: Sequence[Layout]) -> tuple[Responses, ...]:
+        """Compute the pressure per motion and load at each speed.
 
-    def besides_rigid(
-        self,
-        machine: Machine,
-        lines: Lines,
-        loads: Mapping[str, Loads],
-        loss: InsertionLoss,
-        shared: Shared,
-    ) -> tuple[ComplexArray, Array, Array]:
-        """Compute the sound of each source that does not come of the rigid motions.
+        Parameters
+        ----------
+        machine : with the values of a design, and with bodies of an option where these are loaded
+        layouts : lines and ports by speed
 
-        Returns
-        -------
-        pressure of what bends the shell, shape (source, receiver, line), Pa, and mean squares of
-        random loads, A-weighted and unweighted, shape (source, receiver, gain band), Pa²
+        Raises
+        ------
+        ParameterError
+            The machine has no such port, or frame and joints do not fit the shell.
         """
-        path = self.transmission.path(shared, machine, loads)
-        microphones, hertz = self.transmission.microphones, lines.frequency_hz
-        other = np.zeros((len(loads), self.receivers, hertz.size), dtype=complex)
-        noise = np.zeros((len(loads), self.receivers, len(GAIN_BANDS)))
-        thirds = np.zeros_like(noise)
-        for number, (source, load) in enumerate(loads.items()):
-            other[number] += path.observed(microphones, in_shell(lines.loads[source]), hertz)
-            for part in load.noise:
-                power = path.noise_power(microphones, part)
-                power = power * loss.power_factor(part.frequency_hz)
-                noise[number] += power @ a_weight_by_band(part.frequency_hz)
-                thirds[number] += power @ membership(part.frequency_hz, GAIN_BANDS)
-        return other, noise, thirds
+        path, shell = self.transmission.shell, None
+        if path is not None and any(layout.ports or layout.random for layout in layouts):
+            shell = bending_shell(machine, path)
+        return tuple(self._of_speed(machine, shell, layout) for layout in layouts)
+
+    def _of_speed(self, machine: Machine, shell: BendingShell | None, layout: Layout) -> Responses:
+        hertz, rigid = layout.hertz, self.transmission.microphones.rigid
+        per_velocity = rigid(np.minimum(hertz, self.highest_hz))
+        per_load = np.zeros((len(per_velocity), 0, hertz.size), dtype=complex)
+        if layout.ports:
+            per_load = self._per_load(machine, shell, layout.ports, hertz)
+        random = tuple(self._of_random(machine, shell, load) for load in layout.random)
+        return Responses(per_velocity, per_load, random)
+
+    def _of_random(
+        self, machine: Machine, shell: BendingShell | None, load: RandomLoad
+    ) -> RandomResponse:
+        hertz = np.array(load.frequency_hz)
+        ports, matrices = zip(*load.loads, strict=True)
+        per_load = self._per_load(machine, shell, ports, hertz)
+        per_force = np.einsum("ocf,ci->ofi", per_load, np.concatenate(matrices))
+        square = per_force.conj()[..., None] * per_force[..., None, :] * (hertz[1] - hertz[0])
+        per_density = np.moveaxis(square.reshape(*square.shape[:2], -1), 0, -1)
+        member = membership(hertz, GAIN_BANDS)
+        return RandomResponse(load.source, per_density, a_weight_by_band(hertz), member)
+
+    def _per_load(
+        self, machine: Machine, shell: BendingShell | None, ports: Sequence[Port], hertz: Array
+    ) -> ComplexArray:
+        """Pressure per load on ports, shape (receiver, component, line)."""
+        observers, lines = self.transmission.microphones, np.arange(hertz.size)
+        if shell is None or any(isinstance(port, BodyPort) for port in ports):
+            path = LoadPath(on_mounts(machine), shell)
+            of_port = partial(path.response, observers)
+            each = [of_port([port], hertz) for port in ports]
+        else:
+            each = [shell.response(observers, port, hertz, lines) for port in ports]
+        return np.concatenate(each, axis=1)
 
 
 @dataclass
@@ -93,50 +148,23 @@ class Ways:
     _known: dict[str, SoundWay] = field(default_factory=dict, repr=False)
 
     def __call__(self, study: Study) -> SoundWay:
-        """The way of a study."""
-        key = sha256(canonical_json(_material(study)).encode())
+        """Return the way of a study; those of designs differ in the shell alone."""
+        machine = study.machine
+        tables = [machine.shell, *(machine.table(one) for one in _READ if machine.has_table(one))]
+        material = [table.model_dump(mode="json") for table in tables]
+        key = canonical_json(material)
         if key not in self._known:
-            self._known[key] = self._made(study, key)
+            self._known[key] = self._made(study)
         return self._known[key]
 
-    def of(self, key: str) -> SoundWay:
-        """A way that was made before."""
-        return self._known[key]
-
-    def _made(self, study: Study, key: str) -> SoundWay:
+    def _made(self, study: Study) -> SoundWay:
         path = shell_path(study)
         motions = () if path is None else path.modes
         radiated, _ = self.radiation(study, no_progress, motions)
         vectors = radiated["transfer_vector"]
         modes = None if path is None else pressure_per_shell_velocity(radiated)
         return SoundWay(
-            key,
             sha256(b"".join(v.values.tobytes() for n, v in radiated.items() if n in _VECTORS)),
-            vectors.sizes["receiver"],
             Transmission(study, Observers(pressure_per_velocity(vectors), modes), path),
             float(vectors["frequency"].max()),
         )
-
-
-def _material(study: Study) -> dict[str, object]:
-    """What the way consists of, as JSON values; tables of a rigid machine that it ignores not."""
-    settings = study.parameters()
-    material = {name: settings[name] for name in ("receivers", "radiation", "shell_modes")}
-    machine = settings["machine"]
-    kept = ("shell",)
-    if study.drives_shell:
-        kept = tuple(
-            name
-            for name in machine
-            if name
-            not in {
-                "mounts",
-                "feet",
-                "mount_stiffness",
-                "floor",
-                "floor_mobility",
-                "overall_noise",
-                "remainder",
-            }
-        )
-    return {**material, **{name: machine[name] for name in kept}}
