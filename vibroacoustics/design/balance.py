@@ -176,7 +176,7 @@ def _response(
     with_changed = study.model_copy(update={"options": options})
     made = probe(with_changed, option)
     machine = machine_of_design(with_changed, option, None, with_bodies=True)
-    responses = ways(with_changed).responses(machine, made.layout)
+    responses = ways(with_changed).path(machine).responses(made.layout)
     return _at_shaft_frequency(
         made, lines_of(study.operation.speed_rpm, made.layout, responses), figure
     )

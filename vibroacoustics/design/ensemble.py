@@ -103,7 +103,7 @@ def _gains(space: Space, ways: Ways, machine: MachineSample) -> tuple[Gains | No
     of_reference = Contraction(space, REFERENCE_OPTION, ways, machine)
     present = np.array([present_value(study, key) for key in space.names])
     probe = of_reference.probe(present)
-    responses = of_reference.paths(probe.layout)(present)
+    responses = of_reference.paths(probe.layout)(present).responses(probe.layout)
     body = {name: array[None] for name, array in probe.body.items()}
     gains = []
     for lines, part in zip(

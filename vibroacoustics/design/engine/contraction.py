@@ -26,7 +26,7 @@ from .probe import (
     machine_of_design,
     stand_of_design,
 )
-from .sound_way import Responses, Ways
+from .sound_way import PathOfDesign, Ways
 
 Layouts = tuple[Layout, ...]
 
@@ -47,7 +47,7 @@ class Contraction:
     option: str
     ways: Ways
     machine: MachineSample
-    _paths: dict[Layouts, Memo[tuple[Responses, ...]]] = field(default_factory=dict, repr=False)
+    _paths: dict[Layouts, Memo[PathOfDesign]] = field(default_factory=dict, repr=False)
     _stands: dict[Layouts, Memo[Stand]] = field(default_factory=dict, repr=False)
 
     @cached_property
@@ -57,11 +57,12 @@ class Contraction:
             lambda study: loads_of_design(study, self.option, self._sample, self.machine.shared)
         )
 
-    def paths(self, layout: Layouts) -> Memo[tuple[Responses, ...]]:
-        """Return the paths from where loads act to the microphones, by speed."""
-        if layout not in self._paths:
-            self._paths[layout] = self._memo(partial(self._responses, layout))
-        return self._paths[layout]
+    def paths(self, layout: Layouts) -> Memo[PathOfDesign]:
+        """Return the paths from where loads act to the microphones."""
+        places = tuple(one.places for one in layout)
+        if places not in self._paths:
+            self._paths[places] = self._memo(partial(self._path, layout))
+        return self._paths[places]
 
     def stands(self, layout: Layouts) -> Memo[Stand]:
         """Return the bodies on their mounts."""
@@ -88,11 +89,13 @@ class Contraction:
             None if machine.deviation is None else dict(machine.without(self.space.machine_values))
         )
 
-    def _responses(self, layout: Layouts, study: Study) -> tuple[Responses, ...]:
+    def _path(self, layout: Layouts, study: Study) -> PathOfDesign:
         ports = (port for one in layout for load in one.random for port, _ in load.loads)
         with_bodies = any(isinstance(port, BodyPort) for port in ports)
         machine = machine_of_design(study, self.option, self._sample, with_bodies)
-        return self.ways(study).responses(machine, layout)
+        path = self.ways(study).path(machine)
+        path.responses(layout)  # so that all that any responses read has been read
+        return path
 
     def _memo(self, compute: Callable[[Study], Result]) -> Memo[Result]:
         names = self.space.names
@@ -122,7 +125,9 @@ class Contraction:
         study, inner = self.space.quick_study_of(design), {}
         for name, (first, *path) in self._watched.items():
             inner.setdefault(first, {})[tuple(path)] = name
-        update: dict[str, object] = {}
+        chosen = self.space.machine_values
+        ranges = [item for item in study.ranges if (item.table, item.field) not in chosen]
+        update: dict[str, object] = {"ranges": tuple(ranges)}
         if "machine" in inner:
             update["machine"] = watched(study.machine, inner["machine"])
         if "options" in inner:

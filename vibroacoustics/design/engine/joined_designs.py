@@ -11,9 +11,9 @@ from .linear_designs import chunk_of
 from .on_mounts import Lines, seen_of
 from .probe import LoadsOfDesign, Parts, Stand
 from .seen import Need, Seen
-from .sound_way import Responses
+from .sound_way import PathOfDesign
 
-LinesOf = Callable[[Layouts, Sequence[Responses]], tuple[Lines, ...]]
+LinesOf = Callable[[Layouts, PathOfDesign], tuple[Lines, ...]]
 Joined = Iterator[tuple[IndexArray, Seen | Exception]]
 """Numbers of designs, and what is seen of these, shape (design, ...), or why they failed."""
 
@@ -27,7 +27,7 @@ def joined_designs(
     ----------
     contraction : their loads, paths and bodies
     designs : shape (design, variable)
-    lines_of : makes the lines of all speeds from their layout and responses
+    lines_of : makes the lines of all speeds from their layout and the path of a design
     needs : what is asked, without criteria
     """
     loads, on_loads = contraction.loads.of_each(designs)
@@ -41,11 +41,12 @@ def joined_designs(
         on_stack, layout = np.searchsorted(alike, on_loads[rows]), first.layout
         paths, on_path = contraction.paths(layout).of_each(designs[rows])
         stands, on_stand = contraction.stands(layout).of_each(designs[rows])
-        for some, (path,) in _by_kind(paths, on_path, id):
-            if isinstance(paths[path], Exception):
-                yield rows[some], paths[path]
+        for some, _ in _by_kind(paths, on_path, id):
+            try:
+                lines = lines_of(layout, contraction.paths(layout)(designs[rows[some[0]]]))
+            except (ParameterError, SolverError) as error:
+                yield rows[some], error
                 continue
-            lines = lines_of(layout, paths[path])
             for members, stand in _by_kind(stands, on_stand[some], _kind_of_stand):
                 own = some[members]
                 each = [stands[number] for number in stand]

@@ -57,6 +57,11 @@ class Layout:
     ports: tuple[Port, ...]
     random: tuple[RandomLoad, ...]
 
+    @property
+    def places(self) -> "Layout":
+        """Return where loads act, whatever the frequencies of the lines."""
+        return Layout((), (), self.ports, self.random)
+
     @cached_property
     def hertz(self) -> Array:
         """Frequencies of the lines, shape (line,)."""

@@ -19,7 +19,7 @@ from .on_mounts import Lines, lines_of
 from .probe import Probe
 from .recognition import NO_EFFECT, TESTS, Explorer, Route, fits, spread
 from .seen import Need, Seen
-from .sound_way import Responses
+from .sound_way import PathOfDesign
 from .terms import Basis, Terms, products_of
 
 ARRAYS: Final = frozenset({
@@ -180,14 +180,13 @@ class OptionEngine:
         probe, expansions = fitted
         paths = self.contraction.paths(probe.layout)
         try:
-            responses = paths(base)
+            lines = self._lines(probe.layout, paths(base))
         except (ParameterError, SolverError):
             return None
         if not set(columns).isdisjoint(paths.reads):
             return None
         designs = np.repeat(base[None], FILLING, axis=0)
         designs[:, columns] = spread(self.explorer.limits[columns], FILLING)
-        lines = self._lines(probe.layout, responses)
         return LinearDesigns.of(self.needs, lines, expansions, designs)
 
     def _fitted(self, terms: Terms, base: Array) -> tuple[Probe, list[Expansion]] | None:
@@ -210,9 +209,9 @@ class OptionEngine:
             self.explorer.samples.forget()
         return self._expansions[key]
 
-    def _lines(self, layout: Layouts, responses: Sequence[Responses]) -> tuple[Lines, ...]:
+    def _lines(self, layout: Layouts, path: PathOfDesign) -> tuple[Lines, ...]:
         beside = list(zip(self.gains, self.unmodelled, strict=True))
-        return lines_of(self.explorer.speeds_rpm, layout, responses, beside)
+        return lines_of(self.explorer.speeds_rpm, layout, path.responses(layout), beside)
 
     def _each(self, values: Array, rows: IndexArray, result: Outcome) -> None:
         """Take in designs by products of their loads and paths, each of which is computed once."""

@@ -1,8 +1,7 @@
 """The way from motion and loads to the microphones, made by the pipeline's stages."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from functools import partial
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
@@ -80,39 +79,70 @@ class SoundWay:
     transmission: Transmission
     highest_hz: float
 
-    def responses(self, machine: Machine, layouts: Sequence[Layout]) -> tuple[Responses, ...]:
-        """Compute the pressure per motion and load at each speed.
+    def path(self, machine: Machine) -> "PathOfDesign":
+        """Return the path from the loads on a machine.
 
         Parameters
         ----------
         machine : with the values of a design, and with bodies of an option where these are loaded
+
+        Raises
+        ------
+        ParameterError
+            Frame or joints do not fit the shell.
+        """
+        shell = self.transmission.shell
+        return PathOfDesign(self, machine, None if shell is None else bending_shell(machine, shell))
+
+
+@dataclass(frozen=True)
+class PathOfDesign:
+    """Path from the loads of a design to the microphones; responses are kept by frequency.
+
+    Attributes
+    ----------
+    way : from motion to the microphones
+    machine : with the values of the design
+    shell : elastic shell; none where it is rigid
+    """
+
+    way: SoundWay
+    machine: Machine
+    shell: BendingShell | None
+    _known: dict[tuple[Port, ...], dict[float, ComplexArray]] = field(
+        default_factory=dict, repr=False
+    )
+
+    def responses(self, layouts: Sequence[Layout]) -> tuple[Responses, ...]:
+        """Compute the pressure per motion and load at each speed.
+
+        Parameters
+        ----------
         layouts : lines and ports by speed
 
         Raises
         ------
         ParameterError
-            The machine has no such port, or frame and joints do not fit the shell.
+            The machine has no such port.
         """
-        path, shell = self.transmission.shell, None
-        if path is not None and any(layout.ports or layout.random for layout in layouts):
-            shell = bending_shell(machine, path)
-        return tuple(self._of_speed(machine, shell, layout) for layout in layouts)
+        shell = None
+        if self.shell is not None:  # what it keeps is large, and few frequencies come again
+            shell = replace(self.shell, _known=Shared(), _of_parts={})
+        return tuple(self._of_speed(shell, layout) for layout in layouts)
 
-    def _of_speed(self, machine: Machine, shell: BendingShell | None, layout: Layout) -> Responses:
-        hertz, rigid = layout.hertz, self.transmission.microphones.rigid
-        per_velocity = rigid(np.minimum(hertz, self.highest_hz))
+    def _of_speed(self, shell: BendingShell | None, layout: Layout) -> Responses:
+        hertz, rigid = layout.hertz, self.way.transmission.microphones.rigid
+        per_velocity = rigid(np.minimum(hertz, self.way.highest_hz))
         per_load = np.zeros((len(per_velocity), 0, hertz.size), dtype=complex)
         if layout.ports:
-            per_load = self._per_load(machine, shell, layout.ports, hertz)
-        random = tuple(self._of_random(machine, shell, load) for load in layout.random)
+            per_load = self._per_load(shell, layout.ports, layout.frequency_hz)
+        random = tuple(self._of_random(shell, load) for load in layout.random)
         return Responses(per_velocity, per_load, random)
 
-    def _of_random(
-        self, machine: Machine, shell: BendingShell | None, load: RandomLoad
-    ) -> RandomResponse:
+    def _of_random(self, shell: BendingShell | None, load: RandomLoad) -> RandomResponse:
         hertz = np.array(load.frequency_hz)
         ports, matrices = zip(*load.loads, strict=True)
-        per_load = self._per_load(machine, shell, ports, hertz)
+        per_load = self._per_load(shell, ports, load.frequency_hz)
         per_force = np.einsum("ocf,ci->ofi", per_load, np.concatenate(matrices))
         square = per_force.conj()[..., None] * per_force[..., None, :] * (hertz[1] - hertz[0])
         per_density = np.moveaxis(square.reshape(*square.shape[:2], -1), 0, -1)
@@ -120,16 +150,23 @@ class SoundWay:
         return RandomResponse(load.source, per_density, a_weight_by_band(hertz), member)
 
     def _per_load(
-        self, machine: Machine, shell: BendingShell | None, ports: Sequence[Port], hertz: Array
+        self, shell: BendingShell | None, ports: tuple[Port, ...], frequency_hz: Sequence[float]
     ) -> ComplexArray:
         """Pressure per load on ports, shape (receiver, component, line)."""
-        observers, lines = self.transmission.microphones, np.arange(hertz.size)
+        known = self._known.setdefault(ports, {})
+        new = [hertz for hertz in frequency_hz if hertz not in known]
+        if new:
+            computed = self._computed(shell, ports, np.array(new))
+            known.update(zip(new, np.moveaxis(computed, -1, 0), strict=True))
+        return np.stack([known[hertz] for hertz in frequency_hz], axis=-1)
+
+    def _computed(
+        self, shell: BendingShell | None, ports: tuple[Port, ...], hertz: Array
+    ) -> ComplexArray:
+        observers, lines = self.way.transmission.microphones, np.arange(hertz.size)
         if shell is None or any(isinstance(port, BodyPort) for port in ports):
-            path = LoadPath(on_mounts(machine), shell)
-            of_port = partial(path.response, observers)
-            each = [of_port([port], hertz) for port in ports]
-        else:
-            each = [shell.response(observers, port, hertz, lines) for port in ports]
+            return LoadPath(on_mounts(self.machine), shell).response(observers, ports, hertz)
+        each = [shell.response(observers, port, hertz, lines) for port in ports]
         return np.concatenate(each, axis=1)
 
 
