@@ -29,6 +29,8 @@ RUN_PIECE: Final = 4
 MOST_PIECES: Final = 100_000
 """That are judged side by side."""
 MEDIAN: Final = 0.5
+CONFIDENCE: Final = 0.9
+"""Share of the samples that a change is stated for."""
 CHANGE_OF_TOTAL: Final = "total_change_db"
 TOTALS: Final = ("level_total_dba", CHANGE_OF_TOTAL)
 """Figures of the level of the machine with unmodelled noise."""
@@ -217,10 +219,10 @@ class Problem:
         return np.asarray(self.over_samples(np.concatenate(rows)[None], self.weight(meant))[0])
 
     def total_changes(self) -> list["Problem"]:
-        """Return the same designs with the change of the total level instead of each total.
+        """Return the same designs with changes of the total level instead of each total.
 
-        Those of the objectives that are totals, over their speeds and microphones, the median of
-        all samples and pieces.
+        Those of the objectives that are totals, over their speeds and microphones: the median of
+        all samples and pieces, and what a share `CONFIDENCE` of them stays below.
         """
         _ = self.machines  # shared
         return [
@@ -228,10 +230,15 @@ class Problem:
         ]
 
     def _instead(self, objective: Objective) -> "Problem":
-        """Make the change of a total the only objective of the designs."""
-        other, change = copy(self), {"figure": CHANGE_OF_TOTAL, "samples": MEDIAN}
-        other.wanted = {"change": objective.model_copy(update=change)}
-        other.figures = [FIGURES[CHANGE_OF_TOTAL]()]
+        """Make changes of a total the only objectives of the designs."""
+        other = copy(self)
+        other.wanted = {
+            name: objective.model_copy(
+                update={"figure": CHANGE_OF_TOTAL, "goal": "least", "samples": share}
+            )
+            for name, share in (("median", MEDIAN), ("confident", CONFIDENCE))
+        }
+        other.figures = [FIGURES[CHANGE_OF_TOTAL]() for _ in other.wanted]
         other.design = self.design.model_copy(
             update={"objectives": other.wanted, "constraints": {}}
         )

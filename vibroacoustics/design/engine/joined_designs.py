@@ -7,15 +7,17 @@ import numpy as np
 from ...base.arrays import Array, ComplexArray, IndexArray
 from ...base.errors import ParameterError, SolverError
 from .contraction import Contraction, Layouts
+from .hearing import HEARING, Spectrum
 from .linear_designs import chunk_of
-from .on_mounts import Lines, seen_of
+from .on_mounts import Lines, seen_of, spectra_of
 from .probe import LoadsOfDesign, Parts, Stand
 from .seen import Need, Seen
 from .sound_way import PathOfDesign
 
 LinesOf = Callable[[Layouts, PathOfDesign], tuple[Lines, ...]]
-Joined = Iterator[tuple[IndexArray, Seen | Exception]]
-"""Numbers of designs, and what is seen of these, shape (design, ...), or why they failed."""
+Joined = Iterator[tuple[IndexArray, Seen | Exception, list[Spectrum]]]
+"""Numbers of designs, what is seen of these, shape (design, ...), or why they failed, and their
+spectra where loudness or audibility is asked for."""
 
 
 def joined_designs(
@@ -34,7 +36,7 @@ def joined_designs(
     for rows, alike in _by_kind(loads, on_loads, _kind_of_loads):
         first = loads[alike[0]]
         if isinstance(first, Exception):
-            yield rows, first
+            yield rows, first, []
             continue
         parts = zip(*(loads[number].by_speed for number in alike), strict=True)
         stacks = [_stack(speed) for speed in parts]
@@ -45,14 +47,14 @@ def joined_designs(
             try:
                 lines = lines_of(layout, contraction.paths(layout)(designs[rows[some[0]]]))
             except (ParameterError, SolverError) as error:
-                yield rows[some], error
+                yield rows[some], error, []
                 continue
             for members, stand in _by_kind(stands, on_stand[some], _kind_of_stand):
                 own = some[members]
                 each = [stands[number] for number in stand]
                 on_each = np.searchsorted(stand, on_stand[own])
-                for part, seen in _seen(needs, lines, stacks, on_stack[own], each, on_each):
-                    yield rows[own[part]], seen
+                for part, *seen in _seen(needs, lines, stacks, on_stack[own], each, on_each):
+                    yield rows[own[part]], *seen
 
 
 def _seen(
@@ -62,7 +64,7 @@ def _seen(
     on_loads: IndexArray,
     stands: Sequence[Stand | Exception],
     on_stand: IndexArray,
-) -> Iterator[tuple[slice, Seen | Exception]]:
+) -> Iterator[tuple[slice, Seen | Exception, list[Spectrum]]]:
     """Compute designs of one path, chunk by chunk.
 
     Parameters
@@ -75,7 +77,7 @@ def _seen(
     """
     size, chunk = len(on_loads), chunk_of(needs, lines)
     if isinstance(stands[0], Exception):
-        yield slice(0, size), stands[0]
+        yield slice(0, size), stands[0], []
         return
     bodies = [one for one in stands if isinstance(one, Stand)]
     body = _stack([one.body for one in bodies])
@@ -86,11 +88,12 @@ def _seen(
             {**_taken(load, on_loads[part]), **_taken(more, on_stand[part])}
             for load, more in zip(loads, added, strict=True)
         ]
-        count = part.stop - first
+        designs = lines, by_speed, _taken(body, on_stand[part]), part.stop - first
         try:
-            yield part, seen_of(needs, lines, by_speed, _taken(body, on_stand[part]), count)
+            spectra = spectra_of(*designs) if any(need in HEARING for need in needs) else []
+            yield part, seen_of(needs, *designs), spectra
         except (ParameterError, SolverError) as error:
-            yield part, error
+            yield part, error, []
 
 
 def _by_kind(

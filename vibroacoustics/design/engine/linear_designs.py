@@ -7,9 +7,9 @@ from typing import Final
 from ...base.arrays import Array
 from .expansion import Expansion
 from .fixed_mounts import FixedMounts, is_fixed
-from .hearing import HEARING
-from .on_mounts import Lines, seen_of
-from .seen import Need
+from .hearing import HEARING, Spectrum
+from .on_mounts import Lines, seen_of, spectra_of
+from .seen import Need, Seen
 
 CHUNK_BYTES: Final = 32e6
 """Of the largest array of designs that are computed side by side."""
@@ -56,11 +56,14 @@ class LinearDesigns:
             fixed = FixedMounts.of(needs, lines, by_speed, body, designs)
         return cls(needs, lines, tuple(expansions), fixed)
 
-    def seen(self, values: Array) -> Iterator[tuple[slice, dict[Need, Array]]]:
-        """What is seen of designs, shape (design, variable), chunk by chunk."""
+    def seen(self, values: Array) -> Iterator[tuple[slice, Seen, list[Spectrum]]]:
+        """What is seen of designs, shape (design, variable), chunk by chunk.
+
+        The spectra are empty where neither loudness nor audibility is asked for.
+        """
         for first in range(0, len(values), self.chunk):
             part = slice(first, min(first + self.chunk, len(values)))
-            yield part, self._of_chunk(values[part])
+            yield part, *self._of_chunk(values[part])
 
     @property
     def chunk(self) -> int:
@@ -69,11 +72,14 @@ class LinearDesigns:
             return chunk_of(self.needs, self.lines)
         return chunk_of(self.needs, self.lines, 4 * len(self.expansions[0].terms.products))
 
-    def _of_chunk(self, values: Array) -> dict[Need, Array]:
+    def _of_chunk(self, values: Array) -> tuple[Seen, list[Spectrum]]:
+        is_heard = any(need in HEARING for need in self.needs)
         if self.fixed is not None:
-            return self.fixed.seen(self.needs, values)
+            spectra = self.fixed.spectra_of(values) if is_heard else []
+            return self.fixed.seen(self.needs, values), spectra
         *by_speed, body = (expansion.at(values) for expansion in self.expansions)
-        return seen_of(self.needs, self.lines, by_speed, body, len(values))
+        designs = self.lines, by_speed, body, len(values)
+        return seen_of(self.needs, *designs), spectra_of(*designs) if is_heard else []
 
 
 def chunk_of(needs: Sequence[Need], lines: Sequence[Lines], numbers: int | None = None) -> int:

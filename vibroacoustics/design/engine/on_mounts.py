@@ -9,7 +9,7 @@ from ...base.arrays import Array, ComplexArray, IndexArray
 from ...base.errors import ParameterError
 from ...levels.by_source import GAIN_BANDS, gain_band_number
 from .deviating import Gains, WeightedLines
-from .hearing import HEARING, hearing_of
+from .hearing import HEARING, Spectrum
 from .layout import Layout
 from .response import a_weight, displacement, foot_forces, natural_modes, pressure, size_of_vector
 from .seen import Need
@@ -140,7 +140,7 @@ def noise_of(lines: Lines, arrays: Arrays) -> tuple[Array, Array]:
 def seen_of(
     needs: Sequence[Need], lines: Sequence[Lines], by_speed: Sequence[Arrays], body: Arrays, n: int
 ) -> dict[Need, Array]:
-    """What is seen of designs.
+    """What is seen of designs, but for loudness and audibility.
 
     Parameters
     ----------
@@ -161,46 +161,41 @@ def seen_of(
         axis = 2 if need.what == "sound" else 1
         every = [np.broadcast_to(part, (n, *part.shape[1:])) for part in parts]
         seen[need] = np.stack(every, axis=axis)
-    hearing = [need for need in needs if need in HEARING]
-    if not hearing:
-        return seen
-    each = [_hearing(hearing, *speed, body, n) for speed in zip(lines, by_speed, strict=True)]
-    return seen | {need: np.stack([part[need] for part in each], axis=2) for need in hearing}
+    return seen
 
 
-def _hearing(
-    needs: Sequence[Need], lines: Lines, arrays: Arrays, body: Arrays, n: int
-) -> dict[Need, Array]:
-    """Loudness and audibility at one speed, shape (design, pair, receiver)."""
-    _, weighted = lines.weighted(None)
+def spectra_of(
+    lines: Sequence[Lines], by_speed: Sequence[Arrays], body: Arrays, n: int
+) -> list[Spectrum]:
+    """Compute the spectra of designs by speed, with the unmodelled noise; see `seen_of`."""
+    each = zip(lines, by_speed, strict=True)
+    return [spectrum_of(of_speed, arrays, body, n) for of_speed, arrays in each]
+
+
+def spectrum_of(lines: Lines, arrays: Arrays, body: Arrays, n: int) -> Spectrum:
+    """Compute the spectra of designs at one speed, with the unmodelled noise; see `seen_of`."""
     few = {name: arrays[name] for name in SOUND if name in arrays}
     pressure = pressure_by_source(lines, few, body)
-    spectrum = weighted.spectrum(pressure, *noise_of(lines, arrays))
-    return {
-        need: np.broadcast_to(part, (n, *part.shape[1:]))
-        for need, part in hearing_at(needs, lines, *spectrum).items()
-    }
+    return heard_spectrum(lines, pressure, *noise_of(lines, arrays), n)
 
 
-def hearing_at(
-    needs: Sequence[Need], lines: Lines, square: Array, noise: Array
-) -> dict[Need, Array]:
-    """Compute loudness and audibility at one speed, with the unmodelled noise.
+def heard_spectrum(
+    lines: Lines, pressure: ComplexArray, noise: Array, thirds: Array, n: int
+) -> Spectrum:
+    """Return the spectrum of designs at one speed, with the unmodelled noise.
 
     Parameters
     ----------
-    needs : of hearing
     lines : of the speed
-    square : mean squares of the lines, shape (design or 1, pair, receiver, line), Pa²
-    noise : of random loads, shape (design or 1, pair, receiver, band), Pa²
-
-    Returns
-    -------
-    by need, shape (design or 1, pair, receiver)
+    pressure, noise, thirds : see `WeightedLines.spectrum`
+    n : number of designs
     """
+    _, weighted = lines.weighted(None)
+    square, random = weighted.spectrum(pressure, noise, thirds)
     if lines.unmodelled is not None:
-        noise = noise + lines.unmodelled
-    return hearing_of(needs, lines.frequency_hz, square, noise)
+        random = random + lines.unmodelled
+    every = np.broadcast_to(square, (n, *square.shape[1:]))
+    return Spectrum(lines.frequency_hz, every, random)
 
 
 def _natural_hz(body: Arrays, by_speed: Sequence[Arrays], n: int) -> Array:

@@ -13,6 +13,7 @@ from ...base.errors import ParameterError, SolverError
 from .contraction import Contraction, Layouts
 from .deviating import Gains
 from .expansion import Expansion
+from .hearing import Hearing
 from .joined_designs import joined_designs
 from .linear_designs import LinearDesigns
 from .on_mounts import Lines, lines_of
@@ -53,6 +54,17 @@ class Outcome:
             if need not in self.seen:
                 self.seen[need] = np.full((count, *values.shape[1:]), np.nan)
             self.seen[need][rows] = values
+
+    def take_or_fail(self, rows: IndexArray, part: Seen | Exception, count: int) -> None:
+        """Take in what is seen of some of so many designs, or why they failed."""
+        if isinstance(part, Exception):
+            self.failed |= dict.fromkeys(rows.tolist(), str(part))
+        else:
+            self.take(rows, part, count)
+
+    def hearing(self, needs: Sequence[Need], count: int) -> Hearing:
+        """Return what takes in loudness and audibility of so many designs."""
+        return Hearing(needs, lambda rows, part: self.take_or_fail(rows, part, count))
 
 
 @dataclass
@@ -145,6 +157,7 @@ class OptionEngine:
         terms, routes = self.recognised
         of_runs = [number for number, route in enumerate(routes) if not route.linear]
         result, alone = Outcome(), []
+        hearing = result.hearing(self.needs, len(values))
         _, group = np.unique(values[:, of_runs], axis=0, return_inverse=True)
         order = np.argsort(group.ravel(), kind="stable")
         for rows in np.split(order, np.flatnonzero(np.diff(group.ravel()[order])) + 1):
@@ -152,8 +165,11 @@ class OptionEngine:
             if linear is None:
                 alone.append(rows)
                 continue
-            for part, seen in linear.seen(values[rows]):
+            for part, seen, spectra in linear.seen(values[rows]):
                 result.take(rows[part], seen, len(values))
+                if spectra:
+                    hearing.add(rows[part], spectra)
+        hearing.finish()
         if alone:
             self._each(values, np.concatenate(alone), result)
         self._explain(values, result)
@@ -216,12 +232,14 @@ class OptionEngine:
     def _each(self, values: Array, rows: IndexArray, result: Outcome) -> None:
         """Take in designs by products of their loads and paths, each of which is computed once."""
         different, same = np.unique(values[rows], axis=0, return_inverse=True)
-        seen, failed = Outcome(), {}
-        for some, part in joined_designs(self.contraction, different, self._lines, self.needs):
-            if isinstance(part, Exception):
-                failed |= dict.fromkeys(some.tolist(), str(part))
-            else:
-                seen.take(some, part, len(different))
+        seen = Outcome()
+        failed, hearing = seen.failed, seen.hearing(self.needs, len(different))
+        designs = joined_designs(self.contraction, different, self._lines, self.needs)
+        for some, part, spectra in designs:
+            seen.take_or_fail(some, part, len(different))
+            if spectra:
+                hearing.add(some, spectra)
+        hearing.finish()
         if any(need.what == "criterion" for need in self.needs):
             self._score(different, seen, failed)
         of_row = same.ravel()

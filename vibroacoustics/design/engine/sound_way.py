@@ -27,8 +27,6 @@ from ...transfer.received import Transmission
 from .layout import Layout, RandomLoad
 
 _VECTORS: Final = ("transfer_vector", "pattern_transfer_vector")
-_READ: Final = (ShellStructure, ShellVariation)
-"""Tables beside the shell's shape that its modes follow from."""
 
 
 @dataclass(frozen=True)
@@ -185,11 +183,16 @@ class Ways:
     _known: dict[str, SoundWay] = field(default_factory=dict, repr=False)
 
     def __call__(self, study: Study) -> SoundWay:
-        """Return the way of a study; those of designs differ in the shell alone."""
+        """Return the way of a study; those of designs differ in shell and modes alone."""
         machine = study.machine
-        tables = [machine.shell, *(machine.table(one) for one in _READ if machine.has_table(one))]
-        material = [table.model_dump(mode="json") for table in tables]
-        key = canonical_json(material)
+        material: list[object] = [machine.shell.model_dump(mode="json")]
+        if machine.has_table(ShellStructure):
+            structure = machine.table(ShellStructure)
+            of_modes = (*structure.changes_modes, "span_m")
+            material += [getattr(structure, name) for name in of_modes]
+        if machine.has_table(ShellVariation):
+            material.append(machine.table(ShellVariation).frequency_factor_ratio)
+        key = canonical_json([*material, [item.name for item in study.ranges]])
         if key not in self._known:
             self._known[key] = self._made(study)
         return self._known[key]

@@ -37,14 +37,15 @@ def analysis_of_designs(search: xr.Dataset) -> Analysis:
     search : dataset of a search of designs, with the study's parameters as attribute
     """
     designs, study = evaluated(search), parameters(search)
-    reason, no_change = no_best(search), search.attrs["no_change"]
+    reason = no_best(search)
+    total = search.attrs["no_change"] or search.attrs["lowering"]
     counts = f"{designs.count} designs were evaluated, {designs.met.sum()} meet every constraint"
     best: list[Block] = [Text(f"{counts}{_failed(search)}.", "note")]
     shown_best: list[Block] = []
     tables = {"designs.csv": designs_data(search)}
     if not reason:
         first, limits = best_tables(search, designs), Bullets(tuple(limiting(search, designs)))
-        closing = [Text(_sentence(no_change))] if no_change else []
+        closing = [Text(_sentence(total))] if total else []
         shown_best = [*first, limits, *closing]
         best = [*shown_best[:2], *closing, limits, *best, Text(_promised(search), "note")]
         tables["best.csv"] = best_designs(designs)
