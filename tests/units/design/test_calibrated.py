@@ -14,6 +14,7 @@ from vibroacoustics.base.vocabulary import WEIGHTINGS
 from vibroacoustics.design.engine.seen import Need
 from vibroacoustics.design.optimising import optimise
 from vibroacoustics.design.problem import Problem
+from vibroacoustics.design.total_change import lowering_words
 from vibroacoustics.levels.nominal import NominalSound, by_source
 from vibroacoustics.levels.sample_levels import lines_of
 from vibroacoustics.machine.cases import Cases
@@ -170,6 +171,27 @@ def test_no_best_designs_where_nothing_changes_the_total(problem, level_db, is_s
         changes = problem.evaluate(np.linspace(0.0, 1.0, 201)[:, None]).values[:, 1]
         assert largest == pytest.approx(changes[np.argmax(np.abs(changes))], rel=0.05)
     assert "medians over" in search.attrs["method"]
+    lowering = search.attrs["lowering"]
+    assert "lowers the total by 3 dB(A) with 90 % confidence" in lowering
+    assert (f"{lowering[:1].upper()}{lowering[1:]}." in page) != is_said
+    by_sample = problem.by_sample(np.linspace(0.0, 1.0, 201)[:, None], problem.samples())[..., 1]
+    weight = problem.weight(problem.samples())
+    confident = weighted_quantiles(by_sample.T, weight, (0.9,))[0]
+    largest = float(lowering.partition("found is ")[2].partition(" dB")[0])
+    assert largest == pytest.approx(confident.min(), rel=0.06, abs=2e-3)
+
+
+@pytest.mark.slow
+def test_the_first_design_that_lowers_the_total_surely_is_named(problem):
+    designs = np.array([[0.1], [0.2], [0.3]])
+    changes = np.array([[[-5.0, -2.9], [np.nan, np.nan], [-4.0, -3.1]]])
+    words = lowering_words(problem, designs, changes)
+    assert "share_ratio = 0.3 is the first design that lowers the total by 3 dB(A)" in words
+    assert words.endswith("with 90 % confidence: median -4.0 dB")
+    none = lowering_words(problem, designs[:2], changes[:, :2])
+    assert none.startswith("none of 2 designs lowers the total by 3 dB(A) with 90 % confidence")
+    assert "-2.9 dB" in none
+    assert lowering_words(problem, designs, None) == ""
 
 
 def test_a_study_without_uncertainty_says_that_its_machine_is_nominal():
