@@ -4,6 +4,7 @@ from collections.abc import Hashable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
+from types import new_class
 from typing import Any, Final, TypeVar
 
 from pydantic import BaseModel
@@ -95,4 +96,4 @@ def _watched_class(
             return table.model_copy(self, **options)
 
     body = {"__getattribute__": read, "model_copy": copied, "__module__": table.__module__}
-    return type(table)(table.__name__, (table,), body)
+    return new_class(table.__name__, (table,), exec_body=lambda names: names.update(body))

@@ -122,7 +122,8 @@ class Contraction:
 
     def _study_of(self, design: Array) -> Study:
         """Study of a design that shows which of the values are read."""
-        study, inner = self.space.quick_study_of(design), {}
+        study = self.space.quick_study_of(design)
+        inner: dict[str, dict[tuple[str, ...], str]] = {}
         for name, (first, *path) in self._watched.items():
             inner.setdefault(first, {})[tuple(path)] = name
         chosen = self.space.machine_values

@@ -53,8 +53,9 @@ def joined_designs(
                 own = some[members]
                 each = [stands[number] for number in stand]
                 on_each = np.searchsorted(stand, on_stand[own])
-                for part, *seen in _seen(needs, lines, stacks, on_stack[own], each, on_each):
-                    yield rows[own[part]], *seen
+                of_path = _seen(needs, lines, stacks, on_stack[own], each, on_each)
+                for part, seen, spectra in of_path:
+                    yield rows[own[part]], seen, spectra
 
 
 def _seen(

@@ -246,7 +246,7 @@ def pressure_by_source(lines: Lines, arrays: Arrays, body: Arrays) -> ComplexArr
     loads = load.reshape(count, size * sources, motions)
     motion = displacement(body, added, loads, every.frequency_hz)
     rigid = pressure(motion, every.responses.per_velocity, every.frequency_hz)
-    total = rigid.reshape(len(rigid), size, sources, -1)
+    total: ComplexArray = rigid.reshape(len(rigid), size, sources, -1)
     if arrays["shell"].size:
         total = total + through_shell(arrays["shell"], lines.responses.per_load)
     total = total * arrays["factor"][..., None, None]

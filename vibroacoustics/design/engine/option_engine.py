@@ -246,8 +246,11 @@ class OptionEngine:
         if seen.seen:
             every = {need: array[of_row] for need, array in seen.seen.items()}
             result.take(rows, every, len(values))
-        reasons = ((row, failed.get(number)) for row, number in zip(rows, of_row, strict=True))
-        result.failed |= {int(row): reason for row, reason in reasons if reason is not None}
+        reasons = (
+            (row, failed.get(number))
+            for row, number in zip(rows.tolist(), of_row.tolist(), strict=True)
+        )
+        result.failed |= {row: reason for row, reason in reasons if reason is not None}
 
     def _score(self, designs: Array, seen: Outcome, failed: dict[int, str]) -> None:
         """Take in the criteria of designs that have not failed."""

@@ -227,16 +227,16 @@ def _layout(
 ) -> tuple[Layout, ComplexArray]:
     """Where loads act, and the densities of random loads, shape (value,)."""
     ports: dict[Port, None] = {}
-    for load in lines.loads.values():
-        ports |= dict.fromkeys(in_shell(load))
+    for on_ports in lines.loads.values():
+        ports |= dict.fromkeys(in_shell(on_ports))
     random, densities = [], [np.zeros(0, dtype=complex)]
     for number, load in enumerate(loads.values()):
         for part in load.noise:
             random.append(RandomLoad.of(0 if together else number, part))
             density = part.density * loss.power_factor(part.frequency_hz)
             densities.append(np.moveaxis(density, -1, 0).ravel())
-    number = np.arange(1, lines.frequency_hz.size)
-    order = np.where(number <= highest, number, 0)
+    line = np.arange(1, lines.frequency_hz.size)
+    order = np.where(line <= highest, line, 0)
     hertz = tuple(lines.frequency_hz[1:].tolist())
     layout = Layout(hertz, tuple(order.tolist()), tuple(ports), tuple(random))
     return layout, np.concatenate(densities)

@@ -131,7 +131,7 @@ class PathOfDesign:
     def _of_speed(self, shell: BendingShell | None, layout: Layout) -> Responses:
         hertz, rigid = layout.hertz, self.way.transmission.microphones.rigid
         per_velocity = rigid(np.minimum(hertz, self.way.highest_hz))
-        per_load = np.zeros((len(per_velocity), 0, hertz.size), dtype=complex)
+        per_load: ComplexArray = np.zeros((len(per_velocity), 0, hertz.size), dtype=complex)
         if layout.ports:
             per_load = self._per_load(shell, layout.ports, layout.frequency_hz)
         random = tuple(self._of_random(shell, load) for load in layout.random)
