@@ -9,7 +9,7 @@ from sources_study import SOURCES_STUDY, made_up_modes
 
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.decibel import mean_square_level
-from vibroacoustics.design.engine.memo import Memo
+from vibroacoustics.design.engine.memo import Budget, Memo
 from vibroacoustics.design.engine.seen import Need
 from vibroacoustics.levels.nominal import NominalSound
 from vibroacoustics.pipeline.study import chain_with
@@ -134,8 +134,8 @@ def test_a_memo_computes_once_per_values_read_and_keeps_errors(monkeypatch):
         if mounts.pitch_m > 0.25:
             raise ParameterError("too wide")
         if mounts.pitch_m > 0.15:  # reads more
-            return mounts.vertical_stiffness_n_per_m
-        return 0.0
+            return np.float64(mounts.vertical_stiffness_n_per_m)
+        return np.float64(0.0)
 
     memo = Memo(names, study_of, compute)
     axes = (0.1, 0.2), (0.1, 0.2, 0.3), (1e4, 2e4)
@@ -149,3 +149,12 @@ def test_a_memo_computes_once_per_values_read_and_keeps_errors(monkeypatch):
     with pytest.raises(ParameterError, match="too wide"):
         memo(designs[4])
     assert len(calls) == 4
+
+
+def test_results_beyond_the_memory_are_let_go_oldest_first():
+    budget, known, others = Budget(3 * 80), {}, {}
+    for number in range(4):
+        budget.keep(known if number % 2 else others, bytes([number]), np.zeros(10))
+    assert (list(known), list(others)) == ([b"\x01", b"\x03"], [b"\x02"])
+    budget.keep(known, b"large", np.zeros(100))
+    assert (list(known), list(others)) == ([b"large"], [])

@@ -100,7 +100,7 @@ class Contraction:
     def _memo(self, compute: Callable[[Study], Result]) -> Memo[Result]:
         names = self.space.names
         unwatched = {names.index(name) for name in self._acting if name not in self._watched}
-        return Memo(names, self._study_of, compute, frozenset(unwatched))
+        return Memo(names, self._study_of, compute, self.ways.budget, frozenset(unwatched))
 
     @property
     def _acting(self) -> list[str]:

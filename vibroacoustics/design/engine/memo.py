@@ -1,8 +1,9 @@
 """Results that follow from some values of a design, each computed once for these values."""
 
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Final, Generic, TypeVar
+from typing import Any, Final, Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -11,9 +12,44 @@ from ...base.errors import ParameterError, SolverError
 from ...base.field_reads import recorded_reads
 from ...study.study import Study
 
-Result = TypeVar("Result")
-KEPT: Final = 8192
-"""Results of a memo, the latest ones."""
+MOST_BYTES: Final = 1_000_000_000
+"""Of all results of a space with all samples of its machine."""
+
+
+class Sized(Protocol):
+    """A result that knows the memory that it takes."""
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of its arrays."""
+        ...
+
+
+Result = TypeVar("Result", bound=Sized)
+
+
+@dataclass
+class Budget:
+    """Memory of the results of several memos: the oldest ones are let go.
+
+    Attributes
+    ----------
+    most_bytes : of all together
+    """
+
+    most_bytes: int = MOST_BYTES
+    _bytes: int = 0
+    _entries: deque[tuple[dict[bytes, Any], bytes, int]] = field(default_factory=deque, repr=False)
+
+    def keep(self, known: dict[bytes, Any], key: bytes, result: Any) -> None:
+        """Keep a result by its key among others."""
+        known[key], size = result, getattr(result, "nbytes", 0)
+        self._entries.append((known, key, size))
+        self._bytes += size
+        while self._bytes > self.most_bytes and len(self._entries) > 1:
+            others, oldest, freed = self._entries.popleft()
+            others.pop(oldest, None)
+            self._bytes -= freed
 
 
 @dataclass
@@ -25,6 +61,7 @@ class Memo(Generic[Result]):
     names : keys of the variables
     study_of : makes the study of a design, its values watched by the keys of the variables
     compute : makes the result of a study
+    budget : of memory, shared with other memos
     unwatched : numbers of variables that count as read
     computed : number of results that were computed
     """
@@ -32,6 +69,7 @@ class Memo(Generic[Result]):
     names: list[str]
     study_of: Callable[[Array], Study]
     compute: Callable[[Study], Result]
+    budget: Budget = field(default_factory=Budget, repr=False)
     unwatched: frozenset[int] = frozenset()
     computed: int = 0
     _known: dict[tuple[int, ...], dict[bytes, Result | Exception]] = field(
@@ -91,7 +129,5 @@ class Memo(Generic[Result]):
         self.computed += 1
         reads = tuple(sorted(numbers))
         known = self._known.setdefault(reads, {})
-        known[design[list(reads)].tobytes()] = result
-        if len(known) > KEPT:
-            del known[next(iter(known))]
+        self.budget.keep(known, design[list(reads)].tobytes(), result)
         return result

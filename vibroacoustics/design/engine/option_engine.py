@@ -30,6 +30,8 @@ ARRAYS: Final = frozenset({
 """That every figure may come of; reported figures matter where they are asked for."""
 FILLING: Final = 64
 """Designs that show which bands vary over the space."""
+MOST_GROUPS: Final = 256
+"""Sets of values that take runs, of which linear designs are kept."""
 ON_PATH: Final = "changes the path from the loads to the microphones"
 Score = Callable[[Array], Seen]
 """From the values of a design, shape (variable,), to criteria that are asked for, shape (1,)."""
@@ -181,6 +183,8 @@ class OptionEngine:
             return None  # whatever was fitted before: the same designs give the same bits
         key = values[0, of_runs].tobytes()
         if key not in self._groups:
+            if len(self._groups) >= MOST_GROUPS:
+                self._groups.clear()  # joined again in milliseconds
             self._groups[key] = self._prepared(terms, values[0], of_runs)
         return self._groups[key]
 

@@ -1,6 +1,6 @@
 """One design before anything moves: loads of all sources and the body on its mounts."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -40,6 +40,11 @@ class LoadsOfDesign:
     layout: tuple[Layout, ...]
     by_speed: tuple[Parts, ...]
 
+    @property
+    def nbytes(self) -> int:
+        """Bytes of its arrays."""
+        return _bytes_of(self.by_speed)
+
 
 @dataclass(frozen=True)
 class Stand:
@@ -53,6 +58,15 @@ class Stand:
 
     by_speed: tuple[Parts, ...]
     body: Parts
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of its arrays."""
+        return _bytes_of((*self.by_speed, self.body))
+
+
+def _bytes_of(groups: Iterable[Parts]) -> int:
+    return sum(np.asarray(array).nbytes for parts in groups for array in parts.values())
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,10 @@ from ...transfer.machine import on_mounts
 from ...transfer.observers import Observers
 from ...transfer.received import Transmission
 from .layout import Layout, RandomLoad
+from .memo import Budget
 
+SHELL_BYTES: Final = 1_500_000
+"""Of frame and gas in an elastic shell."""
 _VECTORS: Final = ("transfer_vector", "pattern_transfer_vector")
 
 
@@ -111,6 +114,12 @@ class PathOfDesign:
         default_factory=dict, repr=False
     )
 
+    @property
+    def nbytes(self) -> int:
+        """Bytes of the responses so far and, roughly, of the shell."""
+        columns = sum(one.nbytes for known in self._known.values() for one in known.values())
+        return columns + (0 if self.shell is None else SHELL_BYTES)
+
     def responses(self, layouts: Sequence[Layout]) -> tuple[Responses, ...]:
         """Compute the pressure per motion and load at each speed.
 
@@ -176,10 +185,12 @@ class Ways:
     ----------
     radiation : gives the transfer vectors
     criteria : values of criteria by design, which all samples of the machine share
+    budget : memory of what is kept of designs of all samples
     """
 
     radiation: Radiation
     criteria: Shared = field(default_factory=Shared, repr=False)
+    budget: Budget = field(default_factory=Budget, repr=False)
     _known: dict[str, SoundWay] = field(default_factory=dict, repr=False)
 
     def __call__(self, study: Study) -> SoundWay:
