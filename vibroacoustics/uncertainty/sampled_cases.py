@@ -46,8 +46,8 @@ def sampled_cases(
         turned = Shared()  # let go with the speed: courses over crank angle are large
         for key, given in of_speed:
             option = study.option_of(key)
-            sampled_one = partial(sampled_machine, given.machine, study.machine, option, sample)
-            machine = machines(id(given.machine), sampled_one)
+            compute = partial(sampled_machine, given.machine, study.machine, option, sample)
+            machine = machines(id(given.machine), compute)
             case = replace(given, machine=machine, shared=shared)
             if moves_otherwise(machine, given.machine, study):
                 case = _turned(case, study, key, turned)
@@ -61,13 +61,13 @@ def sampled_cases(
     return sampled
 
 
-def sampled_machine(machine: Machine, given: Machine, option: Option, sample: Sample) -> Machine:
+def sampled_machine(machine: Machine, nominal: Machine, option: Option, sample: Sample) -> Machine:
     """Return a machine with sampled values and the bodies that an option attaches to it.
 
     Parameters
     ----------
     machine : as the option leaves it
-    given : machine of the study
+    nominal : machine of the study
     option : option of the case
     sample : values by table and field
 
@@ -76,7 +76,7 @@ def sampled_machine(machine: Machine, given: Machine, option: Option, sample: Sa
     ParameterError
         The values contradict one another, or the bodies do not fit the machine.
     """
-    with_values = with_sample(machine, given, sample)
+    with_values = with_sample(machine, nominal, sample)
     return with_values.carrying(option.attached(with_values))
 
 

@@ -59,10 +59,10 @@ class Contraction:
 
     def paths(self, layout: Layouts) -> Memo[PathOfDesign]:
         """Return the paths from where loads act to the microphones."""
-        places = tuple(one.places for one in layout)
-        if places not in self._paths:
-            self._paths[places] = self._memo(partial(self._path, layout))
-        return self._paths[places]
+        ports = tuple(speed.of_ports for speed in layout)
+        if ports not in self._paths:
+            self._paths[ports] = self._memo(partial(self._path, layout))
+        return self._paths[ports]
 
     def stands(self, layout: Layouts) -> Memo[Stand]:
         """Return the bodies on their mounts."""
@@ -90,7 +90,7 @@ class Contraction:
         )
 
     def _path(self, layout: Layouts, study: Study) -> PathOfDesign:
-        ports = (port for one in layout for load in one.random for port, _ in load.loads)
+        ports = (port for speed in layout for load in speed.random for port, _ in load.loads)
         with_bodies = any(isinstance(port, BodyPort) for port in ports)
         machine = machine_of_design(study, self.option, self._sample, with_bodies)
         path = self.ways(study).path(machine)
@@ -133,15 +133,17 @@ class Contraction:
             update["machine"] = watched(study.machine, inner["machine"])
         if "options" in inner:
             option = study.options[self.option]
-            seen = _watched_option(self.option, option, inner["options"])
-            update["options"] = {**study.options, self.option: seen}
+            option_watched = _watched_option(self.option, option, inner["options"])
+            update["options"] = {**study.options, self.option: option_watched}
         return study.model_copy(update=update)
 
 
 def _watched_option(name: str, option: Option, labels: Mapping[tuple[str, ...], str]) -> Option:
     """Watch an option, or the options that a combination joins."""
-    members = {
-        one: watched(part, {path[1:]: label for path, label in labels.items() if path[0] == one})
-        for one, part in members_by_name(name, option).items()
-    }
+
+    def of_member(member: str) -> dict[tuple[str, ...], str]:
+        return {path[1:]: label for path, label in labels.items() if path[0] == member}
+
+    parts = members_by_name(name, option).items()
+    members = {member: watched(part, of_member(member)) for member, part in parts}
     return option.rejoined(members) if isinstance(option, Combination) else members[name]

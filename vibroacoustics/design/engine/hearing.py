@@ -61,10 +61,10 @@ class Hearing:
 
     def add(self, rows: IndexArray, spectra: Sequence[Spectrum]) -> None:
         """Add the spectra of designs by speed; those of equal frequencies are computed together."""
-        key = b"".join(one.frequency_hz.tobytes() for one in spectra)
+        key = b"".join(of_speed.frequency_hz.tobytes() for of_speed in spectra)
         waiting = self._waiting.setdefault(key, [])
         waiting.append((rows, spectra))
-        values = sum(one.square.size for _, each in waiting for one in each)
+        values = sum(spectrum.square.size for _, each in waiting for spectrum in each)
         if values > MOST_VALUES:
             self._compute(self._waiting.pop(key))
 
@@ -84,14 +84,14 @@ class Hearing:
         except ParameterError as error:
             self.take(rows, error)
             return
-        seen = {need: np.stack([part[need] for part in each], axis=2) for need in each[0]}
-        self.take(rows, seen)
+        result = {need: np.stack([part[need] for part in each], axis=2) for need in each[0]}
+        self.take(rows, result)
 
 
 def _joined(spectra: Sequence[Spectrum]) -> Spectrum:
     """Join the spectra of designs at one speed."""
     noise = [np.broadcast_to(s.noise, (len(s.square), *s.noise.shape[1:])) for s in spectra]
-    square = np.concatenate([one.square for one in spectra])
+    square = np.concatenate([spectrum.square for spectrum in spectra])
     return Spectrum(spectra[0].frequency_hz, square, np.concatenate(noise))
 
 

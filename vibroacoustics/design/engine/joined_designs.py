@@ -50,12 +50,12 @@ def joined_designs(
                 yield rows[some], error, []
                 continue
             for members, stand in _by_kind(stands, on_stand[some], _kind_of_stand):
-                own = some[members]
+                of_stand = some[members]
                 each = [stands[number] for number in stand]
-                on_each = np.searchsorted(stand, on_stand[own])
-                of_path = _seen(needs, lines, stacks, on_stack[own], each, on_each)
-                for part, seen, spectra in of_path:
-                    yield rows[own[part]], seen, spectra
+                on_each = np.searchsorted(stand, on_stand[of_stand])
+                of_path = _seen(needs, lines, stacks, on_stack[of_stand], each, on_each)
+                for part, figures, spectra in of_path:
+                    yield rows[of_stand[part]], figures, spectra
 
 
 def _seen(
@@ -80,9 +80,9 @@ def _seen(
     if isinstance(stands[0], Exception):
         yield slice(0, size), stands[0], []
         return
-    bodies = [one for one in stands if isinstance(one, Stand)]
-    body = _stack([one.body for one in bodies])
-    added = [_stack(speed) for speed in zip(*(one.by_speed for one in bodies), strict=True)]
+    bodies = [stand for stand in stands if isinstance(stand, Stand)]
+    body = _stack([stand.body for stand in bodies])
+    added = [_stack(speed) for speed in zip(*(stand.by_speed for stand in bodies), strict=True)]
     for first in range(0, size, chunk):
         part = slice(first, min(first + chunk, size))
         by_speed = [

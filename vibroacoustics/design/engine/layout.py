@@ -58,8 +58,8 @@ class Layout:
     random: tuple[RandomLoad, ...]
 
     @property
-    def places(self) -> "Layout":
-        """Return where loads act, whatever the frequencies of the lines."""
+    def of_ports(self) -> "Layout":
+        """Return the layout without the frequencies of the lines."""
         return Layout((), (), self.ports, self.random)
 
     @cached_property

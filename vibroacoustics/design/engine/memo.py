@@ -13,7 +13,7 @@ from ...base.field_reads import recorded_reads
 from ...study.study import Study
 
 MOST_BYTES: Final = 1_000_000_000
-"""Of all results of a space with all samples of its machine."""
+"""Memory of all results of a space with all samples of its machine."""
 
 
 class Sized(Protocol):
@@ -41,10 +41,10 @@ class Budget:
     _bytes: int = 0
     _entries: deque[tuple[dict[bytes, Any], bytes, int]] = field(default_factory=deque, repr=False)
 
-    def keep(self, known: dict[bytes, Any], key: bytes, result: Any) -> None:
+    def keep(self, results: dict[bytes, Any], key: bytes, result: Any) -> None:
         """Keep a result by its key among others."""
-        known[key], size = result, getattr(result, "nbytes", 0)
-        self._entries.append((known, key, size))
+        results[key], size = result, getattr(result, "nbytes", 0)
+        self._entries.append((results, key, size))
         self._bytes += size
         while self._bytes > self.most_bytes and len(self._entries) > 1:
             others, oldest, freed = self._entries.popleft()
@@ -111,8 +111,8 @@ class Memo(Generic[Result]):
                 return results, number.ravel()
 
     def _of(self, design: Array) -> Result | Exception:
-        for reads, known in self._known.items():
-            result = known.get(design[list(reads)].tobytes())
+        for reads, results in self._known.items():
+            result = results.get(design[list(reads)].tobytes())
             if result is not None:
                 return result
         numbers = set(range(design.size))
@@ -128,6 +128,6 @@ class Memo(Generic[Result]):
             result = error
         self.computed += 1
         reads = tuple(sorted(numbers))
-        known = self._known.setdefault(reads, {})
-        self.budget.keep(known, design[list(reads)].tobytes(), result)
+        results = self._known.setdefault(reads, {})
+        self.budget.keep(results, design[list(reads)].tobytes(), result)
         return result

@@ -88,8 +88,8 @@ def lines_of(
     speeds_rpm, layouts, responses : by speed
     beside : gains of a sample and unmodelled noise by speed; none without both
     """
-    both = beside or [(None, None)] * len(speeds_rpm)
-    each = zip(speeds_rpm, layouts, responses, both, strict=True)
+    further = beside or [(None, None)] * len(speeds_rpm)
+    each = zip(speeds_rpm, layouts, responses, further, strict=True)
     return tuple(
         Lines(speed, layout.hertz, np.array(layout.order), response, *more)
         for speed, layout, response, more in each

@@ -167,8 +167,8 @@ class OptionEngine:
             if linear is None:
                 alone.append(rows)
                 continue
-            for part, seen, spectra in linear.seen(values[rows]):
-                result.take(rows[part], seen, len(values))
+            for part, figures, spectra in linear.seen(values[rows]):
+                result.take(rows[part], figures, len(values))
                 if spectra:
                     hearing.add(rows[part], spectra)
         hearing.finish()
@@ -212,7 +212,7 @@ class OptionEngine:
     def _fitted(self, terms: Terms, base: Array) -> tuple[Probe, list[Expansion]] | None:
         """Loads and bodies as sums of products; none where they are not exact.
 
-        The same for all designs that differ in their paths alone.
+        Designs that differ in their paths alone share them.
         """
         try:
             probe = self.contraction.probe(base)
@@ -236,33 +236,30 @@ class OptionEngine:
     def _each(self, values: Array, rows: IndexArray, result: Outcome) -> None:
         """Take in designs by products of their loads and paths, each of which is computed once."""
         different, same = np.unique(values[rows], axis=0, return_inverse=True)
-        seen = Outcome()
-        failed, hearing = seen.failed, seen.hearing(self.needs, len(different))
+        outcome = Outcome()
+        failed, hearing = outcome.failed, outcome.hearing(self.needs, len(different))
         designs = joined_designs(self.contraction, different, self._lines, self.needs)
         for some, part, spectra in designs:
-            seen.take_or_fail(some, part, len(different))
+            outcome.take_or_fail(some, part, len(different))
             if spectra:
                 hearing.add(some, spectra)
         hearing.finish()
         if any(need.what == "criterion" for need in self.needs):
-            self._score(different, seen, failed)
+            self._score(different, outcome, failed)
         of_row = same.ravel()
-        if seen.seen:
-            every = {need: array[of_row] for need, array in seen.seen.items()}
+        if outcome.seen:
+            every = {need: array[of_row] for need, array in outcome.seen.items()}
             result.take(rows, every, len(values))
-        reasons = (
-            (row, failed.get(number))
-            for row, number in zip(rows.tolist(), of_row.tolist(), strict=True)
-        )
-        result.failed |= {row: reason for row, reason in reasons if reason is not None}
+        each = zip(rows.tolist(), of_row.tolist(), strict=True)
+        result.failed |= {row: failed[number] for row, number in each if number in failed}
 
-    def _score(self, designs: Array, seen: Outcome, failed: dict[int, str]) -> None:
+    def _score(self, designs: Array, outcome: Outcome, failed: dict[int, str]) -> None:
         """Take in the criteria of designs that have not failed."""
         for number, design in enumerate(designs):
             if number in failed:
                 continue
             try:
-                seen.take(np.array([number]), self.score(design), len(designs))
+                outcome.take(np.array([number]), self.score(design), len(designs))
             except (ParameterError, SolverError) as error:
                 failed[number] = str(error)
 

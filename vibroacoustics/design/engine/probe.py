@@ -99,8 +99,8 @@ class Probe:
     @classmethod
     def of(cls, loads: LoadsOfDesign, stand: Stand) -> "Probe":
         """Join the loads of a design and its body."""
-        both = zip(loads.by_speed, stand.by_speed, strict=True)
-        return cls(loads.layout, tuple({**part, **added} for part, added in both), stand.body)
+        pairs = zip(loads.by_speed, stand.by_speed, strict=True)
+        return cls(loads.layout, tuple({**part, **added} for part, added in pairs), stand.body)
 
     def groups(self) -> tuple[Parts, ...]:
         """Arrays by name of each speed, last those of the body."""
@@ -164,7 +164,7 @@ def stand_of_design(
         The design cannot be built.
     """
     body = on_mounts(machine_of_design(study, option, sample, with_bodies=True))
-    added = tuple(_over_frequency(body, one.hertz) for one in layout)
+    added = tuple(_over_frequency(body, speed.hertz) for speed in layout)
     return Stand(added, body_matrices(body))
 
 

@@ -28,7 +28,7 @@ from .layout import Layout, RandomLoad
 from .memo import Budget
 
 SHELL_BYTES: Final = 1_500_000
-"""Of frame and gas in an elastic shell."""
+"""Memory of frame and gas in an elastic shell."""
 _VECTORS: Final = ("transfer_vector", "pattern_transfer_vector")
 
 
@@ -117,7 +117,8 @@ class PathOfDesign:
     @property
     def nbytes(self) -> int:
         """Bytes of the responses so far and, roughly, of the shell."""
-        columns = sum(one.nbytes for known in self._known.values() for one in known.values())
+        by_ports = self._known.values()
+        columns = sum(column.nbytes for columns in by_ports for column in columns.values())
         return columns + (0 if self.shell is None else SHELL_BYTES)
 
     def responses(self, layouts: Sequence[Layout]) -> tuple[Responses, ...]:
@@ -160,12 +161,12 @@ class PathOfDesign:
         self, shell: BendingShell | None, ports: tuple[Port, ...], frequency_hz: Sequence[float]
     ) -> ComplexArray:
         """Pressure per load on ports, shape (receiver, component, line)."""
-        known = self._known.setdefault(ports, {})
-        new = [hertz for hertz in frequency_hz if hertz not in known]
+        columns = self._known.setdefault(ports, {})
+        new = [hertz for hertz in frequency_hz if hertz not in columns]
         if new:
             computed = self._computed(shell, ports, np.array(new))
-            known.update(zip(new, np.moveaxis(computed, -1, 0), strict=True))
-        return np.stack([known[hertz] for hertz in frequency_hz], axis=-1)
+            columns.update(zip(new, np.moveaxis(computed, -1, 0), strict=True))
+        return np.stack([columns[hertz] for hertz in frequency_hz], axis=-1)
 
     def _computed(
         self, shell: BendingShell | None, ports: tuple[Port, ...], hertz: Array
