@@ -110,14 +110,26 @@ def test_values_are_medians_and_those_without_an_option_too(problem, results):
 MOUNTS = {"machine.mounts.vertical_stiffness_n_per_mm": "range = [5, 50]"}
 
 
+SHELL = {
+    "machine.structure.thickness_mm": "range = [3.0, 3.6]",
+    "machine.structure.loss_factor_ratio": "range = [0.005, 0.03]",
+    "machine.gas.equalisation_angle_deg": "range = [10, 40]",
+}
+
+
 @pytest.mark.slow
-def test_mounts_of_designs_take_the_place_of_sampled_ones():
-    """Against the stages of a run with the sample and the mounts of the design."""
+@pytest.mark.parametrize(
+    ("variables", "design"),
+    [(MOUNTS, [2e4]), (SHELL, [3.3e-3, 0.02, 0.5])],
+    ids=["mounts", "shell and gas"],
+)
+def test_values_of_designs_take_the_place_of_sampled_ones(variables, design):
+    """Against the stages of a run with the sample and the values of the design."""
     option = "counterweight-half"
-    problem = Problem(calibrated(SHARE | MOUNTS), radiation)
-    design, one = np.array([[0.3, 2e4]]), problem.machines[1]
+    problem = Problem(calibrated(SHARE | variables), radiation)
+    design, one = np.array([[0.3, *design]]), problem.machines[1]
     study = problem.space.study_of(design[0])
-    sample = one.machine.without(frozenset({("mounts", "vertical_stiffness_n_per_m")}))
+    sample = one.machine.without(problem.space.machine_values)
     changed = sound_of(study, sample)
     before = sound_of(problem.space.study, one.machine.values)[2900.0, "none"][1]
     parts = one.machine.deviation
