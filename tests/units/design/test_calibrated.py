@@ -185,7 +185,7 @@ def test_no_best_designs_where_nothing_changes_the_total(problem, level_db, is_s
     assert "medians over" in search.attrs["method"]
     lowering = search.attrs["lowering"]
     assert "lowers the total by 3 dB(A) with 90 % confidence" in lowering
-    assert (f"{lowering[:1].upper()}{lowering[1:]}." in page) != is_said
+    assert f"{lowering[:1].upper()}{lowering[1:]}." in page
     by_sample = problem.by_sample(np.linspace(0.0, 1.0, 201)[:, None], problem.samples())[..., 1]
     weight = problem.weight(problem.samples())
     confident = weighted_quantiles(by_sample.T, weight, (0.9,))[0]
