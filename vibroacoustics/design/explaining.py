@@ -33,6 +33,8 @@ def explained(problem: Problem, searched: Searched, evaluate: Evaluate) -> xr.Da
     spread = _spread(problem, searched)
     evaluation = evaluate(spread)
     allowed = np.concatenate([searched.designs[rows], spread[evaluation.violation <= 0.0]])
+    _, first = np.unique(allowed, axis=0, return_index=True)
+    allowed = allowed[np.sort(first)]
     changes = total_changes(problem, allowed)
     search = with_total_change(search, problem, allowed, changes)
     return with_shares(with_best(search, rows, promises), problem, spread, evaluation)

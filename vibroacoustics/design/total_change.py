@@ -73,9 +73,9 @@ def lowering_words(problem: Problem, designs: Array, changes: Array | None) -> s
             f"option {option} with {words} is the first design that lowers the total by "
             f"{LOWERING_DB:g} dB(A) {sure}: median {with_nan[first, 0]:+.1f} dB"
         )
-    best = int(np.argmin(with_nan[:, 1]))
+    median, confident = with_nan[int(np.argmin(with_nan[:, 0]))]
     return (
         f"none of {len(designs)} designs lowers the total by {LOWERING_DB:g} dB(A) {sure}; "
-        f"the largest change found is {with_nan[best, 1]:+.2g} dB {sure}, "
-        f"{with_nan[best, 0]:+.2g} dB in the median"
+        f"the lowest change found is {median:+.2g} dB in the median, {confident:+.2g} dB or lower "
+        f"{sure}"
     )

@@ -1,5 +1,7 @@
 """Designs over the weighted samples of a machine agree with runs of the same options."""
 
+import re
+
 import numpy as np
 import pytest
 from design_studies import design_table, study_with
@@ -188,9 +190,11 @@ def test_no_best_designs_where_nothing_changes_the_total(problem, level_db, is_s
     assert f"{lowering[:1].upper()}{lowering[1:]}." in page
     by_sample = problem.by_sample(np.linspace(0.0, 1.0, 201)[:, None], problem.samples())[..., 1]
     weight = problem.weight(problem.samples())
-    confident = weighted_quantiles(by_sample.T, weight, (0.9,))[0]
-    largest = float(lowering.partition("found is ")[2].partition(" dB")[0])
-    assert largest == pytest.approx(confident.min(), rel=0.06, abs=2e-3)
+    median, confident = weighted_quantiles(by_sample.T, weight, (0.5, 0.9))
+    numbers = [float(number) for number in re.findall(r"([+-][\d.e-]+) dB", lowering)]
+    best = int(np.argmin(median))
+    assert numbers[0] == pytest.approx(median[best], rel=0.06, abs=2e-3)
+    assert numbers[1] == pytest.approx(confident[best], rel=0.3, abs=5e-3)
 
 
 @pytest.mark.slow
@@ -202,7 +206,7 @@ def test_the_first_design_that_lowers_the_total_surely_is_named(problem):
     assert words.endswith("with 90 % confidence: median -4.0 dB")
     none = lowering_words(problem, designs[:2], changes[:, :2])
     assert none.startswith("none of 2 designs lowers the total by 3 dB(A) with 90 % confidence")
-    assert "-2.9 dB" in none
+    assert none.endswith("-5 dB in the median, -2.9 dB or lower with 90 % confidence")
     assert lowering_words(problem, designs, None) == ""
 
 
