@@ -19,6 +19,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from .errors import ParameterError
+from .field_reads import unrecorded_reads
 from .registry import Registry
 
 FURTHER: Final = "others by --plugin"
@@ -58,10 +59,11 @@ class Parameters(BaseModel):
 
     @model_validator(mode="after")
     def _without_contradictions(self) -> Self:
-        for owner in reversed(type(self).__mro__):
-            method = vars(owner).get("contradictions")
-            for problem in () if method is None else method(self):
-                raise ValueError(problem)
+        with unrecorded_reads():
+            for owner in reversed(type(self).__mro__):
+                method = vars(owner).get("contradictions")
+                for problem in () if method is None else method(self):
+                    raise ValueError(problem)
         return self
 
 

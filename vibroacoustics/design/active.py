@@ -5,21 +5,21 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
-from scipy.stats import qmc, t
+from scipy.stats import norm, qmc, t
 
 from ..base.arrays import Array
 from ..base.progress import Progress
 from .coding import Coding
 from .evaluation import Evaluate, Evaluation
-from .problem import CHANGE_OF_TOTAL, TOTALS, Problem
+from .problem import CHANGE_OF_TOTAL, CONFIDENCE, TOTALS, Problem
 from .promise import Promise
-from .search.active import ActiveSearch, search_active
+from .search.active import ActiveSearch, Models, search_active
 from .search.problem import SearchProblem
 from .search_dataset import searched_dataset, with_best, with_shares, with_total_change
 
 SPREAD_DESIGNS: Final = 1024
 """Designs that fill the space, whose expected values show what decides."""
-CONFIDENCE: Final = 0.95
+MEAN_CONFIDENCE: Final = 0.95
 """Confidence of the interval of the mean of the last runs."""
 
 
@@ -58,7 +58,9 @@ def actively_searched(problem: Problem, evaluate: Evaluate, progress: Progress) 
     rows = np.array([search.promised.start])
     spread = spread_designs(coded)
     expected = search.models.expected(coded.shares(spread), len(problem.design.constraints))
-    dataset = with_total_change(dataset, problem, _largest_change(problem, dataset, search))
+    allowed = search.searched.designs[dataset["meets_constraints"].values == 1, :-1]
+    changes = _changes(problem, dataset, search.models, coded.shares(allowed))
+    dataset = with_total_change(dataset, problem, coding.designs(allowed), changes)
     dataset = with_best(dataset, rows, [promised])
     dataset = with_shares(dataset, problem, coding.designs(spread), expected)
     return dataset.assign_attrs(dataset.attrs, method=_method(problem, search))
@@ -74,7 +76,11 @@ def promise_of_runs(values: Array) -> Promise:
     nominal, repeated = values[0], values[1:]
     count = len(repeated)
     mean = repeated.mean(axis=0)
-    half = t.ppf(0.5 + 0.5 * CONFIDENCE, count - 1) * repeated.std(axis=0, ddof=1) / np.sqrt(count)
+    half = (
+        t.ppf(0.5 + 0.5 * MEAN_CONFIDENCE, count - 1)
+        * repeated.std(axis=0, ddof=1)
+        / np.sqrt(count)
+    )
     return Promise(nominal, mean, mean - half, mean + half, count, False)
 
 
@@ -84,17 +90,18 @@ def spread_designs(coded: SearchProblem) -> Array:
     return coded.at_shares(share)
 
 
-def _largest_change(problem: Problem, dataset: xr.Dataset, search: ActiveSearch) -> float | None:
-    """Find the expected change of the total of any design that has run, largest in size, dB."""
+def _changes(problem: Problem, dataset: xr.Dataset, models: Models, shares: Array) -> Array | None:
+    """Estimate how designs change the total, dB; see `total_changes`."""
     (wanted,) = problem.design.objectives.values()
-    if wanted.figure not in TOTALS:
+    if wanted.figure not in TOTALS or not len(shares):
         return None
-    runs = search.models.objective.runs
-    sign = -1.0 if wanted.goal == "greatest" else 1.0
-    change = sign * search.models.objective.posterior(runs.designs)[0]
+    process = models.objective
+    mean, deviation = process.posterior(shares)
+    mean = -mean if wanted.goal == "greatest" else mean
     if wanted.figure != CHANGE_OF_TOTAL:
-        change = change - dataset["wanted_reference"].values[0]
-    return float(change[np.argmax(np.abs(change))])
+        mean = mean - dataset["wanted_reference"].values[0]
+    scatter = norm.ppf(CONFIDENCE) * np.sqrt(process.noise + deviation**2)
+    return np.stack([mean, mean + scatter], axis=-1)[None]
 
 
 def _method(problem: Problem, search: ActiveSearch) -> str:

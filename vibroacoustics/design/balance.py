@@ -22,10 +22,10 @@ from .balancing import (
     sums_of_squares,
     worst_speed_moments,
 )
-from .engine.on_mounts import ADDED, SOUND, Arrays, Lines, lines_of_speed, pressure_by_source
-from .engine.probe import Probe, probe
+from .engine.on_mounts import ADDED, SOUND, Arrays, Lines, lines_of, pressure_by_source
+from .engine.probe import Probe, machine_of_design, probe
 from .engine.response import foot_forces
-from .engine.sound_way import SoundWay, Ways
+from .engine.sound_way import Ways
 
 BALANCED: Final = ("force_n", "moment_nm", "foot_force_n", "pressure_pa")
 """Figures whose sum of squares at the shaft frequency may be made least."""
@@ -174,20 +174,21 @@ def _response(
         other = joined.rejoined(members_by_name(option, joined) | dict(changed))
     options = {REFERENCE_OPTION: study.options[REFERENCE_OPTION], option: other}
     with_changed = study.model_copy(update={"options": options})
-    made, way = probe(with_changed, option, ways), ways(with_changed)
-    return _at_shaft_frequency(made, study.operation.speed_rpm, way, figure)
+    made = probe(with_changed, option)
+    machine = machine_of_design(with_changed, option, None, with_bodies=True)
+    responses = ways(with_changed).path(machine).responses(made.layout)
+    return _at_shaft_frequency(
+        made, lines_of(study.operation.speed_rpm, made.layout, responses), figure
+    )
 
 
-def _at_shaft_frequency(
-    made: Probe, speeds_rpm: Sequence[float], way: SoundWay, figure: str
-) -> ComplexArray:
+def _at_shaft_frequency(made: Probe, lines: Sequence[Lines], figure: str) -> ComplexArray:
     """Complex peaks of a figure at 1x, shape (speed, row)."""
     body = {name: np.asarray(array)[None] for name, array in made.body.items()}
-    each = zip(speeds_rpm, made.frequency_hz, made.order, strict=True)
     rows = []
-    for speed, part in zip(each, made.by_speed, strict=True):
+    for of_speed, part in zip(lines, made.by_speed, strict=True):
         arrays = {name: np.asarray(array)[None] for name, array in part.items()}
-        rows.append(_row(figure, lines_of_speed(*speed, way), arrays, body))
+        rows.append(_row(figure, of_speed, arrays, body))
     return np.array(rows)
 
 

@@ -29,14 +29,15 @@ from ..transfer.received import Transmission
 from ..uncertainty.bank import Bank
 from ..uncertainty.discrepancy import Discrepancy
 from ..uncertainty.evidence import Evidence
+from .engine.contraction import Contraction
 from .engine.deviating import Gains, energy
 from .engine.engine import Engine
 from .engine.machine_sample import Deviation, MachineSample, Unmodelled
-from .engine.on_mounts import lines_of_speed, pressure_by_source
+from .engine.on_mounts import lines_of, noise_of, pressure_by_source
 from .engine.response import a_weight
-from .engine.runs import probe_of
 from .engine.seen import Need
 from .engine.sound_way import Ways
+from .keys import present_value
 from .space import Space
 from .tolerances import Pieces
 
@@ -99,16 +100,19 @@ def _gains(space: Space, ways: Ways, machine: MachineSample) -> tuple[Gains | No
     study = space.study
     if machine.deviation is None:
         return (None,) * len(study.operation.speed_rpm)
-    probe, way = probe_of(space, study, REFERENCE_OPTION, ways, machine), ways(study)
+    of_reference = Contraction(space, REFERENCE_OPTION, ways, machine)
+    present = np.array([present_value(study, key) for key in space.names])
+    probe = of_reference.probe(present)
+    responses = of_reference.paths(probe.layout)(present).responses(probe.layout)
     body = {name: array[None] for name, array in probe.body.items()}
-    each = zip(study.operation.speed_rpm, probe.frequency_hz, probe.order, strict=True)
     gains = []
-    for speed, part in zip(each, probe.by_speed, strict=True):
-        lines = lines_of_speed(*speed, way)
+    for lines, part in zip(
+        lines_of(study.operation.speed_rpm, probe.layout, responses), probe.by_speed, strict=True
+    ):
         arrays = {name: np.asarray(array)[None] for name, array in part.items()}
         pressure = pressure_by_source(lines, arrays, body)
         band, weight = gain_band_number(lines.frequency_hz), a_weight(lines.frequency_hz)
-        before = energy(pressure, weight, band, arrays["noise"].real)[0]
+        before = energy(pressure, weight, band, noise_of(lines, arrays)[0])[0]
         gains.append(Gains(machine.deviation.gain, machine.deviation.added, before))
     return tuple(gains)
 

@@ -13,6 +13,7 @@ from .promise import promise
 from .search.front import Mask
 from .search.problem import Searched
 from .search_dataset import searched_dataset, with_best, with_shares, with_total_change
+from .total_change import total_changes
 
 SPREAD_DESIGNS: Final = 1024
 """Designs spread evenly, which show what decides."""
@@ -45,17 +46,11 @@ def explained(
     promises = [promise(problem, searched.designs[row], settings.fresh_samples) for row in rows]
     spread, evaluation = _spread(problem, searched, evaluate)
     allowed = np.concatenate([searched.designs[rows], spread[evaluation.violation <= 0.0]])
-    search = with_total_change(search, problem, _largest_change(problem, allowed))
+    _, first = np.unique(allowed, axis=0, return_index=True)
+    allowed = allowed[np.sort(first)]
+    changes = total_changes(problem, allowed)
+    search = with_total_change(search, problem, allowed, changes)
     return with_shares(with_best(search, rows, promises), problem, spread, evaluation)
-
-
-def _largest_change(problem: Problem, designs: Array) -> float | None:
-    """Change of the total that is largest in size, dB; none where no objective is a total."""
-    changes = [other.evaluate(designs).values for other in problem.total_changes()]
-    if not changes:
-        return None
-    every = np.nan_to_num(np.concatenate(changes).ravel())
-    return float(every[np.argmax(np.abs(every))])
 
 
 def _best_rows(problem: Problem, searched: Searched, search: xr.Dataset, count: int) -> IndexArray:

@@ -17,6 +17,8 @@ from ..study.criterion import CRITERIA
 from ..study.design import Constraint, Design, Objective, Statistic, Wanted
 from ..study.study import Study
 from .engine.engine import Engine
+from .engine.option_engine import ON_PATH
+from .engine.recognition import Route
 from .engine.seen import PAIRED, Need, Seen
 from .ensemble import ComparedMachine, compared_machines
 from .figure import FIGURES, DesignFigure, OfCriterion, Setting
@@ -27,6 +29,8 @@ from .tolerances import Pieces
 MOST_ROWS: Final = 16_384
 """Designs times samples that are computed side by side."""
 MEDIAN: Final = 0.5
+CONFIDENCE: Final = 0.9
+"""Share of the samples that a change is stated for."""
 CHANGE_OF_TOTAL: Final = "total_change_db"
 TOTALS: Final = ("level_total_dba", CHANGE_OF_TOTAL)
 """Figures of the level of the machine with unmodelled noise."""
@@ -120,14 +124,27 @@ class Problem:
         return all(route.linear for each in routes for route in each)
 
     @cached_property
-    def run_columns(self) -> list[int]:
-        """Numbers of the variables of which every value takes runs of the pipeline's stages."""
-        routes = [list(self.engine.routes(name).values()) for name in self.space.options]
+    def path_columns(self) -> list[int]:
+        """Numbers of the variables that change the path from the loads to the microphones."""
         return [
             n
-            for n, each in enumerate(zip(*routes, strict=True))
-            if not all(route.linear for route in each)
+            for n, routes in enumerate(self._routes)
+            if any(route.reason == ON_PATH for route in routes)
         ]
+
+    @cached_property
+    def run_columns(self) -> list[int]:
+        """Numbers of the variables of which every value takes runs; those of the path first."""
+        runs = [
+            n for n, routes in enumerate(self._routes) if not all(route.linear for route in routes)
+        ]
+        return self.path_columns + [n for n in runs if n not in self.path_columns]
+
+    @property
+    def _routes(self) -> list[tuple[Route, ...]]:
+        """Routes of each variable, by option."""
+        each = [self.engine.routes(name).values() for name in self.space.options]
+        return list(zip(*each, strict=True))
 
     @cached_property
     def piece(self) -> int:
@@ -137,15 +154,20 @@ class Problem:
     def split(self, designs: Array) -> Iterator[Array]:
         """Split designs into pieces that are computed together, here and by workers alike.
 
-        Designs of a piece have the same values of the variables that take runs.
+        Designs of a piece have the same path, and at most one load that is new: a piece takes one
+        run at most.
 
         Parameters
         ----------
         designs : shape (design, variable), SI
         """
-        of_runs = designs[:, [n for n in self.run_columns if n < designs.shape[1]]]
-        changes = np.flatnonzero((np.diff(of_runs, axis=0) != 0.0).any(axis=1)) + 1
-        for part in np.split(designs, changes):
+        paths = designs[:, self.path_columns]
+        loads = designs[:, [n for n in self.run_columns if n not in self.path_columns]]
+        is_first = np.zeros(len(designs), dtype=bool)
+        if loads.size:
+            is_first[np.unique(loads, axis=0, return_index=True)[1]] = True
+        is_first[1:] |= (np.diff(paths, axis=0) != 0.0).any(axis=1)
+        for part in np.split(designs, np.flatnonzero(is_first[1:]) + 1):
             yield from (
                 part[first : first + self.piece] for first in range(0, len(part), self.piece)
             )
@@ -253,10 +275,10 @@ class Problem:
         return np.asarray(self.over_samples(np.concatenate(rows)[None], self.weight(meant))[0])
 
     def total_changes(self) -> list["Problem"]:
-        """Return the same designs with the change of the total level instead of each total.
+        """Return the same designs with changes of the total level instead of each total.
 
-        Those of the objectives that are totals, over their speeds and microphones, the median of
-        all samples and pieces.
+        Those of the objectives that are totals, over their speeds and microphones: the median of
+        all samples and pieces, and what a share `CONFIDENCE` of them stays below.
         """
         _ = self.machines  # shared
         return [
@@ -264,10 +286,15 @@ class Problem:
         ]
 
     def _instead(self, objective: Objective) -> "Problem":
-        """Make the change of a total the only objective of the designs."""
-        other, change = copy(self), {"figure": CHANGE_OF_TOTAL, "samples": MEDIAN}
-        other.wanted = {"change": objective.model_copy(update=change)}
-        other.figures = [FIGURES[CHANGE_OF_TOTAL]()]
+        """Make changes of a total the only objectives of the designs."""
+        other = copy(self)
+        other.wanted = {
+            name: objective.model_copy(
+                update={"figure": CHANGE_OF_TOTAL, "goal": "least", "samples": share}
+            )
+            for name, share in (("median", MEDIAN), ("confident", CONFIDENCE))
+        }
+        other.figures = [FIGURES[CHANGE_OF_TOTAL]() for _ in other.wanted]
         other.design = self.design.model_copy(
             update={"objectives": other.wanted, "constraints": {}}
         )

@@ -23,6 +23,7 @@ from .promise import Promise
 from .search.front import nondominated
 from .search.problem import Searched
 from .space import OPTION
+from .total_change import lowering_words, no_change_words
 
 _MOST_REASONS: Final = 20
 
@@ -86,26 +87,30 @@ def machine_words(problem: Problem) -> str:
     )
 
 
-def with_total_change(dataset: xr.Dataset, problem: Problem, largest: float | None) -> xr.Dataset:
-    """The dataset with what is said of the total where no design changes it measurably.
+def with_total_change(
+    dataset: xr.Dataset, problem: Problem, designs: Array, changes: Array | None
+) -> xr.Dataset:
+    """Return the dataset with what is said of changes of the total.
 
-    The attribute `no_change` is empty where one does, or where no objective is a total.
+    The attribute `no_change` is empty where a design changes it measurably, `lowering` where no
+    objective is a total.
 
     Parameters
     ----------
     dataset : of the search
     problem : that was searched
-    largest : change of the total that was found, dB
+    designs : that meet the constraints, shape (design, variable), SI
+    changes : of these; see `total_changes`
     """
-    least = problem.study.scoring.measurable.level_db
-    words = ""
-    if largest is not None and abs(largest) < least:
-        words = (
-            f"nothing in this space changes the total by {least:g} dB "
-            f"(largest change found: {largest:.2g} dB)"
-        )
     totals = all(wanted.figure in TOTALS for wanted in problem.design.objectives.values())
-    return dataset.assign_attrs({**dataset.attrs, "no_change": words, "only_totals": int(totals)})
+    return dataset.assign_attrs(
+        {
+            **dataset.attrs,
+            "no_change": no_change_words(problem, changes),
+            "lowering": lowering_words(problem, designs, changes),
+            "only_totals": int(totals),
+        }
+    )
 
 
 def with_best(dataset: xr.Dataset, rows: IndexArray, promises: list[Promise]) -> xr.Dataset:

@@ -257,6 +257,12 @@ class Machine(KindOfParameters):
         return HOUSING if self.suspension is None else BLOCK
 
     @property
+    def body_names(self) -> tuple[str, ...]:
+        """Names of its rigid bodies: that on the feet, a suspended block, those of an option."""
+        block = () if self.suspension is None else (BLOCK.name,)
+        return (HOUSING.name, *block, *(body.name for body in self.attached.bodies))
+
+    @property
     def unread(self) -> frozenset[str]:
         """Values without effect beside the machine's other tables, dotted, in SI."""
         of_mounts = values_not_read(self.feet, self.mount_stiffness)

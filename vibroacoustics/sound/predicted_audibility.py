@@ -126,8 +126,9 @@ def predicted_audibility(
 
 def _masking_noise(lines: Array, thirds: Array, bands: _Bands) -> Array:
     """Noise of the critical bands with the lines too weak to be tones, shape (spectrum, tone)."""
-    densities = [_mean_density(thirds, parts) for parts in bands.noise]
-    noise = np.stack(densities, axis=1) * bands.width_hz
+    is_new = np.append(True, (np.diff(thirds, axis=0) != 0.0).any(axis=1))  # many have one noise
+    densities = [_mean_density(thirds[is_new], parts) for parts in bands.noise]
+    noise = (np.stack(densities, axis=1) * bands.width_hz)[np.cumsum(is_new) - 1]
     margin = power_of_level(TONE_MARGIN_DB) * STEP_HZ / bands.width_hz
     masking = noise
     is_weak = np.zeros(lines.shape, dtype=bool)

@@ -111,6 +111,14 @@ def strongest(square: Array, belongs: NDArray[np.bool_]) -> Array:
     -------
     mean square of each tone at its strongest line, zero at others, shape (spectrum, line)
     """
+    tone = square.copy()
+    coupled = np.flatnonzero((belongs | belongs.T).sum(axis=0) > 1)  # the others stay as they are
+    tone[:, coupled] = _strongest(square[:, coupled], belongs[np.ix_(coupled, coupled)])
+    return tone
+
+
+def _strongest(square: Array, belongs: NDArray[np.bool_]) -> Array:
+    """Add weaker lines to the stronger line of all lines, step by step; see `strongest`."""
     free, tone, row = square.copy(), np.zeros_like(square), np.arange(len(square))
     while free.any():
         top = free.argmax(axis=1)

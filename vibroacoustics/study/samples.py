@@ -11,6 +11,7 @@ from typing import Any, Final, TypeVar
 from pydantic import ValidationError
 
 from ..base.errors import ParameterError
+from ..base.field_reads import unrecorded_reads
 from ..base.parameters import Parameters
 from ..machine.machine import Machine
 from .sampling import Sample, latin_hypercubes, narrowed
@@ -182,7 +183,8 @@ def _unchecked(table: Table, values: Mapping[str, Any]) -> Table:
 def _replaced(table: Table, values: Mapping[str, Any]) -> Table:
     """A table with other values by dotted name, validated as a file is."""
     direct, inner = _by_table(values)
-    fields: dict[str, Any] = {**dict(iter(table)), **direct}
+    with unrecorded_reads():
+        fields: dict[str, Any] = {**dict(iter(table)), **direct}
     for first, within in inner.items():
         fields[first] = _replaced(fields[first], within)
     try:

@@ -8,6 +8,7 @@ from typing import Final
 from ..base.errors import ParameterError
 from ..machine.cases import Cases
 from ..machine.machine import Machine
+from ..machine.option import Option
 from ..machine.source import Case, CaseKey, Shared
 from ..sources.cases import added_by, loads_of, without_time_series, wrench_lines
 from ..study.samples import with_sample
@@ -44,7 +45,9 @@ def sampled_cases(
     for _, of_speed in groupby(nominal.cases.items(), key=lambda item: item[0][0]):
         turned = Shared()  # let go with the speed: courses over crank angle are large
         for key, given in of_speed:
-            machine = machines(id(given.machine), partial(_sampled, given, study, key, sample))
+            option = study.option_of(key)
+            compute = partial(sampled_machine, given.machine, study.machine, option, sample)
+            machine = machines(id(given.machine), compute)
             case = replace(given, machine=machine, shared=shared)
             if moves_otherwise(machine, given.machine, study):
                 case = _turned(case, study, key, turned)
@@ -58,10 +61,23 @@ def sampled_cases(
     return sampled
 
 
-def _sampled(case: Case, study: Study, key: CaseKey, sample: Sample) -> Machine:
-    """The machine of a case with sampled values, and the bodies attached to this machine."""
-    machine = with_sample(case.machine, study.machine, sample)
-    return machine.carrying(study.option_of(key).attached(machine))
+def sampled_machine(machine: Machine, nominal: Machine, option: Option, sample: Sample) -> Machine:
+    """Return a machine with sampled values and the bodies that an option attaches to it.
+
+    Parameters
+    ----------
+    machine : as the option leaves it
+    nominal : machine of the study
+    option : option of the case
+    sample : values by table and field
+
+    Raises
+    ------
+    ParameterError
+        The values contradict one another, or the bodies do not fit the machine.
+    """
+    with_values = with_sample(machine, nominal, sample)
+    return with_values.carrying(option.attached(with_values))
 
 
 def moves_otherwise(machine: Machine, given: Machine, study: Study) -> bool:

@@ -1,5 +1,6 @@
 """Active search of noisy functions with known optimum, under constraints, and interrupted."""
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from vibroacoustics.base.errors import SolverError, StorageError
 from vibroacoustics.design.evaluation import Evaluate, Evaluation
 from vibroacoustics.design.search.active import ActiveSearch, search_active
 from vibroacoustics.design.search.problem import SearchProblem
-from vibroacoustics.design.store.chunks import Stored, opened_store
+from vibroacoustics.design.store.pieces import PieceStore, opened_store, stored
 
 
 @pytest.mark.slow
@@ -105,6 +106,12 @@ def test_seed_decides_the_runs() -> None:
     assert first.searched.designs.tobytes() != other.searched.designs.tobytes()
 
 
+def kept(evaluate: Evaluate, store: PieceStore) -> Evaluate:
+    """Evaluate by a store, each call as one piece."""
+    each = stored(partial(map, evaluate), store)
+    return lambda designs: next(iter(each([designs])))
+
+
 @pytest.mark.parametrize("interrupted_after", [1, 2, 7])
 def test_interrupted_search_goes_on_with_the_same_bits(
     tmp_path: Path, interrupted_after: int
@@ -112,10 +119,10 @@ def test_interrupted_search_goes_on_with_the_same_bits(
     """Only what the store lacks is run again."""
     undisturbed = bowl_search(bowl).searched
     with pytest.raises(StorageError, match="ended"), opened_store(tmp_path, {}) as store:
-        bowl_search(Stored(Figures(bowl, most=interrupted_after), store))
+        bowl_search(kept(Figures(bowl, most=interrupted_after), store))
     rest = Figures(bowl)
     with opened_store(tmp_path, {}) as store:
-        searched = bowl_search(Stored(rest, store)).searched
+        searched = bowl_search(kept(rest, store)).searched
     assert searched.designs.tobytes() == undisturbed.designs.tobytes()
     assert searched.evaluation.objectives.tobytes() == undisturbed.evaluation.objectives.tobytes()
     assert rest.batches == searched.generation.max() + 1 - interrupted_after
@@ -123,10 +130,10 @@ def test_interrupted_search_goes_on_with_the_same_bits(
 
 def test_longer_search_goes_on_where_a_shorter_ended(tmp_path: Path) -> None:
     with opened_store(tmp_path, {}) as store:
-        short = bowl_search(Stored(bowl, store), runs=30, least_gain=0.0).searched
+        short = bowl_search(kept(bowl, store), runs=30, least_gain=0.0).searched
     further = Figures(bowl)
     with opened_store(tmp_path, {}) as store:
-        longer = bowl_search(Stored(further, store), runs=36, least_gain=0.0).searched
+        longer = bowl_search(kept(further, store), runs=36, least_gain=0.0).searched
     same = len(short.designs) - 5  # without those of the best design at the end
     assert longer.designs[:same].tobytes() == short.designs[:same].tobytes()
     assert further.batches == 6 + 1

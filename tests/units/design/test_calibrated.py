@@ -1,5 +1,7 @@
 """Designs over the weighted samples of a machine agree with runs of the same options."""
 
+import re
+
 import numpy as np
 import pytest
 from design_studies import design_table, study_with
@@ -14,6 +16,7 @@ from vibroacoustics.base.vocabulary import WEIGHTINGS
 from vibroacoustics.design.engine.seen import Need
 from vibroacoustics.design.optimising import optimise
 from vibroacoustics.design.problem import Problem
+from vibroacoustics.design.total_change import lowering_words
 from vibroacoustics.levels.nominal import NominalSound, by_source
 from vibroacoustics.levels.sample_levels import lines_of
 from vibroacoustics.machine.cases import Cases
@@ -109,14 +112,26 @@ def test_values_are_medians_and_those_without_an_option_too(problem, results):
 MOUNTS = {"machine.mounts.vertical_stiffness_n_per_mm": "range = [5, 50]"}
 
 
+SHELL = {
+    "machine.structure.thickness_mm": "range = [3.0, 3.6]",
+    "machine.structure.loss_factor_ratio": "range = [0.005, 0.03]",
+    "machine.gas.equalisation_angle_deg": "range = [10, 40]",
+}
+
+
 @pytest.mark.slow
-def test_mounts_of_designs_take_the_place_of_sampled_ones():
-    """Against the stages of a run with the sample and the mounts of the design."""
+@pytest.mark.parametrize(
+    ("variables", "design"),
+    [(MOUNTS, [2e4]), (SHELL, [3.3e-3, 0.02, 0.5])],
+    ids=["mounts", "shell and gas"],
+)
+def test_values_of_designs_take_the_place_of_sampled_ones(variables, design):
+    """Against the stages of a run with the sample and the values of the design."""
     option = "counterweight-half"
-    problem = Problem(calibrated(SHARE | MOUNTS), radiation)
-    design, one = np.array([[0.3, 2e4]]), problem.machines[1]
+    problem = Problem(calibrated(SHARE | variables), radiation)
+    design, one = np.array([[0.3, *design]]), problem.machines[1]
     study = problem.space.study_of(design[0])
-    sample = one.machine.without(frozenset({("mounts", "vertical_stiffness_n_per_m")}))
+    sample = one.machine.without(problem.space.machine_values)
     changed = sound_of(study, sample)
     before = sound_of(problem.space.study, one.machine.values)[2900.0, "none"][1]
     parts = one.machine.deviation
@@ -170,6 +185,29 @@ def test_no_best_designs_where_nothing_changes_the_total(problem, level_db, is_s
         changes = problem.evaluate(np.linspace(0.0, 1.0, 201)[:, None]).values[:, 1]
         assert largest == pytest.approx(changes[np.argmax(np.abs(changes))], rel=0.05)
     assert "medians over" in search.attrs["method"]
+    lowering = search.attrs["lowering"]
+    assert "lowers the total by 3 dB(A) with 90 % confidence" in lowering
+    assert f"{lowering[:1].upper()}{lowering[1:]}." in page
+    by_sample = problem.by_sample(np.linspace(0.0, 1.0, 201)[:, None], problem.samples())[..., 1]
+    weight = problem.weight(problem.samples())
+    median, confident = weighted_quantiles(by_sample.T, weight, (0.5, 0.9))
+    numbers = [float(number) for number in re.findall(r"([+-][\d.e-]+) dB", lowering)]
+    best = int(np.argmin(median))
+    assert numbers[0] == pytest.approx(median[best], rel=0.06, abs=2e-3)
+    assert numbers[1] == pytest.approx(confident[best], rel=0.3, abs=5e-3)
+
+
+@pytest.mark.slow
+def test_the_first_design_that_lowers_the_total_surely_is_named(problem):
+    designs = np.array([[0.1], [0.2], [0.3]])
+    changes = np.array([[[-5.0, -2.9], [np.nan, np.nan], [-4.0, -3.1]]])
+    words = lowering_words(problem, designs, changes)
+    assert "share_ratio = 0.3 is the first design that lowers the total by 3 dB(A)" in words
+    assert words.endswith("with 90 % confidence: median -4.0 dB")
+    none = lowering_words(problem, designs[:2], changes[:, :2])
+    assert none.startswith("none of 2 designs lowers the total by 3 dB(A) with 90 % confidence")
+    assert none.endswith("-5 dB in the median, -2.9 dB or lower with 90 % confidence")
+    assert lowering_words(problem, designs, None) == ""
 
 
 def test_a_study_without_uncertainty_says_that_its_machine_is_nominal():

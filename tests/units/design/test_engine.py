@@ -181,7 +181,9 @@ def test_attached_bodies_move_in_designs_as_in_runs(absorber):
     natural = engine_of(study, (Need("natural"),)).outcome(designs[:1]).seen[Need("natural")]
     changed = study.replace(engine.space.written(designs[0]))
     machine = changed.options["absorber"].built_into(changed.machine)
-    expected = on_mounts(machine).natural_modes()[0]
+    body = on_mounts(machine)
+    assert machine.body_names == tuple(one.name for one in body.isolation.bodies)
+    expected = body.natural_modes()[0]
     assert expected.size == 12
     np.testing.assert_allclose(natural[0], expected, rtol=0.0, atol=1e-9 * expected.max())
 

@@ -1,7 +1,6 @@
 """What is seen of any designs of a space."""
 
 from collections.abc import Sequence
-from functools import partial
 
 import numpy as np
 
@@ -10,17 +9,16 @@ from ...base.units import si_key
 from ...machine.combination import members_by_name
 from ...machine.machine import Machine
 from ...machine.option import Option
-from ...study.study import Study
 from ..keys import acts_on
 from ..space import OPTION, Space
 from .closed_form import CLOSED_FORMS, of_many
+from .contraction import Contraction
 from .deviating import Gains
 from .hearing import HEARING
 from .machine_sample import MachineSample
 from .option_engine import ARRAYS, OptionEngine, Outcome
-from .probe import Probe
 from .recognition import Explorer, Route
-from .runs import CachedRuns, probe_of
+from .runs import Scores
 from .samples import Samples
 from .seen import Need
 from .sound_way import Ways
@@ -59,7 +57,6 @@ class Engine:
         self.gains = gains
         self.template = template
         self._of_options: dict[str, OptionEngine] = {}
-        self._studies: dict[bytes, Study] = {} if template is None else template._studies
 
     def outcome(self, values: Array) -> Outcome:
         """What is seen of designs, shape (design, variable) in SI, and why some have failed."""
@@ -90,36 +87,35 @@ class Engine:
         space = self.space
         figures = {need.name for need in self.needs if need.what == "figure"}
         speeds = space.study.operation.speed_rpm
-        samples = Samples(partial(self._probe, option))
+        contraction = Contraction(space, option, self.ways, self.machine)
+        samples = Samples(contraction.probe)
         limits = self.limits.copy()
         if space.names[:1] == [OPTION]:
             limits[0] = space.options.index(option)
         unmodelled = self._unmodelled(option)
-        wanted = ARRAYS | figures | ({"thirds"} if unmodelled[0] is not None else set())
-        explorer = Explorer(samples, limits, speeds, wanted, self.template is not None)
+        explorer = Explorer(samples, limits, speeds, ARRAYS | figures, self.template is not None)
+        criteria = tuple(need for need in self.needs if need.what == "criterion")
         design = space.study.design
-        active = design is not None and design.search.method == "active"
-        by_runs = active or any(need.what == "criterion" for need in self.needs)
+        is_active = design is not None and design.search.method == "active"
         variables = dict(enumerate(space.variables))
         idle = [
             n for n, one in variables.items() if one.key == OPTION or not acts_on(one.key, option)
         ]
         linear = [n for n, one in variables.items() if n not in idle and not one.takes_words]
         forms = _closed_forms(space, option)
-        if by_runs:
+        if criteria or is_active:
             linear, forms = [], ()
-        beside = self.gains, unmodelled
-        runs = CachedRuns(space, option, self.needs, self.ways, self.machine, *beside)
         template = None if self.template is None else self.template.of_option(option)
         return OptionEngine(
             explorer,
-            self.ways,
+            contraction,
             self.needs,
             tuple(linear),
             tuple(idle),
             forms,
-            runs,
-            *beside,
+            Scores(space, option, criteria, self.ways),
+            self.gains,
+            unmodelled,
             template,
         )
 
@@ -128,12 +124,6 @@ class Engine:
         if not any(need in HEARING for need in self.needs):
             return (None,) * len(self.gains)
         return tuple(np.moveaxis(self.machine.unmodelled(option).thirds, 1, 0))
-
-    def _probe(self, option: str, design: Array) -> Probe:
-        key = design.tobytes()
-        if key not in self._studies:
-            self._studies[key] = self.space.quick_study_of(design)
-        return probe_of(self.space, self._studies[key], option, self.ways, self.machine)
 
 
 def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:

@@ -78,7 +78,7 @@ def fitted(terms: Terms, speed_rpm: float, values: Array, arrays: Stack) -> Expa
     factors: dict[str, ComplexArray] = {}
     for name, array in arrays.items():
         change = array - array[:1]
-        unchanged = np.abs(change).max(axis=0) <= SAME * np.abs(array).max()
+        unchanged = np.abs(change).max(axis=0) <= SAME * np.abs(array).max(initial=0.0)
         change[:, unchanged] = 0.0
         factor: ComplexArray = np.tensordot(solve, change, axes=(1, 0)).astype(complex)
         factor[0] += array[0]

@@ -9,8 +9,8 @@ import numpy as np
 from ...base.arrays import Array, ComplexArray, IndexArray
 from .deviating import WeightedLines, varied_bands
 from .expansion import Expansion, summed
-from .hearing import HEARING
-from .on_mounts import Arrays, Lines, hearing_at, pressure_by_source, seen_of
+from .hearing import HEARING, Spectrum
+from .on_mounts import Arrays, Lines, heard_spectrum, noise_of, pressure_by_source, seen_of
 from .seen import PAIRED, Need
 
 RANK: Final = 1e-13
@@ -57,7 +57,8 @@ class FixedSpeed:
         few |= {name: factors[name] for name in figures if name in factors}
         few = {name: part for name, part in few.items() if name in figures or rows.size}
         expansion = Expansion(arrays.terms, arrays.speed_rpm, few)
-        return cls(lines.at(rows), expansion, factors["noise"].real.sum(axis=(1, 3)))
+        noise = noise_of(lines, factors)[0]
+        return cls(lines.at(rows), expansion, noise.sum(axis=(1, 3)))
 
 
 def compressed(order: int | None, lines: Lines, arrays: Expansion, body: Arrays) -> Array:
@@ -83,7 +84,7 @@ def compressed(order: int | None, lines: Lines, arrays: Expansion, body: Arrays)
 def _factors(lines: Lines, rows: IndexArray, arrays: Expansion, body: Arrays) -> ComplexArray:
     """Pressure per product of the variables, shape (product, source, receiver, line), Pa."""
     factors = arrays.factors
-    few = {name: factors[name][:, rows] for name in ("load", "other")}
+    few = {name: factors[name][:, rows] for name in ("load", "shell")}
     few |= {name: factors[name][:1, rows] for name in ("factor", "added") if name in factors}
     return pressure_by_source(lines.at(rows), few, body)
 
@@ -118,7 +119,7 @@ class PairedSound:
         """
         rows, weighted = lines.weighted(order)
         pressure = _factors(lines, rows, arrays, body)
-        noise = np.asarray(arrays.factors["noise"].real)
+        noise, _ = noise_of(lines, arrays.factors)
         change = summed(columns, pressure) - pressure[:1]
         of_designs = np.asarray(np.tensordot(columns, noise, axes=1))
         bands = varied_bands(change, pressure[:1], weighted, of_designs, UNHEARD)
@@ -161,21 +162,19 @@ class FixedSpectrum:
     def of(cls, lines: Lines, arrays: Expansion, body: Arrays) -> "FixedSpectrum":
         """Prepare a speed; see `compressed`."""
         pressure = _factors(lines, lines.row(None), arrays, body)
-        noise, thirds = (_constant(arrays.factors[name].real) for name in ("noise", "thirds"))
+        noise, thirds = map(_constant, noise_of(lines, arrays.factors))
         return cls(lines, pressure, noise, thirds)
 
-    def hearing(self, needs: Sequence[Need], columns: Array) -> dict[Need, Array]:
-        """Compute loudness and audibility of designs, shape (design, pair, receiver).
+    def of_designs(self, columns: Array) -> Spectrum:
+        """Compute the spectra of designs.
 
         Parameters
         ----------
-        needs : of hearing
         columns : products of the variables, shape (design, product)
         """
-        _, weighted = self.lines.weighted(None)
         noise, thirds = (_of_designs(columns, part) for part in (self.noise, self.thirds))
-        spectrum = weighted.spectrum(summed(columns, self.pressure), noise, thirds)
-        return hearing_at(needs, self.lines, *spectrum)
+        pressure = summed(columns, self.pressure)
+        return heard_spectrum(self.lines, pressure, noise, thirds, len(columns))
 
 
 def _of_designs(columns: Array, factors: Array) -> Array:
@@ -280,13 +279,12 @@ class FixedMounts:
         figures = seen_of(others, lines, arrays, self.body, len(values))
         sounds = [need for need in needs if need.what == "sound"]
         figures |= {need: self._sound(need, by_speed) for need in sounds}
-        hearing = [need for need in needs if need in HEARING]
-        each = [
-            spectrum.hearing(hearing, columns)
-            for spectrum, columns in zip(self.spectra, by_speed, strict=bool(hearing))
-        ]
-        figures |= {need: np.stack([part[need] for part in each], axis=2) for need in hearing}
         return figures
+
+    def spectra_of(self, values: Array) -> list[Spectrum]:
+        """Compute the spectra of designs by speed; see `seen`."""
+        each = zip(self.spectra, self._columns(values), strict=True)
+        return [spectrum.of_designs(columns) for spectrum, columns in each]
 
     def _columns(self, values: Array) -> list[Array]:
         """Products of the variables by speed, once where they are the same at all."""

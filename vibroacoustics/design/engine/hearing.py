@@ -3,13 +3,15 @@
 Axes are design, pair of a discrepancy and an unmodelled level, receiver, and line or third octave.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from ...base.arrays import Array
+from ...base.arrays import Array, IndexArray
+from ...base.errors import ParameterError
 from ...levels.measured_points import MIDDLE_HZ
 from ...sound.loudness import filter_gain, noise_gain, thirds_db
 from ...sound.predicted_audibility import predicted_audibility
@@ -21,6 +23,76 @@ AUDIBILITY: Final = Need("audibility")
 HEARING: Final = (LOUDNESS, AUDIBILITY)
 _LOW: Final = slice(0, 11)
 """Third octaves below 300 Hz."""
+MOST_VALUES: Final = 2_000_000
+"""Mean squares of lines that are computed together."""
+
+
+class Spectrum(NamedTuple):
+    """Sound of designs at one speed.
+
+    Attributes
+    ----------
+    frequency_hz : frequency of the lines, shape (line,), Hz
+    square : mean squares of the lines, shape (design, pair, receiver, line), Pa²
+    noise : mean squares of the noise in the third octaves of a baseline, shape (design or 1, pair,
+        receiver, band), Pa²
+    """
+
+    frequency_hz: Array
+    square: Array
+    noise: Array
+
+
+@dataclass
+class Hearing:
+    """Loudness and audibility of designs, computed for many at a time.
+
+    Attributes
+    ----------
+    needs : among others `LOUDNESS` and `AUDIBILITY`
+    take : takes numbers of designs and what is seen of them, or why they failed
+    """
+
+    needs: Sequence[Need]
+    take: Callable[[IndexArray, Mapping[Need, Array] | Exception], None]
+    _waiting: dict[bytes, list[tuple[IndexArray, Sequence[Spectrum]]]] = field(
+        default_factory=dict, repr=False
+    )
+
+    def add(self, rows: IndexArray, spectra: Sequence[Spectrum]) -> None:
+        """Add the spectra of designs by speed; those of equal frequencies are computed together."""
+        key = b"".join(of_speed.frequency_hz.tobytes() for of_speed in spectra)
+        waiting = self._waiting.setdefault(key, [])
+        waiting.append((rows, spectra))
+        values = sum(spectrum.square.size for _, each in waiting for spectrum in each)
+        if values > MOST_VALUES:
+            self._compute(self._waiting.pop(key))
+
+    def finish(self) -> None:
+        """Compute the designs that are left."""
+        for waiting in self._waiting.values():
+            self._compute(waiting)
+        self._waiting.clear()
+
+    def _compute(self, waiting: Sequence[tuple[IndexArray, Sequence[Spectrum]]]) -> None:
+        rows = np.concatenate([some for some, _ in waiting])
+        try:
+            each = [
+                hearing_of(self.needs, *_joined(speed))
+                for speed in zip(*(spectra for _, spectra in waiting), strict=True)
+            ]
+        except ParameterError as error:
+            self.take(rows, error)
+            return
+        result = {need: np.stack([part[need] for part in each], axis=2) for need in each[0]}
+        self.take(rows, result)
+
+
+def _joined(spectra: Sequence[Spectrum]) -> Spectrum:
+    """Join the spectra of designs at one speed."""
+    noise = [np.broadcast_to(s.noise, (len(s.square), *s.noise.shape[1:])) for s in spectra]
+    square = np.concatenate([spectrum.square for spectrum in spectra])
+    return Spectrum(spectra[0].frequency_hz, square, np.concatenate(noise))
 
 
 def hearing_of(

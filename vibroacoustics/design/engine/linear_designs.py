@@ -5,14 +5,11 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from ...base.arrays import Array
-from .deviating import Gains
 from .expansion import Expansion
 from .fixed_mounts import FixedMounts, is_fixed
-from .hearing import HEARING
-from .on_mounts import Lines, lines_of_speed, seen_of
-from .probe import Probe
-from .seen import Need
-from .sound_way import SoundWay
+from .hearing import HEARING, Spectrum
+from .on_mounts import Lines, seen_of, spectra_of
+from .seen import Need, Seen
 
 CHUNK_BYTES: Final = 32e6
 """Of the largest array of designs that are computed side by side."""
@@ -39,12 +36,8 @@ class LinearDesigns:
     def of(
         cls,
         needs: tuple[Need, ...],
-        probe: Probe,
-        speeds_rpm: Sequence[float],
+        lines: tuple[Lines, ...],
         expansions: Sequence[Expansion],
-        way: SoundWay,
-        gains: Sequence[Gains | None],
-        unmodelled: Sequence[Array | None],
         designs: Array,
     ) -> "LinearDesigns":
         """Prepared for what is asked.
@@ -52,19 +45,10 @@ class LinearDesigns:
         Parameters
         ----------
         needs : what is asked
-        probe : of any of the designs
-        speeds_rpm : of the study
+        lines : by speed
         expansions : by speed, last that of the body
-        way : to the microphones
-        gains : of the sample by speed; none of the nominal machine
-        unmodelled : noise by speed, shape (pair, receiver, band), Pa²; none where not asked for
         designs : that fill the space, shape (design, variable)
         """
-        each = zip(speeds_rpm, probe.frequency_hz, probe.order, strict=True)
-        beside = zip(gains, unmodelled, strict=True)
-        lines = tuple(
-            lines_of_speed(*one, way, *two) for one, two in zip(each, beside, strict=True)
-        )
         *by_speed, body = expansions
         fixed = None
         if is_fixed(by_speed, body):
@@ -72,32 +56,44 @@ class LinearDesigns:
             fixed = FixedMounts.of(needs, lines, by_speed, body, designs)
         return cls(needs, lines, tuple(expansions), fixed)
 
-    def seen(self, values: Array) -> Iterator[tuple[slice, dict[Need, Array]]]:
-        """What is seen of designs, shape (design, variable), chunk by chunk."""
+    def seen(self, values: Array) -> Iterator[tuple[slice, Seen, list[Spectrum]]]:
+        """What is seen of designs, shape (design, variable), chunk by chunk.
+
+        The spectra are empty where neither loudness nor audibility is asked for.
+        """
         for first in range(0, len(values), self.chunk):
             part = slice(first, min(first + self.chunk, len(values)))
-            yield part, self._of_chunk(values[part])
+            yield part, *self._of_chunk(values[part])
 
     @property
     def chunk(self) -> int:
         """Number of designs that are computed side by side."""
-        if self.fixed is not None:
-            numbers = 4 * len(self.expansions[0].terms.products)
-        else:
-            numbers = 32 * self._lines_and_pairs
-        if any(need in HEARING for need in self.needs):
-            receivers = len(self.lines[0].per_velocity)
-            numbers = max(numbers, 8 * receivers * self._lines_and_pairs)
-        return max(int(CHUNK_BYTES / (8.0 * numbers)), 1)
+        if self.fixed is None:
+            return chunk_of(self.needs, self.lines)
+        return chunk_of(self.needs, self.lines, 4 * len(self.expansions[0].terms.products))
 
-    @property
-    def _lines_and_pairs(self) -> int:
-        """Most lines of a speed times pairs of a discrepancy and an unmodelled level."""
-        pairs = [1 if one.gains is None else one.gains.added.size for one in self.lines]
-        return max(one.order.size for one in self.lines) * max(pairs)
-
-    def _of_chunk(self, values: Array) -> dict[Need, Array]:
+    def _of_chunk(self, values: Array) -> tuple[Seen, list[Spectrum]]:
+        is_heard = any(need in HEARING for need in self.needs)
         if self.fixed is not None:
-            return self.fixed.seen(self.needs, values)
+            spectra = self.fixed.spectra_of(values) if is_heard else []
+            return self.fixed.seen(self.needs, values), spectra
         *by_speed, body = (expansion.at(values) for expansion in self.expansions)
-        return seen_of(self.needs, self.lines, by_speed, body, len(values))
+        designs = self.lines, by_speed, body, len(values)
+        return seen_of(self.needs, *designs), spectra_of(*designs) if is_heard else []
+
+
+def chunk_of(needs: Sequence[Need], lines: Sequence[Lines], numbers: int | None = None) -> int:
+    """Return the number of designs that are computed side by side.
+
+    Parameters
+    ----------
+    needs : what is asked
+    lines : by speed
+    numbers : that each design takes; those of its lines where not given
+    """
+    pairs = [1 if one.gains is None else one.gains.added.size for one in lines]
+    lines_and_pairs = max(one.order.size for one in lines) * max(pairs)
+    most = 32 * lines_and_pairs if numbers is None else numbers
+    if any(need in HEARING for need in needs):
+        most = max(most, 8 * lines[0].receivers * lines_and_pairs)
+    return max(int(CHUNK_BYTES / (8.0 * most)), 1)

@@ -8,7 +8,7 @@ from ...base.arrays import Array
 from ...machine.source import Result, Shared
 from ...study.sampling import Sample
 
-KEPT: Final = 256
+KEPT: Final = 64
 """Results that designs of a sample share, the latest ones."""
 
 

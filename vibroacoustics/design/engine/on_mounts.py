@@ -7,16 +7,17 @@ import numpy as np
 
 from ...base.arrays import Array, ComplexArray, IndexArray
 from ...base.errors import ParameterError
-from ...levels.by_source import gain_band_number
+from ...levels.by_source import GAIN_BANDS, gain_band_number
 from .deviating import Gains, WeightedLines
-from .hearing import HEARING, hearing_of
+from .hearing import HEARING, Spectrum
+from .layout import Layout
 from .response import a_weight, displacement, foot_forces, natural_modes, pressure, size_of_vector
 from .seen import Need
-from .sound_way import SoundWay
+from .sound_way import RandomResponse, Responses
 
 Arrays = Mapping[str, ComplexArray]
 ADDED = ("added", "foot_added")
-SOUND = ("load", "other", "factor", "added")
+SOUND = ("load", "shell", "factor", "added")
 """Arrays by line that the pressure comes of."""
 
 
@@ -28,7 +29,7 @@ class Lines:
     ----------
     speed_rpm : of the shaft
     frequency_hz, order : shape (line,); order 0 for tones that are none
-    per_velocity : pressure per velocity, shape (receiver, 6, line), Pa s/m
+    responses : pressure per motion and load
     gains : of a sample; none of the nominal machine
     unmodelled : mean squares of unmodelled noise, shape (pair, receiver, band), Pa²; none where
         nothing depends on it
@@ -37,17 +38,23 @@ class Lines:
     speed_rpm: float
     frequency_hz: Array
     order: IndexArray
-    per_velocity: ComplexArray
+    responses: Responses
     gains: Gains | None = None
     unmodelled: Array | None = None
 
+    @property
+    def receivers(self) -> int:
+        """Number of microphones."""
+        return len(self.responses.per_velocity)
+
     def at(self, rows: IndexArray) -> "Lines":
         """Some of the lines."""
+        per_velocity, per_load, random = vars(self.responses).values()
         return replace(
             self,
             frequency_hz=self.frequency_hz[rows],
             order=self.order[rows],
-            per_velocity=self.per_velocity[..., rows],
+            responses=Responses(per_velocity[..., rows], per_load[..., rows], random),
         )
 
     def row(self, order: int | None) -> IndexArray:
@@ -68,23 +75,72 @@ class Lines:
         return rows, WeightedLines(weight, weighted, band[rows], order is None, self.gains)
 
 
-def lines_of_speed(
-    speed_rpm: float,
-    frequency_hz: Array,
-    order: IndexArray,
-    way: SoundWay,
-    gains: Gains | None = None,
-    unmodelled: Array | None = None,
-) -> Lines:
-    """Lines of one speed on their way to the microphones."""
-    vectors = way.per_velocity(frequency_hz)
-    return Lines(speed_rpm, frequency_hz, order, vectors, gains, unmodelled)
+def lines_of(
+    speeds_rpm: Sequence[float],
+    layouts: Sequence[Layout],
+    responses: Sequence[Responses],
+    beside: Sequence[tuple[Gains | None, Array | None]] | None = None,
+) -> tuple[Lines, ...]:
+    """Return the lines of each speed on their way to the microphones.
+
+    Parameters
+    ----------
+    speeds_rpm, layouts, responses : by speed
+    beside : gains of a sample and unmodelled noise by speed; none without both
+    """
+    further = beside or [(None, None)] * len(speeds_rpm)
+    each = zip(speeds_rpm, layouts, responses, further, strict=True)
+    return tuple(
+        Lines(speed, layout.hertz, np.array(layout.order), response, *more)
+        for speed, layout, response, more in each
+    )
+
+
+def random_squares(
+    random: Sequence[RandomResponse], densities: ComplexArray, sources: int, receivers: int
+) -> tuple[Array, Array]:
+    """Compute mean squares of random loads, A-weighted and unweighted, Pa².
+
+    Parameters
+    ----------
+    random : responses to the loads, in the order of the densities
+    densities : shape (design or 1, value); see `Probe`
+    sources, receivers : number of them
+
+    Returns
+    -------
+    each of shape (design or 1, source, receiver, gain band)
+    """
+    weighted = np.zeros((len(densities), sources, receivers, len(GAIN_BANDS)))
+    unweighted = np.zeros_like(weighted)
+    first = 0
+    for load in random:
+        lines, pairs, _ = load.per_density.shape
+        of_load = densities[:, first : first + lines * pairs].reshape(-1, lines, pairs)
+        by_line = (np.swapaxes(of_load, 0, 1) @ load.per_density).real  # (line, design, receiver)
+        by_line = np.moveaxis(by_line, 0, -1)
+        weighted[:, load.source] += by_line @ load.a_weight
+        unweighted[:, load.source] += by_line @ load.member
+        first += lines * pairs
+    return weighted, unweighted
+
+
+def noise_of(lines: Lines, arrays: Arrays) -> tuple[Array, Array]:
+    """Compute mean squares of random loads at one speed; see `random_squares`.
+
+    Parameters
+    ----------
+    lines : of the speed
+    arrays : of the speed: random and load, see `Probe`
+    """
+    sources = arrays["load"].shape[2]
+    return random_squares(lines.responses.random, arrays["random"], sources, lines.receivers)
 
 
 def seen_of(
     needs: Sequence[Need], lines: Sequence[Lines], by_speed: Sequence[Arrays], body: Arrays, n: int
 ) -> dict[Need, Array]:
-    """What is seen of designs.
+    """What is seen of designs, but for loudness and audibility.
 
     Parameters
     ----------
@@ -105,46 +161,41 @@ def seen_of(
         axis = 2 if need.what == "sound" else 1
         every = [np.broadcast_to(part, (n, *part.shape[1:])) for part in parts]
         seen[need] = np.stack(every, axis=axis)
-    hearing = [need for need in needs if need in HEARING]
-    if not hearing:
-        return seen
-    each = [_hearing(hearing, *speed, body, n) for speed in zip(lines, by_speed, strict=True)]
-    return seen | {need: np.stack([part[need] for part in each], axis=2) for need in hearing}
+    return seen
 
 
-def _hearing(
-    needs: Sequence[Need], lines: Lines, arrays: Arrays, body: Arrays, n: int
-) -> dict[Need, Array]:
-    """Loudness and audibility at one speed, shape (design, pair, receiver)."""
-    _, weighted = lines.weighted(None)
+def spectra_of(
+    lines: Sequence[Lines], by_speed: Sequence[Arrays], body: Arrays, n: int
+) -> list[Spectrum]:
+    """Compute the spectra of designs by speed, with the unmodelled noise; see `seen_of`."""
+    each = zip(lines, by_speed, strict=True)
+    return [spectrum_of(of_speed, arrays, body, n) for of_speed, arrays in each]
+
+
+def spectrum_of(lines: Lines, arrays: Arrays, body: Arrays, n: int) -> Spectrum:
+    """Compute the spectra of designs at one speed, with the unmodelled noise; see `seen_of`."""
     few = {name: arrays[name] for name in SOUND if name in arrays}
     pressure = pressure_by_source(lines, few, body)
-    spectrum = weighted.spectrum(pressure, arrays["noise"].real, arrays["thirds"].real)
-    return {
-        need: np.broadcast_to(part, (n, *part.shape[1:]))
-        for need, part in hearing_at(needs, lines, *spectrum).items()
-    }
+    return heard_spectrum(lines, pressure, *noise_of(lines, arrays), n)
 
 
-def hearing_at(
-    needs: Sequence[Need], lines: Lines, square: Array, noise: Array
-) -> dict[Need, Array]:
-    """Compute loudness and audibility at one speed, with the unmodelled noise.
+def heard_spectrum(
+    lines: Lines, pressure: ComplexArray, noise: Array, thirds: Array, n: int
+) -> Spectrum:
+    """Return the spectrum of designs at one speed, with the unmodelled noise.
 
     Parameters
     ----------
-    needs : of hearing
     lines : of the speed
-    square : mean squares of the lines, shape (design or 1, pair, receiver, line), Pa²
-    noise : of random loads, shape (design or 1, pair, receiver, band), Pa²
-
-    Returns
-    -------
-    by need, shape (design or 1, pair, receiver)
+    pressure, noise, thirds : see `WeightedLines.spectrum`
+    n : number of designs
     """
+    _, weighted = lines.weighted(None)
+    square, random = weighted.spectrum(pressure, noise, thirds)
     if lines.unmodelled is not None:
-        noise = noise + lines.unmodelled
-    return hearing_of(needs, lines.frequency_hz, square, noise)
+        random = random + lines.unmodelled
+    every = np.broadcast_to(square, (n, *square.shape[1:]))
+    return Spectrum(lines.frequency_hz, every, random)
 
 
 def _natural_hz(body: Arrays, by_speed: Sequence[Arrays], n: int) -> Array:
@@ -185,7 +236,7 @@ def pressure_by_source(lines: Lines, arrays: Arrays, body: Arrays) -> ComplexArr
     Parameters
     ----------
     lines : of one speed
-    arrays : of the speed at these lines: load, other, factor, added, see `Probe`
+    arrays : of the speed at these lines: load, shell, factor, added, see `Probe`
     body : arrays of the body
     """
     load = arrays["load"]
@@ -194,10 +245,26 @@ def pressure_by_source(lines: Lines, arrays: Arrays, body: Arrays) -> ComplexArr
     added = np.repeat(arrays["added"], sources, axis=1) if "added" in arrays else None
     loads = load.reshape(count, size * sources, motions)
     motion = displacement(body, added, loads, every.frequency_hz)
-    rigid = pressure(motion, every.per_velocity, every.frequency_hz)
-    rigid = rigid.reshape(len(rigid), size, sources, -1)
-    total = (rigid + arrays["other"]) * arrays["factor"][..., None, None]
+    rigid = pressure(motion, every.responses.per_velocity, every.frequency_hz)
+    total: ComplexArray = rigid.reshape(len(rigid), size, sources, -1)
+    if arrays["shell"].size:
+        total = total + through_shell(arrays["shell"], lines.responses.per_load)
+    total = total * arrays["factor"][..., None, None]
     return np.asarray(np.moveaxis(total, 1, -1))
+
+
+def through_shell(load: ComplexArray, per_load: ComplexArray) -> ComplexArray:
+    """Compute the pressure of loads in the shell, shape (design, line, source, receiver), Pa.
+
+    Parameters
+    ----------
+    load : shape (design, line, source, component)
+    per_load : shape (receiver, component, line)
+    """
+    by_line = np.moveaxis(load, 1, 0)
+    flat = np.ascontiguousarray(by_line).reshape(len(by_line), -1, load.shape[-1])
+    product = flat @ np.ascontiguousarray(np.moveaxis(per_load, -1, 0).swapaxes(1, 2))
+    return np.moveaxis(product.reshape(*by_line.shape[:3], -1), 0, 1)
 
 
 def _mean_square(order: int | None, lines: Lines, arrays: Arrays, body: Arrays) -> Array:
@@ -208,4 +275,4 @@ def _mean_square(order: int | None, lines: Lines, arrays: Arrays, body: Arrays) 
     rows, weighted = lines.weighted(order)
     few = {name: arrays[name][:, rows] for name in SOUND if name in arrays}
     total = pressure_by_source(lines.at(rows), few, body)
-    return weighted.mean_square(total, arrays["noise"].real)
+    return weighted.mean_square(total, noise_of(lines, arrays)[0])

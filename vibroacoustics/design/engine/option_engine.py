@@ -1,6 +1,7 @@
 """All designs with one option: by linear algebra, or run by run."""
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Final
@@ -9,22 +10,31 @@ import numpy as np
 
 from ...base.arrays import Array, IndexArray
 from ...base.errors import ParameterError, SolverError
+from .contraction import Contraction, Layouts
 from .deviating import Gains
+from .expansion import Expansion
+from .hearing import Hearing
+from .joined_designs import joined_designs
 from .linear_designs import LinearDesigns
+from .on_mounts import Lines, lines_of
+from .probe import Probe
 from .recognition import NO_EFFECT, TESTS, Explorer, Route, fits, spread
 from .seen import Need, Seen
-from .sound_way import Ways
+from .sound_way import PathOfDesign
 from .terms import Basis, Terms, products_of
 
 ARRAYS: Final = frozenset({
-    "wrench", "load", "other", "noise", "factor",
+    "wrench", "load", "shell", "random", "factor",
     "mass", "stiffness", "foot", "added", "foot_added",
 })  # fmt: skip
 """That every figure may come of; reported figures matter where they are asked for."""
 FILLING: Final = 64
 """Designs that show which bands vary over the space."""
-Run = Callable[[Array], Seen]
-"""Of the values of a design, shape (variable,), to what is seen of it, shape (1, ...)."""
+MOST_GROUPS: Final = 256
+"""Sets of values that take runs, of which linear designs are kept."""
+ON_PATH: Final = "changes the path from the loads to the microphones"
+Score = Callable[[Array], Seen]
+"""From the values of a design, shape (variable,), to criteria that are asked for, shape (1,)."""
 
 
 @dataclass
@@ -47,6 +57,17 @@ class Outcome:
                 self.seen[need] = np.full((count, *values.shape[1:]), np.nan)
             self.seen[need][rows] = values
 
+    def take_or_fail(self, rows: IndexArray, part: Seen | Exception, count: int) -> None:
+        """Take in what is seen of some of so many designs, or why they failed."""
+        if isinstance(part, Exception):
+            self.failed |= dict.fromkeys(rows.tolist(), str(part))
+        else:
+            self.take(rows, part, count)
+
+    def hearing(self, needs: Sequence[Need], count: int) -> Hearing:
+        """Return what takes in loudness and audibility of so many designs."""
+        return Hearing(needs, lambda rows, part: self.take_or_fail(rows, part, count))
+
 
 @dataclass
 class OptionEngine:
@@ -55,27 +76,30 @@ class OptionEngine:
     Attributes
     ----------
     explorer : probes of its designs
-    ways : ways to the microphones
+    contraction : loads, paths and bodies of its designs
     needs : what is asked
     linear : numbers of the variables that may be linear
     idle : of those that say nothing of the option
     forms : closed forms of the option
-    run : computes one design
+    score : gives the criteria of a design
     gains : of the sample by speed; none of the nominal machine
     unmodelled : noise by speed, shape (pair, receiver, band), Pa²; none where not asked for
     template : products and routes that designs of another sample were found to have
     """
 
     explorer: Explorer
-    ways: Ways
+    contraction: Contraction
     needs: tuple[Need, ...]
     linear: tuple[int, ...]
     idle: tuple[int, ...]
     forms: tuple[Basis, ...]
-    run: Run
+    score: Score
     gains: tuple[Gains | None, ...]
     unmodelled: tuple[Array | None, ...]
     template: "OptionEngine | None" = None
+    _expansions: dict[bytes, tuple[Probe, list[Expansion]] | None] = field(
+        default_factory=dict, repr=False
+    )
     _groups: dict[bytes, LinearDesigns | None] = field(default_factory=dict, repr=False)
 
     @cached_property
@@ -93,7 +117,12 @@ class OptionEngine:
         of_forms = {number for form in self.forms for number in form.variables}
         groups = dict.fromkeys(form.variables for form in self.forms)
         groups |= dict.fromkeys((n,) for n in self.linear if n not in of_forms)
+        on_path = self._read_by_path(base) if groups else []
         for group in groups:
+            if not set(group).isdisjoint(on_path):
+                for number in group:
+                    routes[number] = Route(False, ON_PATH)
+                continue
             forms = [form for form in self.forms if form.variables == group]
             basis, route = self.explorer.basis_along(base, group, forms)
             for number in group:
@@ -118,20 +147,34 @@ class OptionEngine:
             np.where(movable, limits[:, 0] + share * np.ptp(limits, axis=1), limits[:, 0])
         )
 
+    def _read_by_path(self, design: Array) -> list[int]:
+        """Numbers of the variables that the path of a design depends on."""
+        with suppress(ParameterError, SolverError):
+            paths = self.contraction.paths(self.contraction.loads(design).layout)
+            paths(design)
+            return paths.reads
+        return []
+
     def outcome(self, values: Array) -> Outcome:
         """What is seen of designs, shape (design, variable)."""
         terms, routes = self.recognised
         of_runs = [number for number, route in enumerate(routes) if not route.linear]
-        result = Outcome()
+        result, alone = Outcome(), []
+        hearing = result.hearing(self.needs, len(values))
         _, group = np.unique(values[:, of_runs], axis=0, return_inverse=True)
         order = np.argsort(group.ravel(), kind="stable")
         for rows in np.split(order, np.flatnonzero(np.diff(group.ravel()[order])) + 1):
             linear = self._linear(terms, values[rows], of_runs)
             if linear is None:
-                self._run_each(values, rows, result)
+                alone.append(rows)
                 continue
-            for part, seen in linear.seen(values[rows]):
-                result.take(rows[part], seen, len(values))
+            for part, figures, spectra in linear.seen(values[rows]):
+                result.take(rows[part], figures, len(values))
+                if spectra:
+                    hearing.add(rows[part], spectra)
+        hearing.finish()
+        if alone:
+            self._each(values, np.concatenate(alone), result)
         self._explain(values, result)
         return result
 
@@ -141,6 +184,8 @@ class OptionEngine:
             return None  # whatever was fitted before: the same designs give the same bits
         key = values[0, of_runs].tobytes()
         if key not in self._groups:
+            if len(self._groups) >= MOST_GROUPS:
+                self._groups.clear()  # joined again in milliseconds
             self._groups[key] = self._prepared(terms, values[0], of_runs)
         return self._groups[key]
 
@@ -149,34 +194,75 @@ class OptionEngine:
     ) -> LinearDesigns | None:
         base = self._base()
         base[list(of_runs)] = design[list(of_runs)]
+        columns = sorted(number for basis in terms.bases for number in basis.variables)
+        fitted = self._fitted(terms, base)
+        if fitted is None:
+            return None
+        probe, expansions = fitted
+        paths = self.contraction.paths(probe.layout)
         try:
-            expansions = self.explorer.expansions(base, terms)
-            (probe,) = self.explorer.samples.at(base[None])
+            lines = self._lines(probe.layout, paths(base))
         except (ParameterError, SolverError):
             return None
-        columns = sorted(number for basis in terms.bases for number in basis.variables)
+        if not set(columns).isdisjoint(paths.reads):
+            return None
         designs = np.repeat(base[None], FILLING, axis=0)
         designs[:, columns] = spread(self.explorer.limits[columns], FILLING)
-        self.explorer.samples.forget()
-        return LinearDesigns.of(
-            self.needs,
-            probe,
-            self.explorer.speeds_rpm,
-            expansions,
-            self.ways.of(probe.way),
-            self.gains,
-            self.unmodelled,
-            designs,
-        )
+        return LinearDesigns.of(self.needs, lines, expansions, designs)
 
-    def _run_each(self, values: Array, rows: IndexArray, result: Outcome) -> None:
-        different, first = np.unique(values[rows], axis=0, return_inverse=True)
-        for number, design in enumerate(different):
-            same = rows[first.ravel() == number]
+    def _fitted(self, terms: Terms, base: Array) -> tuple[Probe, list[Expansion]] | None:
+        """Loads and bodies as sums of products; none where they are not exact.
+
+        Designs that differ in their paths alone share them.
+        """
+        try:
+            probe = self.contraction.probe(base)
+        except (ParameterError, SolverError):
+            return None
+        reads = {*self.contraction.loads.reads, *self.contraction.stands(probe.layout).reads}
+        key = base[sorted(reads)].tobytes()
+        if key not in self._expansions:
             try:
-                result.take(same, self.run(design), len(values))
+                expansions = self.explorer.expansions(base, terms)
+                self._expansions[key] = probe, expansions
+            except (ParameterError, SolverError):
+                self._expansions[key] = None
+            self.explorer.samples.forget()
+        return self._expansions[key]
+
+    def _lines(self, layout: Layouts, path: PathOfDesign) -> tuple[Lines, ...]:
+        beside = list(zip(self.gains, self.unmodelled, strict=True))
+        return lines_of(self.explorer.speeds_rpm, layout, path.responses(layout), beside)
+
+    def _each(self, values: Array, rows: IndexArray, result: Outcome) -> None:
+        """Take in designs by products of their loads and paths, each of which is computed once."""
+        different, same = np.unique(values[rows], axis=0, return_inverse=True)
+        outcome = Outcome()
+        failed, hearing = outcome.failed, outcome.hearing(self.needs, len(different))
+        designs = joined_designs(self.contraction, different, self._lines, self.needs)
+        for some, part, spectra in designs:
+            outcome.take_or_fail(some, part, len(different))
+            if spectra:
+                hearing.add(some, spectra)
+        hearing.finish()
+        if any(need.what == "criterion" for need in self.needs):
+            self._score(different, outcome, failed)
+        of_row = same.ravel()
+        if outcome.seen:
+            every = {need: array[of_row] for need, array in outcome.seen.items()}
+            result.take(rows, every, len(values))
+        each = zip(rows.tolist(), of_row.tolist(), strict=True)
+        result.failed |= {row: failed[number] for row, number in each if number in failed}
+
+    def _score(self, designs: Array, outcome: Outcome, failed: dict[int, str]) -> None:
+        """Take in the criteria of designs that have not failed."""
+        for number, design in enumerate(designs):
+            if number in failed:
+                continue
+            try:
+                outcome.take(np.array([number]), self.score(design), len(designs))
             except (ParameterError, SolverError) as error:
-                result.failed |= dict.fromkeys(same.tolist(), str(error))
+                failed[number] = str(error)
 
     def _explain(self, values: Array, result: Outcome) -> None:
         """Reasons of designs that linear algebra has no values of: those of their runs."""
@@ -185,4 +271,5 @@ class OptionEngine:
             if need.what != "figure":
                 bad |= ~np.isfinite(seen).all(axis=tuple(range(1, seen.ndim)))
         bad[list(result.failed)] = False
-        self._run_each(values, np.flatnonzero(bad), result)
+        for row in np.flatnonzero(bad):
+            self._each(values, np.array([row]), result)

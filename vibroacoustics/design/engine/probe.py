@@ -1,27 +1,72 @@
-"""One design before anything moves: forces of all sources and the body on its mounts."""
+"""One design before anything moves: loads of all sources and the body on its mounts."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
-from ...base.arrays import Array, ComplexArray, IndexArray
+from ...base.arrays import Array, ComplexArray
+from ...base.errors import ParameterError
 from ...base.progress import no_progress
 from ...machine.cases import Cases
-from ...machine.source import Case, Shared
+from ...machine.machine import Machine
+from ...machine.source import Shared
 from ...mechanics.added import InsertionLoss
-from ...mechanics.loads import Lines, Loads, PortLoads, lines_of, summed
-from ...mechanics.ports import BodyPort
+from ...mechanics.loads import Lines, Loads, PortLoads, in_shell, lines_of, summed
+from ...mechanics.ports import BodyPort, Port
 from ...sources.cases import cases_of, loaded_cases, wrench_lines
+from ...study.samples import with_sample
 from ...study.sampling import Sample
 from ...study.study import Study
 from ...transfer.machine import MachineOnMounts, on_mounts
-from ...uncertainty.sampled_cases import sampled_cases
-from .sound_way import SoundWay
+from ...uncertainty.sampled_cases import sampled_cases, sampled_machine
+from .layout import Layout, RandomLoad
 
 Parts = Mapping[str, ComplexArray]
 NO_LOSS: Final = InsertionLoss(np.zeros(0), np.zeros(0))
+
+
+@dataclass(frozen=True)
+class LoadsOfDesign:
+    """Loads of all sources of a design.
+
+    Attributes
+    ----------
+    layout : where they act, by speed
+    by_speed : arrays by name, one mapping a speed; see `Probe`
+    """
+
+    layout: tuple[Layout, ...]
+    by_speed: tuple[Parts, ...]
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of its arrays."""
+        return _bytes_of(self.by_speed)
+
+
+@dataclass(frozen=True)
+class Stand:
+    """Body of a design on its mounts.
+
+    Attributes
+    ----------
+    by_speed : what is added to its stiffness at the lines, by speed; see `Probe`
+    body : its matrices; see `Probe`
+    """
+
+    by_speed: tuple[Parts, ...]
+    body: Parts
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of its arrays."""
+        return _bytes_of((*self.by_speed, self.body))
+
+
+def _bytes_of(groups: Iterable[Parts]) -> int:
+    return sum(np.asarray(array).nbytes for parts in groups for array in parts.values())
 
 
 @dataclass(frozen=True)
@@ -30,14 +75,13 @@ class Probe:
 
     Attributes
     ----------
-    frequency_hz : of the lines above 0 Hz, by speed, each of shape (line,)
-    order : of the lines, 0 for tones that are none, likewise
+    layout : lines, ports and random loads by speed
     by_speed : arrays by name, one mapping a speed, of the shapes
         wrench (order, motion): load of the moving parts on the bodies
         load (line, source, motion): on the bodies, the one on the feet first
-        other (line, source, receiver): pressure that does not come of the rigid motion, Pa
-        noise (source, receiver, gain band): A-weighted mean square of random loads, Pa²
-        thirds (source, receiver, gain band): unweighted mean square of random loads, Pa²
+        shell (line, source, component): on the ports in the shell
+        random (value,): densities of random loads behind the insertion loss, one after another,
+        each of shape (line, force, force)
         factor (line,): what the option's insertion loss leaves of the pressure
         and one of shape () for each reported figure
         and, where stiffness changes over frequency or loss is viscous, what is added to it:
@@ -46,34 +90,49 @@ class Probe:
         mass, stiffness (motion, motion): complex with the structural loss
         foot (foot, 3, motion): force into each foot per motion
         (a nominal machine has one source: all together)
-    way : hash of what the way from motion to microphones consists of
     """
 
-    frequency_hz: tuple[Array, ...]
-    order: tuple[IndexArray, ...]
+    layout: tuple[Layout, ...]
     by_speed: tuple[Parts, ...]
     body: Parts
-    way: str
+
+    @classmethod
+    def of(cls, loads: LoadsOfDesign, stand: Stand) -> "Probe":
+        """Join the loads of a design and its body."""
+        pairs = zip(loads.by_speed, stand.by_speed, strict=True)
+        return cls(loads.layout, tuple({**part, **added} for part, added in pairs), stand.body)
 
     def groups(self) -> tuple[Parts, ...]:
         """Arrays by name of each speed, last those of the body."""
         return (*self.by_speed, self.body)
 
 
-def probe(
-    study: Study,
-    option: str,
-    way_of: Callable[[Study], SoundWay],
-    sample: Sample | None = None,
-    shared: Shared | None = None,
-) -> Probe:
-    """Forces and body of a study with one of its options.
+def probe(study: Study, option: str) -> Probe:
+    """Compute the loads and the body of the nominal machine of a study with one of its options.
+
+    Parameters
+    ----------
+    study : with its options `none` and the one asked for
+    option : its name
+
+    Raises
+    ------
+    ParameterError, SolverError
+        The design cannot be built, or not run.
+    """
+    loads = loads_of_design(study, option, None, Shared())
+    return Probe.of(loads, stand_of_design(study, option, None, loads.layout))
+
+
+def loads_of_design(
+    study: Study, option: str, sample: Sample | None, shared: Shared
+) -> LoadsOfDesign:
+    """Compute the loads of a study with one of its options.
 
     Parameters
     ----------
     study : with the values of a design, its options `none` and the one asked for
     option : its name
-    way_of : gives the way from motion to microphones
     sample : values by table and field; none for the nominal machine and all sources together
     shared : with other designs of the same sample
 
@@ -82,25 +141,53 @@ def probe(
     ParameterError, SolverError
         The design cannot be built, or not run.
     """
-    shared = shared or Shared()
     cases = _cases(study, option, sample, shared)
-    way = way_of(study)
-    frequencies, orders, parts = [], [], []
-    for speed in study.operation.speed_rpm:
-        key = speed, option
-        case, loads, wrenches = cases.cases[key], cases.loads[key], cases.wrenches[key]
-        orders_held = study.highest_order(speed)
-        highest = max(orders_held, case.maximum_order) if study.drives_shell else orders_held
-        lines = lines_of(loads, case.shaft_frequency_hz, highest, wrenches)
-        frequencies.append(lines.frequency_hz[1:])
-        number = np.arange(1, lines.frequency_hz.size)
-        orders.append(np.where(number <= highest, number, 0))
-        part = _of_case(study, option, case, loads, lines, wrenches, way, shared)
-        parts.append(part if sample is not None else _together(part))
-    body = on_mounts(case.machine)
-    added = [_over_frequency(body, frequency) for frequency in frequencies]
-    by_speed = tuple({**part, **more} for part, more in zip(parts, added, strict=True))
-    return Probe(tuple(frequencies), tuple(orders), by_speed, body_matrices(body), way.key)
+    speeds, together = study.operation.speed_rpm, sample is None
+    each = [_of_case(study, option, cases, speed, together) for speed in speeds]
+    layouts, parts = zip(*each, strict=True)
+    return LoadsOfDesign(layouts, parts)
+
+
+def stand_of_design(
+    study: Study, option: str, sample: Sample | None, layout: tuple[Layout, ...]
+) -> Stand:
+    """Compute the matrices of the body of a study with one of its options.
+
+    Parameters
+    ----------
+    study, option, sample : see `loads_of_design`
+    layout : of the loads, by speed
+
+    Raises
+    ------
+    ParameterError
+        The design cannot be built.
+    """
+    body = on_mounts(machine_of_design(study, option, sample, with_bodies=True))
+    added = tuple(_over_frequency(body, speed.hertz) for speed in layout)
+    return Stand(added, body_matrices(body))
+
+
+def machine_of_design(
+    study: Study, option: str, sample: Sample | None, with_bodies: bool
+) -> Machine:
+    """Return the machine of a study as one of its options leaves it.
+
+    Parameters
+    ----------
+    study, option, sample : see `loads_of_design`
+    with_bodies : whether it carries the bodies that the option attaches
+
+    Raises
+    ------
+    ParameterError
+        The design cannot be built.
+    """
+    chosen = study.options[option]
+    changed, values = chosen.applied_to(study.machine), {} if sample is None else sample
+    if with_bodies:
+        return sampled_machine(changed, study.machine, chosen, values)
+    return with_sample(changed, study.machine, values)
 
 
 def _cases(study: Study, option: str, sample: Sample | None, shared: Shared) -> Cases:
@@ -121,48 +208,73 @@ def _cases(study: Study, option: str, sample: Sample | None, shared: Shared) -> 
 
 
 def _of_case(
-    study: Study,
-    option: str,
-    case: Case,
-    loads: Mapping[str, Loads],
-    lines: Lines,
-    wrenches: Mapping[str, PortLoads],
-    way: SoundWay,
-    shared: Shared,
-) -> dict[str, ComplexArray]:
-    body = on_mounts(case.machine)
+    study: Study, option: str, cases: Cases, speed_rpm: float, together: bool
+) -> tuple[Layout, dict[str, ComplexArray]]:
+    """Loads of one speed; all sources as one where they are wanted together."""
+    key = speed_rpm, option
+    case, loads, wrenches = cases.cases[key], cases.loads[key], cases.wrenches[key]
+    held = study.highest_order(speed_rpm)
+    highest = max(held, case.maximum_order) if study.drives_shell else held
+    lines = lines_of(loads, case.shaft_frequency_hz, highest, wrenches)
     loss = study.options[option].insertion_loss() or NO_LOSS
-    other, noise, thirds = way.besides_rigid(case.machine, lines, loads, loss, shared)
+    layout, random = _layout(lines, loads, highest, loss, together)
     figures = {**case.revolution.figures, **case.added.figures}
     for load in loads.values():
         figures |= load.figures
-    on_body = [_loaded(body, load, lines.frequency_hz.size) for load in lines.loads.values()]
-    orders = study.highest_order(case.speed_rpm) + 1
-    return {
-        "wrench": _loaded(body, summed(wrenches.values()), orders)[1:],
-        "load": np.stack(on_body, axis=1)[1:],
-        "other": np.moveaxis(other, -1, 0)[1:],
-        "noise": noise.astype(complex),
-        "thirds": thirds.astype(complex),
+    names, size = case.machine.body_names, lines.frequency_hz.size
+    on_body = np.stack([_on_bodies(names, load, size) for load in lines.loads.values()], axis=1)
+    on_shell = np.stack([_on_shell(layout, load, size) for load in lines.loads.values()], axis=1)
+    if together:
+        on_body, on_shell = (part.sum(axis=1, keepdims=True) for part in (on_body, on_shell))
+    return layout, {
+        "wrench": _on_bodies(names, summed(wrenches.values()), held + 1)[1:],
+        "load": on_body[1:],
+        "shell": on_shell[1:],
+        "random": random,
         "factor": loss.amplitude_factor(lines.frequency_hz)[1:].astype(complex),
         **{name: np.asarray(complex(value)) for name, value in figures.items()},
     }
 
 
-def _together(part: Parts) -> Parts:
-    """All sources as one."""
-    total = {name: part[name].sum(axis=1, keepdims=True) for name in ("load", "other")}
-    total |= {name: part[name].sum(axis=0, keepdims=True) for name in ("noise", "thirds")}
-    return {**part, **total}
+def _layout(
+    lines: Lines, loads: Mapping[str, Loads], highest: int, loss: InsertionLoss, together: bool
+) -> tuple[Layout, ComplexArray]:
+    """Where loads act, and the densities of random loads, shape (value,)."""
+    ports: dict[Port, None] = {}
+    for on_ports in lines.loads.values():
+        ports |= dict.fromkeys(in_shell(on_ports))
+    random, densities = [], [np.zeros(0, dtype=complex)]
+    for number, load in enumerate(loads.values()):
+        for part in load.noise:
+            random.append(RandomLoad.of(0 if together else number, part))
+            density = part.density * loss.power_factor(part.frequency_hz)
+            densities.append(np.moveaxis(density, -1, 0).ravel())
+    line = np.arange(1, lines.frequency_hz.size)
+    order = np.where(line <= highest, line, 0)
+    hertz = tuple(lines.frequency_hz[1:].tolist())
+    layout = Layout(hertz, tuple(order.tolist()), tuple(ports), tuple(random))
+    return layout, np.concatenate(densities)
 
 
-def _loaded(body: MachineOnMounts, loads: PortLoads, lines: int) -> ComplexArray:
+def _on_bodies(names: tuple[str, ...], loads: PortLoads, lines: int) -> ComplexArray:
     """Loads on the bodies, about the centre of mass of each, shape (line, motion)."""
-    on_bodies = {port: load for port, load in loads.items() if isinstance(port, BodyPort)}
-    load = np.zeros((lines, len(body.isolation.bodies), 6), dtype=complex)
-    for port, amplitudes in on_bodies.items():
-        load[:, body.row(port)] += amplitudes.T
+    load = np.zeros((lines, len(names), 6), dtype=complex)
+    for port, amplitudes in loads.items():
+        if not isinstance(port, BodyPort):
+            continue
+        if port.name not in names:
+            raise ParameterError(f"port {port.name}: the machine has none")
+        load[:, names.index(port.name)] += amplitudes.T
     return load.reshape(lines, -1)
+
+
+def _on_shell(layout: Layout, loads: PortLoads, lines: int) -> ComplexArray:
+    """Loads on the ports in the shell, shape (line, component)."""
+    rows = layout.components
+    load = np.zeros((lines, sum(len(port.components) for port in rows)), dtype=complex)
+    for port, amplitudes in in_shell(loads).items():
+        load[:, rows[port]] += amplitudes.T
+    return load
 
 
 def body_matrices(body: MachineOnMounts) -> dict[str, ComplexArray]:

@@ -19,11 +19,11 @@ class UnlikeError(SolverError):
 
 def different(first: Probe, other: Probe) -> str | None:
     """In what two probes differ beside their values; none where in nothing."""
-    if first.way != other.way:
-        return "changes the way to the microphones"
-    for one, another in zip(first.frequency_hz, other.frequency_hz, strict=True):
-        if one.shape != another.shape or not np.array_equal(one, another):
+    for one, another in zip(first.layout, other.layout, strict=True):
+        if one.frequency_hz != another.frequency_hz:
             return "changes the frequencies of lines"
+        if one != another:
+            return "changes the ports or where random loads act"
     for part, another_part in zip(first.groups(), other.groups(), strict=True):
         if _shapes(part) != _shapes(another_part):
             return "changes what there is to see"

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -25,6 +26,8 @@ from .evaluated import (
 )
 from .figures import front_chart, main_effects_charts, parallel_chart
 
+OF_TOTAL: Final = ("no_change", "lowering")
+"""Attributes of a search with sentences on the total level."""
 _AT_END = 1e-3
 """Share of a variable's range, or of a limit, that counts as at it."""
 
@@ -37,18 +40,21 @@ def analysis_of_designs(search: xr.Dataset) -> Analysis:
     search : dataset of a search of designs, with the study's parameters as attribute
     """
     designs, study = evaluated(search), parameters(search)
-    reason, no_change = no_best(search), search.attrs["no_change"]
+    reason = no_best(search)
+    sentences = [search.attrs["lowering"]] if reason else [search.attrs[name] for name in OF_TOTAL]
+    of_total = [Text(_sentence(words)) for words in sentences if words]
     evaluated_count, allowed = search.attrs["evaluated"], search.attrs["allowed"]
     counts = f"{evaluated_count} designs were evaluated, {allowed} meet every constraint"
     best: list[Block] = [Text(f"{counts}{_failed(search)}.", "note")]
-    shown_best: list[Block] = []
+    shown_best: list[Block] = [*of_total]
     tables = {"designs.csv": designs_data(search)}
     if not reason:
         first, limits = best_tables(search, designs), Bullets(tuple(limiting(search, designs)))
-        closing = [Text(_sentence(no_change))] if no_change else []
-        shown_best = [*first, limits, *closing]
-        best = [*shown_best[:2], *closing, limits, *best, Text(_promised(search), "note")]
+        shown_best = [*first, limits, *of_total]
+        best = [*shown_best[:2], *of_total, limits, *best, Text(_promised(search), "note")]
         tables["best.csv"] = best_designs(designs)
+    else:
+        best = [*of_total, *best]
     parts = (
         Part("best", "The best few", tuple(best)),
         Part("front", "Front", tuple(_front(designs))),

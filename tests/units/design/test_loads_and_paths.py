@@ -1,0 +1,163 @@
+"""Loads and paths of designs are computed once per values that they read; products are runs."""
+
+from itertools import product
+
+import numpy as np
+import pytest
+from design_studies import NEEDS, design_table, engine_of, study_with
+from sources_study import SOURCES_STUDY, made_up_modes
+
+from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
+from vibroacoustics.base.decibel import mean_square_level
+from vibroacoustics.design.engine.memo import Budget, Memo
+from vibroacoustics.design.engine.seen import Need
+from vibroacoustics.design.listing import listed_grid
+from vibroacoustics.levels.nominal import NominalSound
+from vibroacoustics.pipeline.study import chain_with
+
+CLOSE_DB = 1e-9
+SOUND = Need("sound")
+GAS = "machine.gas.equalisation_angle_deg"
+SHELL = {
+    "machine.structure.thickness_mm": "list = [3.0, 3.4]",
+    "machine.structure.loss_factor_ratio": "list = [0.01, 0.02, 0.03]",
+}
+SOURCES = {
+    "machine.keys.clearance_um": "list = [10.0, 30.0]",
+    GAS: "list = [10.0, 30.0]",
+}
+SHARE = {"options.counterweight-half.share_ratio": "range = [0, 1], points = 40"}
+OPTION = "counterweight-half"
+
+
+class Counted:
+    """Made-up radiation that is counted."""
+
+    def __init__(self):
+        self.number = 0
+
+    def __call__(self, study, *_):
+        self.number += 1
+        return made_up_modes(study), False
+
+
+def engine_with(variables, needs=(SOUND,)):
+    """Engine of designs of the made-up sources, and its radiation."""
+    study = study_with(design_table(f'"{OPTION}"', variables), SOURCES_STUDY)
+    radiation = Counted()
+    return engine_of(study, needs, radiation), study, radiation
+
+
+def level_of_run(engine, study, design):
+    """Levels by microphone of the stages of a run, dB(A)."""
+    changed = study.replace(engine.space.written(design))
+    radiation = Counted()
+    level = chain_with(changed, NominalSound, radiation=radiation).results["level_modelled"]
+    return level.sel(weighting="A", option=OPTION).values[0]
+
+
+def largest_difference_db(engine, study, designs, seen):
+    levels = mean_square_level(seen[SOUND][:, 0, 0], REFERENCE_PRESSURE_PA)
+    runs = np.array([level_of_run(engine, study, design) for design in designs])
+    return np.abs(levels - runs).max()
+
+
+@pytest.mark.slow
+def test_shells_and_sources_cost_their_sum():
+    engine, study, radiation = engine_with(SHELL | SOURCES)
+    contraction = engine.of_option(OPTION).contraction
+    routes = engine.routes(OPTION)
+    assert not any(route.linear for route in routes.values())
+    known, radiated = contraction.loads.computed, radiation.number
+    listing = listed_grid(engine.space.axes(), ())
+    designs = listing.designs(np.arange(listing.count))
+    outcome = engine.outcome(designs)
+    assert len(designs) == 24
+    assert not outcome.failed
+    assert contraction.loads.computed - known == 4  # of the sources
+    assert radiation.number - radiated == 2  # of the thicknesses; the loss changes no mode
+    (paths,) = contraction._paths.values()
+    assert paths.computed <= 6 + 1  # of the shells, and one that finds what they depend on
+    rows = [0, 7, 14, 23]
+    some = {SOUND: outcome.seen[SOUND][rows]}
+    assert largest_difference_db(engine, study, designs[rows], some) < CLOSE_DB
+    assert np.ptp(outcome.seen[SOUND], axis=0).min() > 0.0
+
+
+@pytest.mark.slow
+def test_counterweights_of_each_shell_and_source_are_fitted_once():
+    engine, study, _ = engine_with({**SHELL, GAS: SOURCES[GAS], **SHARE}, (SOUND, *NEEDS[3:]))
+    contraction = engine.of_option(OPTION).contraction
+    linear = [route.linear for route in engine.routes(OPTION).values()]
+    assert linear == [False, False, False, True]
+    listing = listed_grid(engine.space.axes(), ())
+    designs = listing.designs(np.arange(listing.count))
+    assert len(designs) == 6 * 2 * 40
+    known = contraction.loads.computed
+    outcome = engine.outcome(designs)
+    assert contraction.loads.computed - known < 2 * 40  # not those of six shells
+    rows = [3, 250, 479]
+    some = {SOUND: outcome.seen[SOUND][rows]}
+    assert largest_difference_db(engine, study, designs[rows], some) < CLOSE_DB
+
+
+@pytest.mark.long
+def test_fifty_random_designs_are_those_of_runs():
+    variables = {
+        "machine.structure.loss_factor_ratio": "range = [0.003, 0.03]",
+        "machine.stator_yoke.loss_factor_ratio": "range = [0.01, 0.06]",
+        "machine.keys.clearance_um": "range = [8, 40]",
+        "machine.keys.friction_ratio": "range = [0.02, 0.15]",
+        "machine.gas.polytropic_index": "range = [1.03, 1.16]",
+        "machine.mounts.vertical_stiffness_n_per_mm": "range = [30, 100]",
+        **SHARE,
+    }
+    engine, study, _ = engine_with(variables)
+    designs = engine.space.sample("latin-hypercube", 50)
+    outcome = engine.outcome(designs)
+    assert largest_difference_db(engine, study, designs, outcome.seen) < CLOSE_DB
+
+
+def test_a_memo_computes_once_per_values_read_and_keeps_errors(monkeypatch):
+    from vibroacoustics.base.errors import ParameterError
+    from vibroacoustics.base.field_reads import watched
+    from vibroacoustics.machine.mounts import Mounts
+
+    names = ["pitch", "stiffness", "loss"]
+    fields = ("pitch_m", "vertical_stiffness_n_per_m", "loss_factor_ratio")
+    labels = {(field,): name for field, name in zip(fields, names, strict=True)}
+    calls = []
+
+    def study_of(design):
+        values = dict(zip(fields, design.tolist(), strict=True))
+        return watched(Mounts(lateral_stiffness_n_per_m=1e4, **values), labels)
+
+    def compute(mounts):
+        calls.append(mounts)
+        if mounts.pitch_m > 0.25:
+            raise ParameterError("too wide")
+        if mounts.pitch_m > 0.15:  # reads more
+            return np.float64(mounts.vertical_stiffness_n_per_m)
+        return np.float64(0.0)
+
+    memo = Memo(names, study_of, compute)
+    axes = (0.1, 0.2), (0.1, 0.2, 0.3), (1e4, 2e4)
+    designs = np.array([[pitch, stiffness, loss] for loss, pitch, stiffness in product(*axes)])
+    results, number = memo.of_each(designs)
+    values = [results[n] if isinstance(results[n], float) else np.nan for n in number]
+    expected = [0.0, 0.0, 1e4, 2e4, np.nan, np.nan] * 2
+    np.testing.assert_array_equal(values, expected)
+    assert len(calls) == memo.computed == 4  # once for 0.1, twice for 0.2, once for 0.3
+    assert memo.reads == [0, 1]
+    with pytest.raises(ParameterError, match="too wide"):
+        memo(designs[4])
+    assert len(calls) == 4
+
+
+def test_results_beyond_the_memory_are_let_go_oldest_first():
+    budget, known, others = Budget(3 * 80), {}, {}
+    for number in range(4):
+        budget.keep(known if number % 2 else others, bytes([number]), np.zeros(10))
+    assert (list(known), list(others)) == ([b"\x01", b"\x03"], [b"\x02"])
+    budget.keep(known, b"large", np.zeros(100))
+    assert (list(known), list(others)) == ([b"large"], [])
