@@ -8,6 +8,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from ..base.errors import SchemaError
 from ..base.hashing import sha256
+from ..base.vocabulary import PUBLISHED_SHARE
 from .estimates import has_samples
 from .run_attributes import JSON_ATTRIBUTES, Parameters, Words
 from .run_variables import check_variables
@@ -84,6 +85,8 @@ def _check_parts(results: xr.Dataset, parameters: Parameters) -> None:
     suspended = all(case.suspension for case in (machine, *filter(None, redesigned)))
     has_block = "block_velocity_order" in results or "block" in results["body"].values
     alone = results.sizes["sound_source"] == 1
+    noise = machine.overall_noise
+    has_share = "datum" in results and PUBLISHED_SHARE in results["datum"].values
     needed = {
         "ranges": parameters.ranges is not None or not has_samples(results),
         "options": not has_block
@@ -92,8 +95,10 @@ def _check_parts(results: xr.Dataset, parameters: Parameters) -> None:
         "machine.stopping": machine.stopping or "stopping_force" not in results,
         "scoring.published": parameters.scoring.published or "published_score" not in results,
         "machine.overall_noise.speed_rpm": alone
-        or machine.overall_noise is None
-        or machine.overall_noise.speed_rpm in results["speed"].values,
+        or noise is None
+        or noise.speed_rpm in results["speed"].values,
+        "machine.overall_noise.spectral_share": not has_share
+        or (noise is not None and noise.spectral_share is not None),
         "radiation.maximum_frequency_hz": alone
         or parameters.radiation.maximum_frequency_hz is not None,
     }
