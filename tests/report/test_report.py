@@ -412,9 +412,9 @@ def test_the_first_screen_says_whether_the_total_changes() -> None:
         make_results(factors)
     )
     louder = " ".join(sentences(make_results(factors, published_dba=22.0)))
-    assert "Option louder raises it: +" in louder
+    assert "Option louder raises the level: +" in louder
     halved = make_results({"none": 4.0, "halved": 1.0}, published_dba=15.0)
-    assert "Option halved lowers it: −" in " ".join(sentences(halved))
+    assert "Option halved lowers the level: −" in " ".join(sentences(halved))
     alone = sentences(make_results({"none": 1.0}))
     assert not any("option" in sentence for sentence in alone)
 

@@ -234,7 +234,7 @@ def _claim(
         does = f"may {verb}" if word(shifts[first]) == "uncertain" else f"{verb}s"
     too = f"{len(others)} others" if len(others) > 1 else "".join(others)
     too = f"; also {too}" if too else ""
-    return f"Option {first} {does} it: {_largest_change(results, shifts[first], 'dB')}{too}."
+    return f"Option {first} {does} the level: {_largest_change(results, shifts[first], 'dB')}{too}."
 
 
 def _vibration(results: xr.Dataset) -> str:
