@@ -15,7 +15,7 @@ from vibroacoustics.live.section import live_data
 from vibroacoustics.machine.floor import Floor
 from vibroacoustics.report.live.assets import live_script, live_style, packed, unpacking_script
 
-pytestmark = pytest.mark.long
+pytestmark = [pytest.mark.long, pytest.mark.filterwarnings("ignore:.*usual is")]
 
 MOST_BYTES: Final = 200_000
 WEIGHT: Final = {

@@ -126,6 +126,7 @@ damping_ratio = 0.02
 
 
 @pytest.mark.long
+@pytest.mark.filterwarnings("ignore:.*usual is")
 def test_choice_among_options():
     variables = {**VARIABLES, "options.counterweight-half.share_ratio": "range = [0, 1]"}
     table = design_table('["none", "weight", "counterweight-half"]', variables)

@@ -48,6 +48,7 @@ FEW = {key: VARIABLES[key] for key in (
         ("dagilis_slider_link", FEW),  # a revolution takes a second
     ],
 )
+@pytest.mark.filterwarnings("ignore:.*usual is")
 def test_counterweights_and_mounts(name, variables):
     study = study_with(WEIGHT + design_table('"weight"', variables), PIPELINES / f"{name}.toml")
     study = study.replace({"operation.speed_rpm": [study.operation.speed_rpm[0]]})
