@@ -14,7 +14,7 @@ from vibroacoustics.base.decibel import mean_square_level
 from vibroacoustics.design.engine.engine import Engine
 from vibroacoustics.design.engine.machine_sample import MachineSample, Unmodelled
 from vibroacoustics.design.engine.seen import Need
-from vibroacoustics.design.engine.sound_way import Ways
+from vibroacoustics.design.engine.sound_way import SoundPaths
 from vibroacoustics.design.space import Space
 from vibroacoustics.radiation.given import Radiation
 from vibroacoustics.results.estimates import nominal_values
@@ -61,7 +61,7 @@ def engine_of(
     space = Space.of(study)
     machine = MachineSample(np.ones(1), lambda _: Unmodelled(np.zeros((1, 1, 1)), np.zeros(1)))
     gains = (None,) * len(study.operation.speed_rpm)
-    return Engine(space, space.limits, needs, Ways(radiation), machine, gains)
+    return Engine(space, space.limits, needs, SoundPaths(radiation), machine, gains)
 
 
 def largest_difference_db(
@@ -74,7 +74,7 @@ def largest_difference_db(
     return max(
         _of_need(need, seen[row], run)
         for row, run in enumerate(runs)
-        for need, seen in outcome.seen.items()
+        for need, seen in outcome.results.items()
     )
 
 

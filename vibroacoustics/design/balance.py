@@ -25,7 +25,7 @@ from .balancing import (
 from .engine.on_mounts import ADDED, SOUND, Arrays, Lines, lines_of, pressure_by_source
 from .engine.probe import Probe, machine_of_design, probe
 from .engine.response import foot_forces
-from .engine.sound_way import Ways
+from .engine.sound_way import SoundPaths
 
 BALANCED: Final = ("force_n", "moment_nm", "foot_force_n", "pressure_pa")
 """Figures whose sum of squares at the shaft frequency may be made least."""
@@ -104,7 +104,7 @@ def balance(
     weights = _weights(study, option)
     if figure not in BALANCED:
         raise ParameterError(f"figure = {figure}: unknown; allowed {', '.join(BALANCED)}")
-    response, influence = _influence(study, option, weights, figure, Ways(radiation))
+    response, influence = _influence(study, option, weights, figure, SoundPaths(radiation))
     rows = response, influence
     if speeds == "all":
         rows = response.reshape(1, -1), influence.reshape(1, -1, len(weights))
@@ -151,21 +151,21 @@ def _positions(
 
 
 def _influence(
-    study: Study, option: str, weights: Mapping[str, Counterweight], figure: str, ways: Ways
+    study: Study, option: str, weights: Mapping[str, Counterweight], figure: str, paths: SoundPaths
 ) -> tuple[ComplexArray, ComplexArray]:
     """Response without the counterweights, and per moment of each; see `sums_of_squares`."""
-    as_given = _response(study, option, {}, figure, ways)
+    as_given = _response(study, option, {}, figure, paths)
     parts = []
     for name, weight in weights.items():
         turned = weight.model_copy(update={"angle_rad": weight.angle_rad + pi})
-        parts.append(0.5 * (as_given - _response(study, option, {name: turned}, figure, ways)))
+        parts.append(0.5 * (as_given - _response(study, option, {name: turned}, figure, paths)))
     moments = [w.mass_kg * w.radius_m * np.exp(1j * w.angle_rad) for w in weights.values()]
     part = np.stack(parts, axis=-1)
     return as_given - part.sum(axis=-1), np.asarray(part / np.array(moments))
 
 
 def _response(
-    study: Study, option: str, changed: Mapping[str, Option], figure: str, ways: Ways
+    study: Study, option: str, changed: Mapping[str, Option], figure: str, paths: SoundPaths
 ) -> ComplexArray:
     """Response with some counterweights changed, shape (speed, row)."""
     joined = study.options[option]
@@ -176,7 +176,7 @@ def _response(
     with_changed = study.model_copy(update={"options": options})
     made = probe(with_changed, option)
     machine = machine_of_design(with_changed, option, None, with_bodies=True)
-    responses = ways(with_changed).path(machine).responses(made.layout)
+    responses = paths(with_changed).path(machine).responses(made.layout)
     return _at_shaft_frequency(
         made, lines_of(study.operation.speed_rpm, made.layout, responses), figure
     )
@@ -197,7 +197,7 @@ def _row(figure: str, lines: Lines, arrays: Arrays, body: Arrays) -> ComplexArra
     line = lines.row(1)
     if figure == "pressure_pa":
         few = {name: arrays[name][:, line] for name in SOUND if name in arrays}
-        pressure = pressure_by_source(lines.at(line), few, body)[0].sum(axis=0).ravel()
+        pressure = pressure_by_source(lines.select(line), few, body)[0].sum(axis=0).ravel()
         return np.asarray(pressure / np.sqrt(2.0 * pressure.size))
     wrench = arrays["wrench"][:, line[0]]
     if figure == "foot_force_n":

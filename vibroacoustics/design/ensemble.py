@@ -36,7 +36,7 @@ from .engine.machine_sample import Deviation, MachineSample, Unmodelled
 from .engine.on_mounts import lines_of, noise_of, pressure_by_source
 from .engine.response import a_weight
 from .engine.seen import Need
-from .engine.sound_way import Ways
+from .engine.sound_way import SoundPaths
 from .keys import present_value
 from .space import Space
 from .tolerances import Pieces
@@ -68,39 +68,39 @@ def compared_machines(
     ParameterError, SolverError
         The study cannot be run.
     """
-    ways, machines = Ways(radiation), _machines(study, pieces.wide.study, radiation)
+    paths, machines = SoundPaths(radiation), _machines(study, pieces.wide.study, radiation)
     compared: list[ComparedMachine] = []
     for machine in machines:
         first = compared[0] if compared else None
         with suppress(*([ParameterError, SolverError] if len(machines) > 1 else [])):
-            compared.append(_compared(pieces, needs, ways, machine, first))
+            compared.append(_compared(pieces, needs, paths, machine, first))
     return compared
 
 
 def _compared(
     pieces: Pieces,
     needs: Sequence[Need],
-    ways: Ways,
+    paths: SoundPaths,
     machine: MachineSample,
     first: ComparedMachine | None,
 ) -> ComparedMachine:
     """Prepare a machine; variables act as they do in the first one."""
     space, bare = pieces.wide, pieces.without_designs
-    gains = _gains(bare, ways, machine)
+    gains = _gains(bare, paths, machine)
     of_designs, of_reference = (None, None) if first is None else (first.engine, first.reference)
     return ComparedMachine(
         machine,
-        Engine(space, pieces.limits, needs, ways, machine, gains, of_designs),
-        Engine(bare, pieces.limits_without_designs, needs, ways, machine, gains, of_reference),
+        Engine(space, pieces.limits, needs, paths, machine, gains, of_designs),
+        Engine(bare, pieces.limits_without_designs, needs, paths, machine, gains, of_reference),
     )
 
 
-def _gains(space: Space, ways: Ways, machine: MachineSample) -> tuple[Gains | None, ...]:
+def _gains(space: Space, paths: SoundPaths, machine: MachineSample) -> tuple[Gains | None, ...]:
     """Discrepancies by speed, with the energy of the machine without an option."""
     study = space.study
     if machine.deviation is None:
         return (None,) * len(study.operation.speed_rpm)
-    of_reference = Contraction(space, REFERENCE_OPTION, ways, machine)
+    of_reference = Contraction(space, REFERENCE_OPTION, paths, machine)
     present = np.array([present_value(study, key) for key in space.names])
     probe = of_reference.probe(present)
     responses = of_reference.paths(probe.layout)(present).responses(probe.layout)

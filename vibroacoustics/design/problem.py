@@ -359,10 +359,10 @@ class Problem:
         pieces = self.pieces.made(designs, shares).reshape(len(designs) * len(shares), -1)
         outcome, pairs = compared.engine.outcome(pieces), compared.machine.weight.size
         failed = {row // len(shares): why for row, why in outcome.failed.items()}
-        if not outcome.seen:
+        if not outcome.results:
             shape = (len(designs), len(shares) * pairs, len(self.wanted))
             return np.full(shape, np.nan), failed
-        seen = by_row(outcome.seen, pairs)
+        seen = by_row(outcome.results, pairs)
         reference: list[Array | None] = [None] * len(self.figures)
         if any(figure.is_change for figure in self.figures):
             _, _, reference = self._reference(compared, shares)
@@ -398,7 +398,7 @@ class Problem:
         compared : the machine
         pieces : values that scatter but no design chooses, shape (piece, value), SI
         """
-        seen = by_row(compared.reference.outcome(pieces).seen, compared.machine.weight.size)
+        seen = by_row(compared.reference.outcome(pieces).results, compared.machine.weight.size)
 
         def setting(wanted: Wanted) -> Setting:
             def unmodelled() -> Array:

@@ -10,7 +10,7 @@ import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.design.balance import _influence, _weights
 from vibroacoustics.design.balancing import sums_of_squares
-from vibroacoustics.design.engine.sound_way import Ways
+from vibroacoustics.design.engine.sound_way import SoundPaths
 from vibroacoustics.mechanics.capabilities import OldhamRing
 from vibroacoustics.results.estimates import nominal_values
 from vibroacoustics.study.loading import load_study
@@ -63,7 +63,7 @@ def test_bolt_holes_are_those_of_trying_all(study):
     holes = {"upper": (4, masses_kg), "lower": (3, masses_kg)}
     best = va.balance(study, BOTH, holes=holes, radiation=made_up_radiation)
     weights = _weights(study, BOTH)
-    rows = _influence(study, BOTH, weights, "foot_force_n", Ways(made_up_radiation))
+    rows = _influence(study, BOTH, weights, "foot_force_n", SoundPaths(made_up_radiation))
     first = 0.02 * np.exp(1j * np.deg2rad(25.0))  # radius at the angle as given
     positions = [
         [first * mass_kg * np.exp(2j * np.pi * hole / count) for mass_kg in masses_kg for hole in

@@ -139,7 +139,7 @@ def test_values_of_designs_take_the_place_of_sampled_ones(variables, design):
     received, sound = changed[2900.0, option]
     gain = deviation.gains({(2900.0, option): sound, (2900.0, "none"): before})[2900.0, option]
     expected = lines_of(received, gain, 17)
-    seen = one.engine.outcome(design).seen
+    seen = one.engine.outcome(design).results
     np.testing.assert_allclose(
         seen[Need("sound")][0, :, 0], expected.weighted[..., WEIGHTINGS.index("A")], rtol=1e-9
     )

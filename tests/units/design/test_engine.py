@@ -117,10 +117,10 @@ damping_ratio = 0.02
     engine = engine_of(study)
     designs = engine.space.sample("sobol", 64)
     designs[1:, 0] = designs[1, 0]  # of one length: by linear algebra
-    seen = engine.outcome(designs).seen[Need("sound")]
+    seen = engine.outcome(designs).results[Need("sound")]
     assert largest_difference_db(engine, study, designs[:2]) < CLOSE_DB  # by runs
     np.testing.assert_allclose(
-        engine.outcome(designs[:2]).seen[Need("sound")], seen[:2], rtol=1e-11
+        engine.outcome(designs[:2]).results[Need("sound")], seen[:2], rtol=1e-11
     )
     assert list(routes(engine, "pendulum").values()) == [False, True]
 
@@ -179,7 +179,7 @@ def test_attached_bodies_move_in_designs_as_in_runs(absorber):
     designs = engine.space.sample("sobol", DESIGNS)
     assert largest_difference_db(engine, study, designs) < CLOSE_DB
     assert all(routes(engine, "absorber").values())
-    natural = engine_of(study, (Need("natural"),)).outcome(designs[:1]).seen[Need("natural")]
+    natural = engine_of(study, (Need("natural"),)).outcome(designs[:1]).results[Need("natural")]
     changed = study.replace(engine.space.written(designs[0]))
     machine = changed.options["absorber"].built_into(changed.machine)
     body = on_mounts(machine)
@@ -232,7 +232,7 @@ def test_chunks_and_order_of_designs_change_nothing(monkeypatch):
     variables = {"options.weight.mass_g": "range = [1, 100]", free: MOUNTS[free]}
     engine = engine_of(study_with(WEIGHT + design_table('"weight"', variables)), (Need("sound"),))
     designs = engine.space.sample("sobol", 64)
-    together = engine.outcome(designs).seen[Need("sound")]
+    together = engine.outcome(designs).results[Need("sound")]
     monkeypatch.setattr(linear_designs, "CHUNK_BYTES", 1.0)
-    one_by_one = engine.outcome(designs[::-1]).seen[Need("sound")][::-1]
+    one_by_one = engine.outcome(designs[::-1]).results[Need("sound")][::-1]
     np.testing.assert_allclose(one_by_one, together, rtol=1e-13)

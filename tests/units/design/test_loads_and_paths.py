@@ -79,9 +79,9 @@ def test_shells_and_sources_cost_their_sum():
     (paths,) = contraction._paths.values()
     assert paths.computed <= 6 + 1  # of the shells, and one that finds what they depend on
     rows = [0, 7, 14, 23]
-    some = {SOUND: outcome.seen[SOUND][rows]}
+    some = {SOUND: outcome.results[SOUND][rows]}
     assert largest_difference_db(engine, study, designs[rows], some) < CLOSE_DB
-    assert np.ptp(outcome.seen[SOUND], axis=0).min() > 0.0
+    assert np.ptp(outcome.results[SOUND], axis=0).min() > 0.0
 
 
 @pytest.mark.slow
@@ -97,7 +97,7 @@ def test_counterweights_of_each_shell_and_source_are_fitted_once():
     outcome = engine.outcome(designs)
     assert contraction.loads.computed - known < 2 * 40  # not those of six shells
     rows = [3, 250, 479]
-    some = {SOUND: outcome.seen[SOUND][rows]}
+    some = {SOUND: outcome.results[SOUND][rows]}
     assert largest_difference_db(engine, study, designs[rows], some) < CLOSE_DB
 
 
@@ -115,7 +115,7 @@ def test_fifty_random_designs_are_those_of_runs():
     engine, study, _ = engine_with(variables)
     designs = engine.space.sample("latin-hypercube", 50)
     outcome = engine.outcome(designs)
-    assert largest_difference_db(engine, study, designs, outcome.seen) < CLOSE_DB
+    assert largest_difference_db(engine, study, designs, outcome.results) < CLOSE_DB
 
 
 def test_a_memo_computes_once_per_values_read_and_keeps_errors(monkeypatch):

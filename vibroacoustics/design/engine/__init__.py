@@ -1,1 +1,1 @@
-"""From designs to what is seen of them: by linear algebra where that is exact, else run by run."""
+"""Responses of designs: by linear algebra where that is exact, else run by run."""

@@ -13,16 +13,16 @@ from ...machine.machine import Machine
 
 
 class ClosedForm:
-    """What the engine may be told of a kind of option; every form is tested before it is used.
+    """Closed form of the loads of a kind of option; every form is tested before it is used.
 
-    A further one is one file of `design.engine.closed_forms`, or of a stranger. Options without
+    A further one is one file of `design.engine.closed_forms`, or of a plug-in. Options without
     one are computed run by run where they are not linear by themselves.
     """
 
     kind: ClassVar[str]
-    """Of the option."""
+    """Kind of the option."""
     fields: ClassVar[tuple[str, ...]]
-    """Values of the option, in SI, that the functions are of."""
+    """Values of the option, in SI, on which the functions depend."""
     size: ClassVar[int]
     """Number of functions."""
 
@@ -42,14 +42,20 @@ CLOSED_FORMS: Final[Registry[type[ClosedForm]]] = Registry(
 )
 
 
-def of_many(one: Callable[[Array], Array], values: Array, size: int) -> Array:
-    """A function of one design, of many, shape (design, function); each different one once.
+def of_many(function: Callable[[Array], Array], values: Array, size: int) -> Array:
+    """Evaluate a function for many designs, shape (design, function); each different one once.
 
-    Not a number where a design cannot be built.
+    The result is not a number where a design cannot be built.
+
+    Parameters
+    ----------
+    function : function of the values of one design, shape (variable,)
+    values : values of the designs, shape (design, variable), SI
+    size : number of results of the function
     """
     different, rows = np.unique(values, axis=0, return_inverse=True)
     results = np.full((len(different), size), np.nan)
     for row, design in zip(results, different, strict=True):
         with suppress(ParameterError, SolverError):
-            row[:] = one(design)
+            row[:] = function(design)
     return results[rows.ravel()]

@@ -26,7 +26,7 @@ from .probe import (
     machine_of_design,
     stand_of_design,
 )
-from .sound_way import PathOfDesign, Ways
+from .sound_way import PathOfDesign, SoundPaths
 
 Layouts = tuple[Layout, ...]
 
@@ -37,15 +37,15 @@ class Contraction:
 
     Attributes
     ----------
-    space : of the designs
-    option : of all of them
-    ways : to the microphones
+    space : space of the designs
+    option : option of all designs
+    sound_paths : paths to the microphones
     machine : nominal, or a sample
     """
 
     space: Space
     option: str
-    ways: Ways
+    sound_paths: SoundPaths
     machine: MachineSample
     _paths: dict[Layouts, Memo[PathOfDesign]] = field(default_factory=dict, repr=False)
     _stands: dict[Layouts, Memo[Stand]] = field(default_factory=dict, repr=False)
@@ -93,14 +93,14 @@ class Contraction:
         ports = (port for speed in layout for load in speed.random for port, _ in load.loads)
         with_bodies = any(isinstance(port, BodyPort) for port in ports)
         machine = machine_of_design(study, self.option, self._sample, with_bodies)
-        path = self.ways(study).path(machine)
+        path = self.sound_paths(study).path(machine)
         path.responses(layout)  # so that all that any responses read has been read
         return path
 
     def _memo(self, compute: Callable[[Study], Result]) -> Memo[Result]:
         names = self.space.names
         unwatched = {names.index(name) for name in self._acting if name not in self._watched}
-        return Memo(names, self._study_of, compute, self.ways.budget, frozenset(unwatched))
+        return Memo(names, self._study_of, compute, self.sound_paths.budget, frozenset(unwatched))
 
     @property
     def _acting(self) -> list[str]:

@@ -35,7 +35,7 @@ class Gains:
 
         Parameters
         ----------
-        energy : of designs, shape (design, source, receiver, band), Pa²
+        energy : A-weighted energy of designs, shape (design, source, receiver, band), Pa²
         """
         return with_added(self.gain, self.added, energy[:, None], self.before)
 
@@ -46,15 +46,15 @@ class Gains:
 
 @dataclass(frozen=True)
 class WeightedLines:
-    """Lines of one speed, and what of them is weighted.
+    """Lines of one speed and their weights.
 
     Attributes
     ----------
     a_weight : A-weighted mean square per squared peak, shape (line,)
     level_weight : mean square per squared peak that counts, shape (line,)
     band : gain band of each line, shape (line,)
-    noise : whether random loads are heard too
-    gains : of the sample; none of the nominal machine
+    noise : whether the mean square includes random loads
+    gains : gains of the sample; none for the nominal machine
     """
 
     a_weight: Array
@@ -150,11 +150,11 @@ def varied_bands(
 
     Parameters
     ----------
-    change : of the pressure by designs, shape (design, source, receiver, line), Pa
-    pressure : without it, shape (1, source, receiver, line), Pa
-    lines : of the pressure
-    noise : of designs, shape (design, source, receiver, band), Pa²
-    share : of the energy in all bands
+    change : change of the pressure by designs, shape (design, source, receiver, line), Pa
+    pressure : pressure without this change, shape (1, source, receiver, line), Pa
+    lines : lines of the pressure
+    noise : A-weighted mean squares of designs, shape (design, source, receiver, band), Pa²
+    share : share of the energy in all bands
     """
     size = np.abs(change)
     more = size * (2.0 * np.abs(pressure) + size)

@@ -1,4 +1,4 @@
-"""What is seen of any designs of a space."""
+"""Responses of any designs of a space."""
 
 from collections.abc import Sequence
 
@@ -21,7 +21,7 @@ from .recognition import Explorer, Route
 from .runs import Scores
 from .samples import Samples
 from .seen import Need
-from .sound_way import Ways
+from .sound_way import SoundPaths
 from .terms import Basis
 
 
@@ -30,12 +30,12 @@ class Engine:
 
     Parameters
     ----------
-    space : of the designs
-    limits : of the variables with their tolerances, shape (variable, 2), SI
-    needs : what is asked
-    ways : to the microphones
+    space : space of the designs
+    limits : limits of the variables with their tolerances, shape (variable, 2), SI
+    needs : requested responses
+    sound_paths : paths to the microphones
     machine : nominal, or a sample
-    gains : of the sample by speed; none of the nominal machine
+    gains : gains of the sample by speed; none for the nominal machine
     template : engine of the same space with another sample, whose variables act alike
     """
 
@@ -44,7 +44,7 @@ class Engine:
         space: Space,
         limits: Array,
         needs: Sequence[Need],
-        ways: Ways,
+        sound_paths: SoundPaths,
         machine: MachineSample,
         gains: tuple[Gains | None, ...],
         template: "Engine | None" = None,
@@ -52,14 +52,14 @@ class Engine:
         self.space = space
         self.limits = limits
         self.needs = tuple(dict.fromkeys(needs))
-        self.ways = ways
+        self.sound_paths = sound_paths
         self.machine = machine
         self.gains = gains
         self.template = template
         self._of_options: dict[str, OptionEngine] = {}
 
     def outcome(self, values: Array) -> Outcome:
-        """What is seen of designs, shape (design, variable) in SI, and why some have failed."""
+        """Compute the responses of designs, shape (design, variable) in SI, and why some failed."""
         if len(self.space.options) == 1:
             return self.of_option(self.space.options[0]).outcome(values)
         result = Outcome()
@@ -68,17 +68,17 @@ class Engine:
             if not rows.size:
                 continue
             part = self.of_option(option).outcome(values[rows])
-            result.take(rows, part.seen, len(values))
+            result.take(rows, part.results, len(values))
             result.failed |= {int(rows[row]): reason for row, reason in part.failed.items()}
         return result
 
     def routes(self, option: str) -> dict[str, Route]:
-        """Which way each variable goes in designs with an option, by its key."""
+        """Return the route of each variable in designs with an option, by its key."""
         _, routes = self.of_option(option).recognised
         return dict(zip(self.space.names, routes, strict=True))
 
     def of_option(self, option: str) -> OptionEngine:
-        """Designs with one option."""
+        """Return the engine of designs with one option."""
         if option not in self._of_options:
             self._of_options[option] = self._made(option)
         return self._of_options[option]
@@ -87,7 +87,7 @@ class Engine:
         space = self.space
         figures = {need.name for need in self.needs if need.what == "figure"}
         speeds = space.study.operation.speed_rpm
-        contraction = Contraction(space, option, self.ways, self.machine)
+        contraction = Contraction(space, option, self.sound_paths, self.machine)
         samples = Samples(contraction.probe)
         limits = self.limits.copy()
         if space.names[:1] == [OPTION]:
@@ -99,9 +99,15 @@ class Engine:
         is_active = design is not None and design.search.method == "active"
         variables = dict(enumerate(space.variables))
         idle = [
-            n for n, one in variables.items() if one.key == OPTION or not acts_on(one.key, option)
+            number
+            for number, variable in variables.items()
+            if variable.key == OPTION or not acts_on(variable.key, option)
         ]
-        linear = [n for n, one in variables.items() if n not in idle and not one.takes_words]
+        linear = [
+            number
+            for number, variable in variables.items()
+            if number not in idle and not variable.takes_words
+        ]
         forms = _closed_forms(space, option)
         if criteria or is_active:
             linear, forms = [], ()
@@ -113,7 +119,7 @@ class Engine:
             tuple(linear),
             tuple(idle),
             forms,
-            Scores(space, option, criteria, self.ways),
+            Scores(space, option, criteria, self.sound_paths),
             self.gains,
             unmodelled,
             template,
@@ -134,8 +140,8 @@ def _closed_forms(space: Space, option: str) -> tuple[Basis, ...]:
     return tuple(form for member in members for form in _closed_form(space, *member, machine))
 
 
-def _closed_form(space: Space, option: str, given: Option, machine: Machine) -> tuple[Basis, ...]:
-    form = CLOSED_FORMS.get(given.kind)
+def _closed_form(space: Space, option: str, member: Option, machine: Machine) -> tuple[Basis, ...]:
+    form = CLOSED_FORMS.get(member.kind)
     if form is None:
         return ()
     columns = {
@@ -146,13 +152,13 @@ def _closed_form(space: Space, option: str, given: Option, machine: Machine) -> 
     of_form = {field: columns[field] for field in form.fields if field in columns}
     if not of_form:
         return ()
-    present = {field: getattr(given, field) for field in form.fields}
+    present = {field: getattr(member, field) for field in form.fields}
 
     def functions(values: Array, speed_rpm: float) -> Array:
-        def one(row: Array) -> Array:
+        def of_design(row: Array) -> Array:
             changed = dict(zip(of_form, row.tolist(), strict=True))
             return form().functions({**present, **changed}, machine, speed_rpm)
 
-        return of_many(one, values, form.size)
+        return of_many(of_design, values, form.size)
 
     return (Basis("a closed form", tuple(of_form.values()), functions, form.size, True),)

@@ -12,7 +12,7 @@ from .terms import Terms
 RELATIVE: Final = 1e-10
 """Error of a line or value that is rounding, of its largest size over the designs."""
 NOTHING: Final = 1e-12
-"""What is smaller than this part of the largest of an array is rounding alone."""
+"""Part of the largest value of an array below which all is rounding."""
 SAME: Final = 2e-13
 """Change, of the largest of an array, that is none."""
 
@@ -26,18 +26,18 @@ class Expansion:
 
     Attributes
     ----------
-    terms : the products
-    speed_rpm : at which the arrays are
-    factors : by name of the array, shape (product, ...)
+    terms : products of functions
+    speed_rpm : speed of the arrays, rpm
+    factors : factors by name of the array, shape (product, ...)
     """
 
     terms: Terms
     speed_rpm: float
     factors: Stack
 
-    def at(self, values: Array) -> dict[str, ComplexArray]:
-        """Arrays of designs (design, variable), shape (design, ...); (1, ...) if alike."""
-        columns = self.terms.at(values, self.speed_rpm)
+    def arrays_of(self, values: Array) -> dict[str, ComplexArray]:
+        """Compute arrays of designs (design, variable), shape (design, ...); (1, ...) if alike."""
+        columns = self.terms.evaluate(values, self.speed_rpm)
         return {name: summed(columns, factors) for name, factors in self.factors.items()}
 
     def is_constant(self, name: str) -> bool:
@@ -50,31 +50,31 @@ def summed(columns: Array, factors: ComplexArray) -> ComplexArray:
 
     Parameters
     ----------
-    columns : shape (design, product)
-    factors : shape (product, ...)
+    columns : products of the variables, shape (design, product)
+    factors : factors of the products, shape (product, ...)
     """
     if not factors[1:].any():
         return factors[:1]
     flat = factors.reshape(len(factors), -1)
-    moving = np.flatnonzero(flat[1:].any(axis=0))
-    used = flat[:, moving].any(axis=1)
-    real = columns[:, used] @ np.ascontiguousarray(flat[np.ix_(used, moving)]).view(float)
+    varying = np.flatnonzero(flat[1:].any(axis=0))
+    used = flat[:, varying].any(axis=1)
+    real = columns[:, used] @ np.ascontiguousarray(flat[np.ix_(used, varying)]).view(float)
     result = np.repeat(flat[:1], len(columns), axis=0)
-    result[:, moving] = real.view(complex)
+    result[:, varying] = real.view(complex)
     return result.reshape(len(columns), *factors.shape[1:])
 
 
 def fitted(terms: Terms, speed_rpm: float, values: Array, arrays: Stack) -> Expansion:
-    """Least squares through designs.
+    """Fit least squares through designs.
 
     Parameters
     ----------
-    terms : fewer than there are designs
-    speed_rpm : at which the arrays are
-    values : shape (design, variable)
-    arrays : of these designs
+    terms : products, fewer than designs
+    speed_rpm : speed of the arrays, rpm
+    values : values of the designs, shape (design, variable)
+    arrays : arrays of these designs, shape (design, ...)
     """
-    solve = np.linalg.pinv(terms.at(values, speed_rpm), rcond=1e-14)
+    solve = np.linalg.pinv(terms.evaluate(values, speed_rpm), rcond=1e-14)
     factors: dict[str, ComplexArray] = {}
     for name, array in arrays.items():
         change = array - array[:1]
@@ -86,13 +86,13 @@ def fitted(terms: Terms, speed_rpm: float, values: Array, arrays: Stack) -> Expa
     return Expansion(terms, speed_rpm, factors)
 
 
-def deviation(expected: ComplexArray, given: ComplexArray) -> float:
-    """Largest error over the size of its line, both of shape (design, line, ...).
+def deviation(expected: ComplexArray, computed: ComplexArray) -> float:
+    """Return the largest error over the size of its line, both of shape (design, line, ...).
 
     The size of a line is its largest over designs and components, at least `NOTHING / RELATIVE`
     of the largest of the array, as smaller lines are rounding.
     """
-    error = np.abs(given - expected)
+    error = np.abs(computed - expected)
     if not error.any():
         return 0.0
     size = np.abs(expected)

@@ -1,4 +1,4 @@
-"""Designs that all stand on the same mounts: sound is a sum of squares of a few sums."""
+"""Designs on the same mounts: sound is a sum of squares of a few sums."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from .on_mounts import Arrays, Lines, heard_spectrum, noise_of, pressure_by_sour
 from .seen import PAIRED, Need
 
 RANK: Final = 1e-13
-"""Of the largest singular value: what is smaller is rounding."""
+"""Part of the largest singular value below which others are rounding."""
 SOLVED: Final = ("mass", "stiffness", "foot", "added", "foot_added", "factor")
 """Arrays that must be the same for all designs."""
 UNHEARD: Final = 1e-10
@@ -23,7 +23,7 @@ BY_LINE: Final = ("wrench", "added", "foot_added")
 
 
 def is_fixed(by_speed: Sequence[Expansion], body: Expansion) -> bool:
-    """Whether all designs stand on the same mounts, behind the same hood."""
+    """Return whether all designs are on the same mounts, behind the same hood."""
     return all(
         name not in part.factors or part.is_constant(name)
         for part in (*by_speed, body)
@@ -33,12 +33,12 @@ def is_fixed(by_speed: Sequence[Expansion], body: Expansion) -> bool:
 
 @dataclass(frozen=True)
 class FixedSpeed:
-    """One speed of designs on the same mounts, prepared for what is asked.
+    """One speed of designs on the same mounts, prepared for the requested responses.
 
     Attributes
     ----------
-    lines : those of the orders that are asked for but as sound
-    arrays : expansion of what is no sound, at these lines
+    lines : lines of the orders that are requested other than as sound
+    arrays : expansion of all arrays but those of the sound, at these lines
     noise : factors of all random loads, shape (product, receiver)
     """
 
@@ -48,7 +48,7 @@ class FixedSpeed:
 
     @classmethod
     def of(cls, needs: Sequence[Need], lines: Lines, arrays: Expansion) -> "FixedSpeed":
-        """Prepared for what is asked."""
+        """Prepare a speed for the requested responses."""
         orders = {need.order for need in needs if need.what in ("force", "moment", "foot")}
         rows = np.array([row for order in orders for row in lines.row(order)], dtype=np.intp)
         figures = {need.name for need in needs if need.what == "figure"}
@@ -58,27 +58,27 @@ class FixedSpeed:
         few = {name: part for name, part in few.items() if name in figures or rows.size}
         expansion = Expansion(arrays.terms, arrays.speed_rpm, few)
         noise = noise_of(lines, factors)[0]
-        return cls(lines.at(rows), expansion, noise.sum(axis=(1, 3)))
+        return cls(lines.select(rows), expansion, noise.sum(axis=(1, 3)))
 
 
 def compressed(order: int | None, lines: Lines, arrays: Expansion, body: Arrays) -> Array:
-    """Rows by receiver, (receiver, row, product): squares of their sums are the mean square.
+    """Compute rows whose squared sums make the mean square, shape (receiver, row, product).
 
     All lines of a receiver are linear in the products of the variables: real and imaginary parts
-    of every line, weighed, are a matrix A, and |A g|² = |S Vᵀ g|² by its singular values, as few
+    of every line, weighted, are a matrix A, and |A g|² = |S Vᵀ g|² by its singular values, as few
     as there are independent products.
 
     Parameters
     ----------
-    order : of the sound; none for all of it, A-weighted
-    lines : of the speed
-    arrays : their expansion
+    order : order of the sound; none for all of it, A-weighted
+    lines : lines of the speed
+    arrays : expansion of their arrays
     body : mass and stiffness of all designs, shape (1, ...)
     """
     rows, weighted = lines.weighted(order)
     total = _factors(lines, rows, arrays, body).sum(axis=1) * np.sqrt(weighted.level_weight)
-    both = np.concatenate([total.real, total.imag], axis=2)  # (product, receiver, 2 lines)
-    return _squeezed(np.moveaxis(both, (1, 2, 0), (0, 1, 2)))
+    parts = np.concatenate([total.real, total.imag], axis=2)  # (product, receiver, 2 lines)
+    return _squeezed(np.moveaxis(parts, (1, 2, 0), (0, 1, 2)))
 
 
 def _factors(lines: Lines, rows: IndexArray, arrays: Expansion, body: Arrays) -> ComplexArray:
@@ -86,7 +86,7 @@ def _factors(lines: Lines, rows: IndexArray, arrays: Expansion, body: Arrays) ->
     factors = arrays.factors
     few = {name: factors[name][:, rows] for name in ("load", "shell")}
     few |= {name: factors[name][:1, rows] for name in ("factor", "added") if name in factors}
-    return pressure_by_source(lines.at(rows), few, body)
+    return pressure_by_source(lines.select(rows), few, body)
 
 
 @dataclass(frozen=True)
@@ -95,9 +95,9 @@ class PairedSound:
 
     Attributes
     ----------
-    lines : in the bands that designs change
-    pressure : per product of the variables, shape (product, source, receiver, line), Pa
-    noise : in these bands, shape (product, source, receiver, band), Pa²
+    lines : lines in the bands that designs change
+    pressure : pressure per product of the variables, (product, source, receiver, line), Pa
+    noise : mean squares in these bands, shape (product, source, receiver, band), Pa²
     constant : mean square in the other bands, shape (pair, receiver), Pa²
     """
 
@@ -147,10 +147,11 @@ class FixedSpectrum:
 
     Attributes
     ----------
-    lines : of the speed
-    pressure : per product of the variables, shape (product, source, receiver, line), Pa
-    noise, thirds : random loads, A-weighted and unweighted, shape (product or 1, source, receiver,
-        band), Pa²; a single product where designs do not change them
+    lines : lines of the speed
+    pressure : pressure per product of the variables, (product, source, receiver, line), Pa
+    noise, thirds : mean squares of random loads, A-weighted and unweighted, shape
+        (product or 1, source, receiver, band), Pa²; a single product where designs do
+        not change them
     """
 
     lines: Lines
@@ -178,18 +179,18 @@ class FixedSpectrum:
 
 
 def _of_designs(columns: Array, factors: Array) -> Array:
-    """Sums of products of each design; of one where `factors` has the constant alone."""
+    """Return the sums of products of each design; of one where `factors` has the constant alone."""
     count = len(columns) if len(factors) > 1 else 1
     return np.asarray(np.tensordot(columns[:count, : len(factors)], factors, axes=1))
 
 
 def _constant(factors: Array) -> Array:
-    """The factors, or that of the constant alone where the others are zero."""
+    """Return the factors, or that of the constant alone where the others are zero."""
     return factors if factors[1:].any() else factors[:1]
 
 
 def _squeezed(matrices: Array) -> Array:
-    """S Vᵀ of each matrix, shape (receiver, rank, product)."""
+    """Compute S Vᵀ of each matrix, shape (receiver, rank, product)."""
     _, sizes, directions = np.linalg.svd(matrices, full_matrices=False)
     largest = max(float(sizes.max(initial=0.0)), 1e-300)
     rank = max(int((sizes > RANK * largest).any(axis=0).sum()), 1)
@@ -202,13 +203,13 @@ class FixedMounts:
 
     Attributes
     ----------
-    speeds : each of them
+    speeds : prepared speeds
     body : mass, stiffness and foot, shape (1, ...)
-    sums : of the products that all sound is made of, shape (sum, product)
-    sound : by need, rows of these sums, whose own sums make the mean square, shape
+    sums : sums of products that make all sound, shape (sum, product)
+    sound : rows of these sums by need, whose squared sums make the mean square, shape
         (speed, receiver, row, sum)
-    paired : by need and speed, in place of these where the machine is a sample
-    spectra : by speed, where loudness or audibility is asked for
+    paired : sound by need and speed, in place of these rows where the machine is a sample
+    spectra : spectra by speed, where loudness or audibility is requested
     """
 
     speeds: tuple[FixedSpeed, ...]
@@ -227,78 +228,80 @@ class FixedMounts:
         body: Expansion,
         designs: Array,
     ) -> "FixedMounts":
-        """Prepared for what is asked.
+        """Prepare designs for the requested responses.
 
         Parameters
         ----------
-        needs : what is asked
-        lines, by_speed : of each speed, with the expansion of its arrays
-        body : expansion of its arrays
-        designs : that fill the space, shape (design, variable)
+        needs : requested responses
+        lines, by_speed : lines of each speed and the expansion of their arrays
+        body : expansion of the arrays of the body
+        designs : designs that fill the space, shape (design, variable)
         """
         bare = {name: factors[:1] for name, factors in body.factors.items()}
-        both = list(zip(lines, by_speed, strict=True))
-        speeds = tuple(FixedSpeed.of(needs, *one) for one in both)
+        pairs = list(zip(lines, by_speed, strict=True))
+        speeds = tuple(FixedSpeed.of(needs, *pair) for pair in pairs)
         sounds = [need for need in needs if need.what == "sound"]
         spectra: tuple[FixedSpectrum, ...] = ()
         if any(need in HEARING for need in needs):
-            spectra = tuple(FixedSpectrum.of(*speed, bare) for speed in both)
+            spectra = tuple(FixedSpectrum.of(*pair, bare) for pair in pairs)
         if lines[0].gains is not None:
-            columns = [one.terms.at(designs, one.speed_rpm) for one in by_speed]
+            columns = [part.terms.evaluate(designs, part.speed_rpm) for part in by_speed]
             paired = {
                 need: [
-                    PairedSound.of(need.order, *b, bare, c)
-                    for b, c in zip(both, columns, strict=True)
+                    PairedSound.of(need.order, *pair, bare, products)
+                    for pair, products in zip(pairs, columns, strict=True)
                 ]
                 for need in sounds
             }
             return cls(speeds, bare, np.zeros((1, 1)), {}, paired, spectra)
         rows = {
-            need: _stacked([compressed(need.order, *one, bare) for one in both]) for need in sounds
+            need: _stacked([compressed(need.order, *pair, bare) for pair in pairs])
+            for need in sounds
         }
         nothing = np.zeros((1, len(by_speed[0].terms.products)))
         sums = _directions(np.concatenate([nothing, *map(_scaled, rows.values())]))
         sound = {need: part @ sums.T for need, part in rows.items()}
         return cls(speeds, bare, sums, sound, {}, spectra)
 
-    def seen(self, needs: Sequence[Need], values: Array) -> dict[Need, Array]:
-        """What is seen of designs.
+    def results(self, needs: Sequence[Need], values: Array) -> dict[Need, Array]:
+        """Compute the responses of designs.
 
         Parameters
         ----------
-        needs : among those that it was prepared for
-        values : shape (design, variable)
+        needs : requested responses, among the prepared ones
+        values : values of the designs, shape (design, variable), SI
         """
         by_speed = self._columns(values)
         others = [need for need in needs if need.what not in PAIRED]
         arrays = [
-            {name: summed(columns, factors) for name, factors in one.arrays.factors.items()}
-            for one, columns in zip(self.speeds, by_speed, strict=True)
+            {name: summed(columns, factors) for name, factors in speed.arrays.factors.items()}
+            for speed, columns in zip(self.speeds, by_speed, strict=True)
         ]
-        lines = [one.lines for one in self.speeds]
+        lines = [speed.lines for speed in self.speeds]
         figures = seen_of(others, lines, arrays, self.body, len(values))
         sounds = [need for need in needs if need.what == "sound"]
         figures |= {need: self._sound(need, by_speed) for need in sounds}
         return figures
 
     def spectra_of(self, values: Array) -> list[Spectrum]:
-        """Compute the spectra of designs by speed; see `seen`."""
+        """Compute the spectra of designs by speed; see `results`."""
         each = zip(self.spectra, self._columns(values), strict=True)
         return [spectrum.of_designs(columns) for spectrum, columns in each]
 
     def _columns(self, values: Array) -> list[Array]:
-        """Products of the variables by speed, once where they are the same at all."""
-        first, *rest = self.speeds
-        columns = first.arrays.terms.at(values, first.lines.speed_rpm)
+        """Compute products of the variables by speed, once where all speeds share them."""
+        first, *others = self.speeds
+        columns = first.arrays.terms.evaluate(values, first.lines.speed_rpm)
         if not first.arrays.terms.by_speed:
             return [columns] * len(self.speeds)
-        return [columns, *(one.arrays.terms.at(values, one.lines.speed_rpm) for one in rest)]
+        of_others = (speed.arrays.terms.evaluate(values, speed.lines.speed_rpm) for speed in others)
+        return [columns, *of_others]
 
     def _sound(self, need: Need, by_speed: Sequence[Array]) -> Array:
-        """Mean square, shape (design, pair, speed, receiver)."""
+        """Compute the mean square, shape (design, pair, speed, receiver), Pa²."""
         if self.paired:
             each = zip(self.paired[need], by_speed, strict=True)
-            return np.stack([one.mean_square(columns) for one, columns in each], axis=2)
+            return np.stack([sound.mean_square(columns) for sound, columns in each], axis=2)
         rows, shared = self.sound[need], not self.speeds[0].arrays.terms.by_speed
         count = len(by_speed[0])
         square = np.empty((count, *rows.shape[:2]))
@@ -315,19 +318,19 @@ class FixedMounts:
 
 
 def _stacked(parts: Sequence[Array]) -> Array:
-    """Rows of all speeds, those of fewer filled with zeros, (speed, receiver, row, product)."""
+    """Stack rows of all speeds, filled with zeros, shape (speed, receiver, row, product)."""
     most = max(part.shape[1] for part in parts)
     return np.stack([np.pad(part, ((0, 0), (0, most - part.shape[1]), (0, 0))) for part in parts])
 
 
 def _directions(rows: Array) -> Array:
-    """As few independent sums as all rows are made of, shape (sum, product)."""
+    """Return the fewest independent sums that make all rows, shape (sum, product)."""
     _, sizes, directions = np.linalg.svd(rows, full_matrices=False)
     return np.asarray(directions[: max(int((sizes > RANK * sizes[0]).sum()), 1)])
 
 
 def _scaled(rows: Array) -> Array:
-    """Rows of each speed and receiver over their largest, so that quiet ones count as loud ones."""
+    """Divide rows of each speed and receiver by their largest: quiet ones count as loud ones."""
     size = np.abs(rows).max(axis=(2, 3), keepdims=True)
     scaled = rows / np.where(size > 0.0, size, 1.0)
     return np.asarray(scaled.reshape(-1, rows.shape[-1]))

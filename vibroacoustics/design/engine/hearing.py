@@ -50,7 +50,7 @@ class Hearing:
     Attributes
     ----------
     needs : among others `LOUDNESS` and `AUDIBILITY`
-    take : takes numbers of designs and what is seen of them, or why they failed
+    take : stores the results of numbered designs, or why they failed
     """
 
     needs: Sequence[Need]

@@ -16,8 +16,8 @@ from .sound_way import PathOfDesign
 
 LinesOf = Callable[[Layouts, PathOfDesign], tuple[Lines, ...]]
 Joined = Iterator[tuple[IndexArray, Seen | Exception, list[Spectrum]]]
-"""Numbers of designs, what is seen of these, shape (design, ...), or why they failed, and their
-spectra where loudness or audibility is asked for."""
+"""Numbers of designs, their responses, shape (design, ...), or why they failed, and their
+spectra where loudness or audibility is requested."""
 
 
 def joined_designs(
@@ -27,10 +27,10 @@ def joined_designs(
 
     Parameters
     ----------
-    contraction : their loads, paths and bodies
-    designs : shape (design, variable)
+    contraction : loads, paths and bodies of the designs
+    designs : values of the designs, shape (design, variable)
     lines_of : makes the lines of all speeds from their layout and the path of a design
-    needs : what is asked, without criteria
+    needs : requested responses, without criteria
     """
     loads, on_loads = contraction.loads.of_each(designs)
     for rows, alike in _by_kind(loads, on_loads, _kind_of_loads):
@@ -72,9 +72,9 @@ def _seen(
     ----------
     needs, lines : see `seen_of`
     loads : arrays by speed, shape (different loads, ...)
-    on_loads : which loads each design has
+    on_loads : number of the loads of each design, shape (design,)
     stands : different bodies
-    on_stand : which body each design has
+    on_stand : number of the body of each design, shape (design,)
     """
     size, chunk = len(on_loads), chunk_of(needs, lines)
     if isinstance(stands[0], Exception):

@@ -1,4 +1,4 @@
-"""Where the loads of designs act at one speed: lines, ports in the shell, random loads."""
+"""Layout of the loads of designs at one speed: lines, ports in the shell, random loads."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,8 +20,8 @@ class RandomLoad:
     Attributes
     ----------
     source : number of the source
-    frequency_hz : evenly spaced
-    loads : by port, load on its components per unit of each random force
+    frequency_hz : evenly spaced frequencies
+    loads : ports, each with the load on its components per unit of each random force
     """
 
     source: int
@@ -43,11 +43,12 @@ class RandomLoad:
 
 @dataclass(frozen=True)
 class Layout:
-    """Lines of one speed and what acts in the shell there.
+    """Lines of one speed and the loads in the shell at that speed.
 
     Attributes
     ----------
-    frequency_hz, order : of the lines above 0 Hz; order 0 for tones that are none
+    frequency_hz, order : frequencies, Hz, and orders of the lines above 0 Hz; order 0 for
+        tones that are none
     ports : ports in the shell
     random : random loads
     """
@@ -64,7 +65,7 @@ class Layout:
 
     @cached_property
     def hertz(self) -> Array:
-        """Frequencies of the lines, shape (line,)."""
+        """Frequencies of the lines, shape (line,), Hz."""
         return np.array(self.frequency_hz)
 
     @property

@@ -12,7 +12,7 @@ from .on_mounts import Lines, seen_of, spectra_of
 from .seen import Need, Seen
 
 CHUNK_BYTES: Final = 32e6
-"""Of the largest array of designs that are computed side by side."""
+"""Size of the largest array of designs that are computed side by side."""
 
 
 @dataclass(frozen=True)
@@ -21,10 +21,10 @@ class LinearDesigns:
 
     Attributes
     ----------
-    needs : what is asked
-    lines : by speed
-    expansions : by speed, last that of the body; without arrays on the same mounts
-    fixed : where all stand on the same mounts
+    needs : requested responses
+    lines : lines by speed
+    expansions : expansions by speed, last that of the body; without arrays on the same mounts
+    fixed : designs on the same mounts; none where mounts differ
     """
 
     needs: tuple[Need, ...]
@@ -40,26 +40,26 @@ class LinearDesigns:
         expansions: Sequence[Expansion],
         designs: Array,
     ) -> "LinearDesigns":
-        """Prepared for what is asked.
+        """Prepare designs for the requested responses.
 
         Parameters
         ----------
-        needs : what is asked
-        lines : by speed
-        expansions : by speed, last that of the body
-        designs : that fill the space, shape (design, variable)
+        needs : requested responses
+        lines : lines by speed
+        expansions : expansions by speed, last that of the body
+        designs : designs that fill the space, shape (design, variable)
         """
         *by_speed, body = expansions
         fixed = None
         if is_fixed(by_speed, body):
-            expansions = [replace(one, factors={}) for one in expansions]  # large
+            expansions = [replace(part, factors={}) for part in expansions]  # large
             fixed = FixedMounts.of(needs, lines, by_speed, body, designs)
         return cls(needs, lines, tuple(expansions), fixed)
 
-    def seen(self, values: Array) -> Iterator[tuple[slice, Seen, list[Spectrum]]]:
-        """What is seen of designs, shape (design, variable), chunk by chunk.
+    def results(self, values: Array) -> Iterator[tuple[slice, Seen, list[Spectrum]]]:
+        """Compute the responses of designs, shape (design, variable), chunk by chunk.
 
-        The spectra are empty where neither loudness nor audibility is asked for.
+        The spectra are empty where neither loudness nor audibility is requested.
         """
         for first in range(0, len(values), self.chunk):
             part = slice(first, min(first + self.chunk, len(values)))
@@ -76,8 +76,8 @@ class LinearDesigns:
         is_heard = any(need in HEARING for need in self.needs)
         if self.fixed is not None:
             spectra = self.fixed.spectra_of(values) if is_heard else []
-            return self.fixed.seen(self.needs, values), spectra
-        *by_speed, body = (expansion.at(values) for expansion in self.expansions)
+            return self.fixed.results(self.needs, values), spectra
+        *by_speed, body = (expansion.arrays_of(values) for expansion in self.expansions)
         designs = self.lines, by_speed, body, len(values)
         return seen_of(self.needs, *designs), spectra_of(*designs) if is_heard else []
 
@@ -87,12 +87,12 @@ def chunk_of(needs: Sequence[Need], lines: Sequence[Lines], numbers: int | None 
 
     Parameters
     ----------
-    needs : what is asked
-    lines : by speed
-    numbers : that each design takes; those of its lines where not given
+    needs : requested responses
+    lines : lines by speed
+    numbers : number of values of each design; by default those of its lines
     """
-    pairs = [1 if one.gains is None else one.gains.added.size for one in lines]
-    lines_and_pairs = max(one.order.size for one in lines) * max(pairs)
+    pairs = [1 if speed.gains is None else speed.gains.added.size for speed in lines]
+    lines_and_pairs = max(speed.order.size for speed in lines) * max(pairs)
     most = 32 * lines_and_pairs if numbers is None else numbers
     if any(need in HEARING for need in needs):
         most = max(most, 8 * lines[0].receivers * lines_and_pairs)

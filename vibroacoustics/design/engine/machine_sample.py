@@ -56,10 +56,10 @@ class MachineSample:
 
     Attributes
     ----------
-    weight : of the pairs of the sample, shape (pair,)
-    unmodelled : gives what is beside the modelled sound of an option as given
-    values : by table and field
-    deviation : of the pairs; none for the nominal machine
+    weight : weights of the pairs of the sample, shape (pair,)
+    unmodelled : computes the noise beside the modelled sound of an option with nominal values
+    values : values by table and field
+    deviation : deviations of the pairs; none for the nominal machine
     shared : results that designs of the sample share
     """
 

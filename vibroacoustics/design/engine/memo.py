@@ -34,7 +34,7 @@ class Budget:
 
     Attributes
     ----------
-    most_bytes : of all together
+    most_bytes : memory of all results together, bytes
     """
 
     most_bytes: int = MOST_BYTES
@@ -61,7 +61,7 @@ class Memo(Generic[Result]):
     names : keys of the variables
     study_of : makes the study of a design, its values watched by the keys of the variables
     compute : makes the result of a study
-    budget : of memory, shared with other memos
+    budget : budget of memory, shared with other memos
     unwatched : numbers of variables that count as read
     computed : number of results that were computed
     """

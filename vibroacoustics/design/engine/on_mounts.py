@@ -1,4 +1,4 @@
-"""What is seen of designs whose arrays are known: each moves on its mounts."""
+"""Responses of designs whose arrays are known: each moves on its mounts."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ from .sound_way import RandomResponse, Responses
 Arrays = Mapping[str, ComplexArray]
 ADDED = ("added", "foot_added")
 SOUND = ("load", "shell", "factor", "added")
-"""Arrays by line that the pressure comes of."""
+"""Arrays by line on which the pressure depends."""
 
 
 @dataclass(frozen=True)
@@ -27,10 +27,11 @@ class Lines:
 
     Attributes
     ----------
-    speed_rpm : of the shaft
-    frequency_hz, order : shape (line,); order 0 for tones that are none
+    speed_rpm : speed of the shaft, rpm
+    frequency_hz, order : frequencies, Hz, and orders, shape (line,); order 0 for tones that are
+        none
     responses : pressure per motion and load
-    gains : of a sample; none of the nominal machine
+    gains : gains of a sample; none for the nominal machine
     unmodelled : mean squares of unmodelled noise, shape (pair, receiver, band), Pa²; none where
         nothing depends on it
     """
@@ -47,8 +48,8 @@ class Lines:
         """Number of microphones."""
         return len(self.responses.per_velocity)
 
-    def at(self, rows: IndexArray) -> "Lines":
-        """Some of the lines."""
+    def select(self, rows: IndexArray) -> "Lines":
+        """Return some of the lines."""
         per_velocity, per_load, random = vars(self.responses).values()
         return replace(
             self,
@@ -58,7 +59,7 @@ class Lines:
         )
 
     def row(self, order: int | None) -> IndexArray:
-        """Numbers of the lines of an order, or of all; empty beyond the highest."""
+        """Return the numbers of the lines of an order, or of all; empty beyond the highest."""
         everything = np.arange(self.order.size)
         return everything if order is None else everything[self.order == order]
 
@@ -81,11 +82,11 @@ def lines_of(
     responses: Sequence[Responses],
     beside: Sequence[tuple[Gains | None, Array | None]] | None = None,
 ) -> tuple[Lines, ...]:
-    """Return the lines of each speed on their way to the microphones.
+    """Return the lines of each speed with their responses at the microphones.
 
     Parameters
     ----------
-    speeds_rpm, layouts, responses : by speed
+    speeds_rpm, layouts, responses : speeds, rpm, with their layouts and responses
     beside : gains of a sample and unmodelled noise by speed; none without both
     """
     further = beside or [(None, None)] * len(speeds_rpm)
@@ -130,8 +131,8 @@ def noise_of(lines: Lines, arrays: Arrays) -> tuple[Array, Array]:
 
     Parameters
     ----------
-    lines : of the speed
-    arrays : of the speed: random and load, see `Probe`
+    lines : lines of the speed
+    arrays : arrays of the speed: random and load, see `Probe`
     """
     sources = arrays["load"].shape[2]
     return random_squares(lines.responses.random, arrays["random"], sources, lines.receivers)
@@ -140,28 +141,28 @@ def noise_of(lines: Lines, arrays: Arrays) -> tuple[Array, Array]:
 def seen_of(
     needs: Sequence[Need], lines: Sequence[Lines], by_speed: Sequence[Arrays], body: Arrays, n: int
 ) -> dict[Need, Array]:
-    """What is seen of designs, but for loudness and audibility.
+    """Compute the responses of designs, except loudness and audibility.
 
     Parameters
     ----------
-    needs : what is asked
-    lines : by speed
+    needs : requested responses
+    lines : lines by speed
     by_speed : arrays of each speed, see `Probe`, with the dimension design (or 1) first
     body : arrays of the body, likewise
     n : number of designs
     """
-    seen: dict[Need, Array] = {}
+    results: dict[Need, Array] = {}
     for need in needs:
         if need.what == "natural":
-            seen[need] = _natural_hz(body, by_speed, n)
+            results[need] = _natural_hz(body, by_speed, n)
             continue
         if need in HEARING:
             continue
         parts = [_at_speed(need, *speed, body) for speed in zip(lines, by_speed, strict=True)]
         axis = 2 if need.what == "sound" else 1
         every = [np.broadcast_to(part, (n, *part.shape[1:])) for part in parts]
-        seen[need] = np.stack(every, axis=axis)
-    return seen
+        results[need] = np.stack(every, axis=axis)
+    return results
 
 
 def spectra_of(
@@ -186,7 +187,7 @@ def heard_spectrum(
 
     Parameters
     ----------
-    lines : of the speed
+    lines : lines of the speed
     pressure, noise, thirds : see `WeightedLines.spectrum`
     n : number of designs
     """
@@ -209,7 +210,7 @@ def _natural_hz(body: Arrays, by_speed: Sequence[Arrays], n: int) -> Array:
 
 
 def _at_speed(need: Need, lines: Lines, arrays: Arrays, body: Arrays) -> Array:
-    """At one speed, shape (design or 1, ...)."""
+    """Compute a response at one speed, shape (design or 1, ...)."""
     if need.what == "figure":
         return reported(arrays, need.name)
     if need.what == "sound":
@@ -226,22 +227,22 @@ def _at_speed(need: Need, lines: Lines, arrays: Arrays, body: Arrays) -> Array:
 
 
 def reported(arrays: Arrays, name: str) -> Array:
-    """A reported figure, shape (design or 1,); not a number where there is none of that name."""
+    """Return a reported figure, shape (design or 1,); not a number where none has that name."""
     return arrays[name].real if name in arrays else np.full(1, np.nan)
 
 
 def pressure_by_source(lines: Lines, arrays: Arrays, body: Arrays) -> ComplexArray:
-    """Pressure at the receivers, shape (design or 1, source, receiver, line), complex peak, Pa.
+    """Compute the pressure, shape (design or 1, source, receiver, line), complex peak, Pa.
 
     Parameters
     ----------
-    lines : of one speed
-    arrays : of the speed at these lines: load, shell, factor, added, see `Probe`
+    lines : lines of one speed
+    arrays : arrays of the speed at these lines: load, shell, factor, added, see `Probe`
     body : arrays of the body
     """
     load = arrays["load"]
     count, size, sources, motions = load.shape
-    every = lines.at(np.repeat(np.arange(size), sources))
+    every = lines.select(np.repeat(np.arange(size), sources))
     added = np.repeat(arrays["added"], sources, axis=1) if "added" in arrays else None
     loads = load.reshape(count, size * sources, motions)
     motion = displacement(body, added, loads, every.frequency_hz)
@@ -258,8 +259,8 @@ def through_shell(load: ComplexArray, per_load: ComplexArray) -> ComplexArray:
 
     Parameters
     ----------
-    load : shape (design, line, source, component)
-    per_load : shape (receiver, component, line)
+    load : loads in the shell, shape (design, line, source, component)
+    per_load : pressure per load, Pa/N, shape (receiver, component, line)
     """
     by_line = np.moveaxis(load, 1, 0)
     flat = np.ascontiguousarray(by_line).reshape(len(by_line), -1, load.shape[-1])
@@ -274,5 +275,5 @@ def _mean_square(order: int | None, lines: Lines, arrays: Arrays, body: Arrays) 
     """
     rows, weighted = lines.weighted(order)
     few = {name: arrays[name][:, rows] for name in SOUND if name in arrays}
-    total = pressure_by_source(lines.at(rows), few, body)
+    total = pressure_by_source(lines.select(rows), few, body)
     return weighted.mean_square(total, noise_of(lines, arrays)[0])

@@ -27,45 +27,45 @@ ARRAYS: Final = frozenset({
     "wrench", "load", "shell", "random", "factor",
     "mass", "stiffness", "foot", "added", "foot_added",
 })  # fmt: skip
-"""That every figure may come of; reported figures matter where they are asked for."""
+"""Arrays on which any figure may depend; reported figures matter where they are requested."""
 FILLING: Final = 64
 """Designs that show which bands vary over the space."""
 MOST_GROUPS: Final = 256
 """Sets of values that take runs, of which linear designs are kept."""
 ON_PATH: Final = "changes the path from the loads to the microphones"
 Score = Callable[[Array], Seen]
-"""From the values of a design, shape (variable,), to criteria that are asked for, shape (1,)."""
+"""Function of the values of a design, shape (variable,): requested criteria, shape (1,)."""
 
 
 @dataclass
 class Outcome:
-    """What is seen of designs, and why some have failed.
+    """Responses of designs, and why some have failed.
 
     Attributes
     ----------
-    seen : by need; not a number where a design failed
-    failed : reason by number of the design
+    results : responses by need; not a number where a design failed
+    failed : reason of the failure by number of the design
     """
 
-    seen: dict[Need, Array] = field(default_factory=dict)
+    results: dict[Need, Array] = field(default_factory=dict)
     failed: dict[int, str] = field(default_factory=dict)
 
     def take(self, rows: IndexArray, part: Seen, count: int) -> None:
-        """Take in what is seen of some of so many designs."""
+        """Add the responses of some of so many designs."""
         for need, values in part.items():
-            if need not in self.seen:
-                self.seen[need] = np.full((count, *values.shape[1:]), np.nan)
-            self.seen[need][rows] = values
+            if need not in self.results:
+                self.results[need] = np.full((count, *values.shape[1:]), np.nan)
+            self.results[need][rows] = values
 
     def take_or_fail(self, rows: IndexArray, part: Seen | Exception, count: int) -> None:
-        """Take in what is seen of some of so many designs, or why they failed."""
+        """Add the responses of some of so many designs, or why they failed."""
         if isinstance(part, Exception):
             self.failed |= dict.fromkeys(rows.tolist(), str(part))
         else:
             self.take(rows, part, count)
 
     def hearing(self, needs: Sequence[Need], count: int) -> Hearing:
-        """Return what takes in loudness and audibility of so many designs."""
+        """Return the collector of loudness and audibility of so many designs."""
         return Hearing(needs, lambda rows, part: self.take_or_fail(rows, part, count))
 
 
@@ -77,14 +77,14 @@ class OptionEngine:
     ----------
     explorer : probes of its designs
     contraction : loads, paths and bodies of its designs
-    needs : what is asked
+    needs : requested responses
     linear : numbers of the variables that may be linear
-    idle : of those that say nothing of the option
+    idle : numbers of the variables without effect on the option
     forms : closed forms of the option
-    score : gives the criteria of a design
-    gains : of the sample by speed; none of the nominal machine
-    unmodelled : noise by speed, shape (pair, receiver, band), Pa²; none where not asked for
-    template : products and routes that designs of another sample were found to have
+    score : computes the criteria of a design
+    gains : gains of the sample by speed; none for the nominal machine
+    unmodelled : noise by speed, shape (pair, receiver, band), Pa²; none where not requested
+    template : engine of another sample, whose products and routes hold here too
     """
 
     explorer: Explorer
@@ -104,7 +104,7 @@ class OptionEngine:
 
     @cached_property
     def recognised(self) -> tuple[Terms, tuple[Route, ...]]:
-        """Products in which loads and matrices are linear, and which way each variable goes."""
+        """Products in which loads and matrices are linear, and the route of each variable."""
         if self.template is not None:
             return self.template.recognised
         reason = "takes words, a criterion is asked for, or the search is active"
@@ -156,7 +156,7 @@ class OptionEngine:
         return []
 
     def outcome(self, values: Array) -> Outcome:
-        """What is seen of designs, shape (design, variable)."""
+        """Compute the responses of designs, shape (design, variable)."""
         terms, routes = self.recognised
         of_runs = [number for number, route in enumerate(routes) if not route.linear]
         result, alone = Outcome(), []
@@ -168,7 +168,7 @@ class OptionEngine:
             if linear is None:
                 alone.append(rows)
                 continue
-            for part, figures, spectra in linear.seen(values[rows]):
+            for part, figures, spectra in linear.results(values[rows]):
                 result.take(rows[part], figures, len(values))
                 if spectra:
                     hearing.add(rows[part], spectra)
@@ -248,8 +248,8 @@ class OptionEngine:
         if any(need.what == "criterion" for need in self.needs):
             self._score(different, outcome, failed)
         of_row = same.ravel()
-        if outcome.seen:
-            every = {need: array[of_row] for need, array in outcome.seen.items()}
+        if outcome.results:
+            every = {need: array[of_row] for need, array in outcome.results.items()}
             result.take(rows, every, len(values))
         each = zip(rows.tolist(), of_row.tolist(), strict=True)
         result.failed |= {row: failed[number] for row, number in each if number in failed}
@@ -267,9 +267,9 @@ class OptionEngine:
     def _explain(self, values: Array, result: Outcome) -> None:
         """Reasons of designs that linear algebra has no values of: those of their runs."""
         bad = np.zeros(len(values), dtype=bool)
-        for need, seen in result.seen.items():
+        for need, array in result.results.items():
             if need.what != "figure":
-                bad |= ~np.isfinite(seen).all(axis=tuple(range(1, seen.ndim)))
+                bad |= ~np.isfinite(array).all(axis=tuple(range(1, array.ndim)))
         bad[list(result.failed)] = False
         for row in np.flatnonzero(bad):
             self._each(values, np.array([row]), result)

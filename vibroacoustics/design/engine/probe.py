@@ -33,7 +33,7 @@ class LoadsOfDesign:
 
     Attributes
     ----------
-    layout : where they act, by speed
+    layout : ports, lines and random loads by speed
     by_speed : arrays by name, one mapping a speed; see `Probe`
     """
 
@@ -52,8 +52,8 @@ class Stand:
 
     Attributes
     ----------
-    by_speed : what is added to its stiffness at the lines, by speed; see `Probe`
-    body : its matrices; see `Probe`
+    by_speed : stiffness added to the body at the lines, by speed; see `Probe`
+    body : matrices of the body; see `Probe`
     """
 
     by_speed: tuple[Parts, ...]
@@ -71,7 +71,7 @@ def _bytes_of(groups: Iterable[Parts]) -> int:
 
 @dataclass(frozen=True)
 class Probe:
-    """What a design does at each speed, before its motion is solved.
+    """Loads and body of a design at each speed, before its motion is solved.
 
     Attributes
     ----------
@@ -112,8 +112,8 @@ def probe(study: Study, option: str) -> Probe:
 
     Parameters
     ----------
-    study : with its options `none` and the one asked for
-    option : its name
+    study : study with its options `none` and the requested one
+    option : name of the requested option
 
     Raises
     ------
@@ -131,10 +131,11 @@ def loads_of_design(
 
     Parameters
     ----------
-    study : with the values of a design, its options `none` and the one asked for
-    option : its name
-    sample : values by table and field; none for the nominal machine and all sources together
-    shared : with other designs of the same sample
+    study : study with the values of a design, its options `none` and the requested one
+    option : name of the requested option
+    sample : sampled values by table and field; none for the nominal machine and all sources
+        together
+    shared : results shared with other designs of the same sample
 
     Raises
     ------
@@ -156,7 +157,7 @@ def stand_of_design(
     Parameters
     ----------
     study, option, sample : see `loads_of_design`
-    layout : of the loads, by speed
+    layout : layout of the loads, by speed
 
     Raises
     ------
@@ -239,7 +240,7 @@ def _of_case(
 def _layout(
     lines: Lines, loads: Mapping[str, Loads], highest: int, loss: InsertionLoss, together: bool
 ) -> tuple[Layout, ComplexArray]:
-    """Where loads act, and the densities of random loads, shape (value,)."""
+    """Return the layout of loads, and the densities of random loads, shape (value,)."""
     ports: dict[Port, None] = {}
     for on_ports in lines.loads.values():
         ports |= dict.fromkeys(in_shell(on_ports))
@@ -295,7 +296,7 @@ def _over_frequency(body: MachineOnMounts, frequency_hz: Array) -> dict[str, Com
     isolation, feet = body.isolation, len(body.stand.names)
     size = 6 * len(isolation.bodies)
     viscous = isolation.damping_matrix
-    if all(one.over_frequency is None for one in isolation.bushings) and not viscous.any():
+    if all(mount.over_frequency is None for mount in isolation.bushings) and not viscous.any():
         return {}
     added = 2j * np.pi * frequency_hz[:, None, None] * viscous
     foot = np.zeros((frequency_hz.size, feet, 3, size), dtype=complex)

@@ -1,4 +1,4 @@
-"""Which way each variable goes: by linear algebra where probes show that this is exact."""
+"""Routes of the variables: linear algebra where probes show that this is exact."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ _RANDOM: Final = 20261123
 
 @dataclass(frozen=True)
 class Route:
-    """What is known of a variable.
+    """Route of a variable.
 
     Attributes
     ----------
@@ -46,13 +46,13 @@ class Route:
 
 @dataclass(frozen=True)
 class Explorer:
-    """Looks at designs along one variable after another.
+    """Explorer of designs along one variable after another.
 
     Attributes
     ----------
-    samples : probes
-    limits : of the variables, shape (variable, 2)
-    speeds_rpm : of the study
+    samples : probes of designs, see `Samples`
+    limits : limits of the variables, shape (variable, 2), SI
+    speeds_rpm : speeds of the study, rpm
     wanted : names of the arrays that matter
     has_template : whether the functions are known from another sample, so that fewer designs do
     """
@@ -66,11 +66,11 @@ class Explorer:
     def basis_along(
         self, base: Array, group: tuple[int, ...], forms: Sequence[Basis]
     ) -> tuple[Basis | None, Route]:
-        """The first basis that is exact along the variables of a group, and what is known of them.
+        """Return the first basis that is exact along the variables of a group, and their route.
 
         Parameters
         ----------
-        base : a design, shape (variable,)
+        base : values of a design, shape (variable,)
         group : numbers of variables
         forms : closed forms of all of them; a single variable is tried in simple functions too
         """
@@ -93,7 +93,7 @@ class Explorer:
         return None, Route(False, "is linear in no known functions")
 
     def pairs(self, base: Array, bases: Sequence[Basis]) -> list[tuple[int, int]]:
-        """Numbers of pairs of bases whose effects do not just add."""
+        """Return the numbers of pairs of bases whose effects do not just add."""
         share = np.random.default_rng(_RANDOM).uniform(0.1, 0.9, base.size)
         other = self.limits[:, 0] + share * np.ptp(self.limits, axis=1)
         meeting = []
@@ -102,17 +102,17 @@ class Explorer:
             for number, rows in zip(pair, ([1, 3], [2, 3]), strict=True):
                 columns = list(bases[number].variables)
                 corners[np.ix_(rows, columns)] = other[columns]
-            if any(_do_not_add(part) for one in self.arrays(corners) for part in one.values()):
+            if any(_do_not_add(part) for group in self.arrays(corners) for part in group.values()):
                 meeting.append(pair)
         return meeting
 
     def expansions(self, base: Array, terms: Terms) -> list[Expansion]:
-        """Expansions by speed, last that of the body, tested at random designs.
+        """Compute expansions by speed, last that of the body, tested at random designs.
 
         Parameters
         ----------
-        base : a design whose values of the variables without a basis hold
-        terms : of the variables with one
+        base : values of a design, shape (variable,); those of variables without a basis hold
+        terms : products of the variables with a basis
 
         Raises
         ------
@@ -128,8 +128,8 @@ class Explorer:
         if columns:
             values[:, columns] = spread(self.limits[columns], len(values))
         arrays = self.arrays(values)
-        fit = [{name: part[:-tests] for name, part in one.items()} for one in arrays]
-        test = [{name: part[-tests:] for name, part in one.items()} for one in arrays]
+        fit = [{name: part[:-tests] for name, part in group.items()} for group in arrays]
+        test = [{name: part[-tests:] for name, part in group.items()} for group in arrays]
         expansions = self._fitted(terms, values[:-tests], fit)
         error = self._error(expansions, values[-tests:], test)
         if error > (KNOWN_RELATIVE if self.has_template else RELATIVE):
@@ -137,45 +137,49 @@ class Explorer:
         return expansions
 
     def arrays(self, values: Array) -> list[dict[str, ComplexArray]]:
-        """Arrays that matter of designs, by speed, last those of the body."""
-        every = stacked(self.samples.at(values))
-        return [{n: a for n, a in one.items() if n in self.wanted} for one in every]
+        """Return the wanted arrays of designs, by speed, last those of the body."""
+        groups = stacked(self.samples.probes_of(values))
+        return [
+            {name: array for name, array in group.items() if name in self.wanted}
+            for group in groups
+        ]
 
     def _fitted(
         self, terms: Terms, values: Array, arrays: Sequence[dict[str, ComplexArray]]
     ) -> list[Expansion]:
         speeds = (*self.speeds_rpm, self.speeds_rpm[0])
         return [
-            fitted(terms, *one, arrays=a)
-            for one, a in zip(((s, values) for s in speeds), arrays, strict=True)
+            fitted(terms, speed, values, group) for speed, group in zip(speeds, arrays, strict=True)
         ]
 
     @staticmethod
     def _error(
         expansions: Sequence[Expansion], values: Array, arrays: Sequence[dict[str, ComplexArray]]
     ) -> float:
-        """Largest deviation of any array."""
+        """Return the largest deviation of any array."""
         errors = [
-            deviation(part, np.broadcast_to(given[name], part.shape))
-            for given, one in zip((e.at(values) for e in expansions), arrays, strict=True)
-            for name, part in one.items()
+            deviation(part, np.broadcast_to(computed[name], part.shape))
+            for computed, group in zip(
+                (expansion.arrays_of(values) for expansion in expansions), arrays, strict=True
+            )
+            for name, part in group.items()
         ]
         return max(errors, default=0.0)
 
 
 def fits(terms: Terms, has_template: bool = False) -> int:
-    """Number of designs that a fit is made of."""
+    """Return the number of designs that a fit needs."""
     count = len(terms.products)
     return count + (0 if has_template else count // 2) + 4 if terms.bases else 1
 
 
 def spread(limits: Array, count: int) -> Array:
-    """Designs that fill a box evenly, shape (count, variable), the same at every call.
+    """Return designs that fill a box evenly, shape (count, variable), the same at every call.
 
     Parameters
     ----------
     limits : lowest and highest value, shape (variable, 2)
-    count : of designs
+    count : number of designs
     """
     if not len(limits):
         return np.zeros((count, 0))

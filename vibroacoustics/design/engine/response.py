@@ -106,7 +106,7 @@ def foot_forces(
     Parameters
     ----------
     body : mass, stiffness, foot
-    added : of the lines, `added` and `foot_added`; empty where stiffness is constant
+    added : arrays of the lines, `added` and `foot_added`; empty where stiffness is constant
     wrench : on the bodies, shape (design or 1, motion)
     frequency_hz : shape (line,)
     line : its number, shape (1,)

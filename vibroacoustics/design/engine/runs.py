@@ -19,7 +19,7 @@ from ...study.criterion import CRITERIA
 from ...study.study import Study
 from ..space import Space
 from .seen import Need, Seen
-from .sound_way import SoundWay, Ways
+from .sound_way import SoundPath, SoundPaths
 
 SLOW_S: Final = 0.2
 """A run that takes longer is kept on disk, too."""
@@ -31,16 +31,16 @@ class Scores:
 
     Attributes
     ----------
-    space : of the designs
-    option : of all of them
-    criteria : that are asked for
-    ways : to the microphones
+    space : space of the designs
+    option : option of all designs
+    criteria : requested criteria
+    sound_paths : paths to the microphones
     """
 
     space: Space
     option: str
     criteria: tuple[Need, ...]
-    ways: Ways
+    sound_paths: SoundPaths
     _slow: bool = True
 
     def __call__(self, design: Array) -> Seen:
@@ -53,45 +53,47 @@ class Scores:
         """
         study = self.space.quick_study_of(design)
         key = canonical_json(study.parameters()), self.option
-        seen: Seen = self.ways.criteria(key, partial(self._cached, study))
-        return seen
+        scores: Seen = self.sound_paths.criteria(key, partial(self._cached, study))
+        return scores
 
     def _cached(self, study: Study) -> Seen:
-        """From memory or disk; from the first run on only slow ones are worth a file."""
+        """Return criteria from memory or disk; after the first run only slow ones get a file."""
         if not self._slow:
-            return _scored(study, self.option, self.criteria, self.ways)
-        material = _material(study, self.option, self.criteria, self.ways(study))
+            return _scored(study, self.option, self.criteria, self.sound_paths)
+        material = _material(study, self.option, self.criteria, self.sound_paths(study))
         result, _ = storage.cached("design", material, partial(self._timed, study), study.title)
         self._slow = result.attrs["seconds"] >= SLOW_S
         return {need: result[str(number)].values for number, need in enumerate(self.criteria)}
 
     def _timed(self, study: Study) -> xr.Dataset:
         begin = time.perf_counter()
-        seen = _scored(study, self.option, self.criteria, self.ways)
-        result = _dataset([seen[need] for need in self.criteria])
+        scores = _scored(study, self.option, self.criteria, self.sound_paths)
+        result = _dataset([scores[need] for need in self.criteria])
         result.attrs["seconds"] = time.perf_counter() - begin
         return result
 
 
-def _scored(study: Study, option: str, criteria: Sequence[Need], ways: Ways) -> dict[Need, Array]:
-    """Values of criteria, of a run of the pipeline, shape (1,)."""
+def _scored(
+    study: Study, option: str, criteria: Sequence[Need], sound_paths: SoundPaths
+) -> dict[Need, Array]:
+    """Compute criteria by a run of the pipeline, shape (1,)."""
     operation = study.operation.model_copy(update={"stopping": False, "turning_back": False})
     plain = study.model_copy(update={"ranges": (), "operation": operation})
-    results = run(plain, no_progress, ways.radiation)
+    results = run(plain, no_progress, sound_paths.radiation)
     return {
         need: CRITERIA[need.name]().value(results).sel(option=[option]).values for need in criteria
     }
 
 
-def _material(study: Study, option: str, needs: Sequence[Need], way: SoundWay) -> dict[str, Any]:
-    """Everything that shapes what is seen of a design, as JSON values."""
+def _material(study: Study, option: str, needs: Sequence[Need], path: SoundPath) -> dict[str, Any]:
+    """Return everything on which the criteria of a design depend, as JSON values."""
     settings = study.parameters()
     kept = ("machine", "operation", "options", "sources")
     return {
         **{name: settings[name] for name in kept},
         "option": option,
         "needs": [list(need) for need in needs],
-        "way": [canonical_json(settings["radiation"]), way.content],
+        "way": [canonical_json(settings["radiation"]), path.content],
         "plugins": plugins(),
         "source": _source_hash(),
     }
@@ -104,9 +106,9 @@ def _source_hash() -> str:
     return sha256(b"".join(file.read_bytes() for file in files))
 
 
-def _dataset(seen: Sequence[Array]) -> xr.Dataset:
-    """Arrays by their number, to be stored."""
+def _dataset(arrays: Sequence[Array]) -> xr.Dataset:
+    """Return a dataset of arrays by their number, to be stored."""
     return xr.Dataset({
-        str(number): (tuple(f"{number}_{axis}" for axis in range(one.ndim)), one)
-        for number, one in enumerate(seen)
+        str(number): (tuple(f"{number}_{axis}" for axis in range(array.ndim)), array)
+        for number, array in enumerate(arrays)
     })  # fmt: skip

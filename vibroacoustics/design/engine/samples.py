@@ -10,7 +10,7 @@ from ...base.errors import SolverError
 from .probe import Probe
 
 OneProbe = Callable[[Array], Probe]
-"""Of the values of a design, shape (variable,), to its probe."""
+"""Function of the values of a design, shape (variable,): its probe."""
 
 
 class UnlikeError(SolverError):
@@ -18,14 +18,14 @@ class UnlikeError(SolverError):
 
 
 def different(first: Probe, other: Probe) -> str | None:
-    """In what two probes differ beside their values; none where in nothing."""
-    for one, another in zip(first.layout, other.layout, strict=True):
-        if one.frequency_hz != another.frequency_hz:
+    """Return how two probes differ beside their values; none where they do not."""
+    for speed, other_speed in zip(first.layout, other.layout, strict=True):
+        if speed.frequency_hz != other_speed.frequency_hz:
             return "changes the frequencies of lines"
-        if one != another:
+        if speed != other_speed:
             return "changes the ports or where random loads act"
-    for part, another_part in zip(first.groups(), other.groups(), strict=True):
-        if _shapes(part) != _shapes(another_part):
+    for part, other_part in zip(first.groups(), other.groups(), strict=True):
+        if _shapes(part) != _shapes(other_part):
             return "changes what there is to see"
     return None
 
@@ -35,7 +35,7 @@ def _shapes(arrays: Mapping[str, ComplexArray]) -> dict[str, tuple[int, ...]]:
 
 
 def stacked(probes: Sequence[Probe]) -> list[dict[str, ComplexArray]]:
-    """Arrays of probes by speed, last those of the body, shape (design, ...).
+    """Stack arrays of probes by speed, last those of the body, shape (design, ...).
 
     Raises
     ------
@@ -47,7 +47,9 @@ def stacked(probes: Sequence[Probe]) -> list[dict[str, ComplexArray]]:
         if reason:
             raise UnlikeError(reason)
     groups = zip(*(probe.groups() for probe in probes), strict=True)
-    return [{name: np.array([one[name] for one in group]) for name in group[0]} for group in groups]
+    return [
+        {name: np.array([part[name] for part in group]) for name in group[0]} for group in groups
+    ]
 
 
 @dataclass
@@ -56,14 +58,14 @@ class Samples:
 
     Attributes
     ----------
-    probe : makes one
+    probe : computes the probe of a design
     """
 
     probe: OneProbe
     _known: dict[bytes, Probe] = field(default_factory=dict, repr=False)
 
-    def at(self, values: Array) -> list[Probe]:
-        """Probes of designs, shape (design, variable).
+    def probes_of(self, values: Array) -> list[Probe]:
+        """Return the probes of designs, shape (design, variable).
 
         Raises
         ------

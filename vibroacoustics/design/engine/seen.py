@@ -1,4 +1,4 @@
-"""What is asked of designs, and what is seen of them."""
+"""Responses of designs: requests and arrays."""
 
 from collections.abc import Mapping
 from typing import Final, Literal, NamedTuple
@@ -7,15 +7,15 @@ from ...base.arrays import Array
 
 
 class Need(NamedTuple):
-    """Something that figures are made of.
+    """Response of designs on which figures depend.
 
     Attributes
     ----------
     what : sound (mean square, Pa², by receiver; of an order, or A-weighted of everything), force
         and moment on the machine, foot (force into each), figure (reported), natural (frequencies),
         loudness (sone) and audibility (of tones, dB) by receiver, criterion (of scorings)
-    order : of sound, force, moment and foot; none for all sound
-    name : of the reported figure or the criterion
+    order : order of sound, force, moment and foot; none for all sound
+    name : name of the reported figure or the criterion
 
     Examples
     --------
@@ -32,10 +32,11 @@ class Need(NamedTuple):
 
 
 PAIRED: Final = ("sound", "loudness", "audibility")
-"""What an engine gives of each pair of a discrepancy and an unmodelled level."""
+"""Responses that an engine gives for each pair of a discrepancy and an unmodelled level."""
 Seen = Mapping[Need, Array]
-"""By need, (design, speed, ...): receivers of sound, feet; of `natural` (design, mode), Hz.
+"""Responses by need, (design, speed, ...): receivers of sound, feet; (design, mode), Hz, of
+`natural`.
 
-An engine gives what is `PAIRED` as (design, pair, speed, receiver); a figure sees each pair as a
-design.
+An engine gives those of `PAIRED` as (design, pair, speed, receiver); a figure takes each pair as
+a design.
 """

@@ -1,4 +1,4 @@
-"""The way from motion and loads to the microphones, made by the pipeline's stages."""
+"""Paths from motion and loads to the microphones, made by the pipeline's stages."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -55,9 +55,9 @@ class Responses:
 
     Attributes
     ----------
-    per_velocity : of the rigid motions, shape (receiver, 6, line), Pa s/m
-    per_load : on the ports in the shell, shape (receiver, component, line), Pa/N
-    random : of random loads
+    per_velocity : pressure per velocity of the rigid motions, shape (receiver, 6, line), Pa s/m
+    per_load : pressure per load on the ports in the shell, (receiver, component, line), Pa/N
+    random : responses to random loads
     """
 
     per_velocity: ComplexArray
@@ -66,14 +66,14 @@ class Responses:
 
 
 @dataclass(frozen=True)
-class SoundWay:
-    """What turns velocity and loads into pressure.
+class SoundPath:
+    """Path from velocity and loads to pressure.
 
     Attributes
     ----------
     content : hash of the transfer vectors
     transmission : microphones, and the elastic shell where a source drives it
-    highest_hz : of the transfer vectors; higher lines are silent
+    highest_hz : highest frequency of the transfer vectors, Hz; higher lines are silent
     """
 
     content: str
@@ -85,7 +85,8 @@ class SoundWay:
 
         Parameters
         ----------
-        machine : with the values of a design, and with bodies of an option where these are loaded
+        machine : machine with the values of a design, and with bodies of an option where loads
+            act on these
 
         Raises
         ------
@@ -102,12 +103,12 @@ class PathOfDesign:
 
     Attributes
     ----------
-    way : from motion to the microphones
-    machine : with the values of the design
+    sound_path : path from motion to the microphones
+    machine : machine with the values of the design
     shell : elastic shell; none where it is rigid
     """
 
-    way: SoundWay
+    sound_path: SoundPath
     machine: Machine
     shell: BendingShell | None
     _known: dict[tuple[Port, ...], dict[float, ComplexArray]] = field(
@@ -139,8 +140,8 @@ class PathOfDesign:
         return tuple(self._of_speed(shell, layout) for layout in layouts)
 
     def _of_speed(self, shell: BendingShell | None, layout: Layout) -> Responses:
-        hertz, rigid = layout.hertz, self.way.transmission.microphones.rigid
-        per_velocity = rigid(np.minimum(hertz, self.way.highest_hz))
+        hertz, rigid = layout.hertz, self.sound_path.transmission.microphones.rigid
+        per_velocity = rigid(np.minimum(hertz, self.sound_path.highest_hz))
         per_load: ComplexArray = np.zeros((len(per_velocity), 0, hertz.size), dtype=complex)
         if layout.ports:
             per_load = self._per_load(shell, layout.ports, layout.frequency_hz)
@@ -171,7 +172,7 @@ class PathOfDesign:
     def _computed(
         self, shell: BendingShell | None, ports: tuple[Port, ...], hertz: Array
     ) -> ComplexArray:
-        observers, lines = self.way.transmission.microphones, np.arange(hertz.size)
+        observers, lines = self.sound_path.transmission.microphones, np.arange(hertz.size)
         if shell is None or any(isinstance(port, BodyPort) for port in ports):
             return LoadPath(on_mounts(self.machine), shell).response(observers, ports, hertz)
         each = [shell.response(observers, port, hertz, lines) for port in ports]
@@ -179,23 +180,23 @@ class PathOfDesign:
 
 
 @dataclass
-class Ways:
-    """Ways of the designs, each made once for all designs that share it.
+class SoundPaths:
+    """SoundPaths of the designs, each made once for all designs that share it.
 
     Attributes
     ----------
-    radiation : gives the transfer vectors
+    radiation : computes the transfer vectors
     criteria : values of criteria by design, which all samples of the machine share
-    budget : memory of what is kept of designs of all samples
+    budget : memory of the results of designs of all samples
     """
 
     radiation: Radiation
     criteria: Shared = field(default_factory=Shared, repr=False)
     budget: Budget = field(default_factory=Budget, repr=False)
-    _known: dict[str, SoundWay] = field(default_factory=dict, repr=False)
+    _known: dict[str, SoundPath] = field(default_factory=dict, repr=False)
 
-    def __call__(self, study: Study) -> SoundWay:
-        """Return the way of a study; those of designs differ in shell and modes alone."""
+    def __call__(self, study: Study) -> SoundPath:
+        """Return the path of a study; those of designs differ in shell and modes alone."""
         machine = study.machine
         material: list[object] = [machine.shell.model_dump(mode="json")]
         if machine.has_table(ShellStructure):
@@ -209,13 +210,13 @@ class Ways:
             self._known[key] = self._made(study)
         return self._known[key]
 
-    def _made(self, study: Study) -> SoundWay:
+    def _made(self, study: Study) -> SoundPath:
         path = shell_path(study)
         motions = () if path is None else path.modes
         radiated, _ = self.radiation(study, no_progress, motions)
         vectors = radiated["transfer_vector"]
         modes = None if path is None else pressure_per_shell_velocity(radiated)
-        return SoundWay(
+        return SoundPath(
             sha256(b"".join(v.values.tobytes() for n, v in radiated.items() if n in _VECTORS)),
             Transmission(study, Observers(pressure_per_velocity(vectors), modes), path),
             float(vectors["frequency"].max()),

@@ -18,9 +18,9 @@ class Basis:
 
     Attributes
     ----------
-    name : in words
-    variables : their numbers
-    functions : of the values of all variables
+    name : description in words
+    variables : numbers of the variables
+    functions : functions of the values of these variables
     size : number of functions
     by_speed : whether they differ from speed to speed
     """
@@ -31,13 +31,13 @@ class Basis:
     size: int
     by_speed: bool = False
 
-    def at(self, values: Array, speed_rpm: float) -> Array:
-        """Functions of designs, shape (design, function)."""
+    def evaluate(self, values: Array, speed_rpm: float) -> Array:
+        """Evaluate the functions of designs, shape (design, function)."""
         return self.functions(values[:, self.variables], speed_rpm)
 
 
 def bases_of(variable: int, low: float, high: float) -> list[Basis]:
-    """Bases of one variable, in the order in which they are tried."""
+    """Return bases of one variable, in the order in which they are tried."""
 
     def unit(values: Array) -> Array:
         return (2.0 * values[:, 0] - low - high) / (high - low)
@@ -88,15 +88,15 @@ class Terms:
         """Whether functions differ from speed to speed."""
         return any(basis.by_speed for basis in self.bases)
 
-    def at(self, values: Array, speed_rpm: float) -> Array:
-        """Products of designs, shape (design, product).
+    def evaluate(self, values: Array, speed_rpm: float) -> Array:
+        """Evaluate the products of designs, shape (design, product).
 
         Parameters
         ----------
-        values : shape (design, variable)
-        speed_rpm : of the closed forms among the functions
+        values : values of the designs, shape (design, variable), SI
+        speed_rpm : speed of the closed forms among the functions, rpm
         """
-        functions = [basis.at(values, speed_rpm) for basis in self.bases]
+        functions = [basis.evaluate(values, speed_rpm) for basis in self.bases]
         columns = np.ones((len(self.products), len(values)))
         row = {term: number for number, term in enumerate(self.products)}
         for number, term in enumerate(self.products[1:], 1):
@@ -106,7 +106,7 @@ class Terms:
 
 
 def products_of(bases: Sequence[Basis], meets: Iterable[tuple[int, int]]) -> tuple[Product, ...]:
-    """All products of functions of bases that meet one another, by number of factors.
+    """Return all products of functions of bases that meet one another, by number of factors.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def products_of(bases: Sequence[Basis], meets: Iterable[tuple[int, int]]) -> tup
             (*group, other)
             for group in longest
             for other in range(group[-1] + 1 if group else 0, len(bases))
-            if all((one, other) in pairs for one in group)
+            if all((number, other) in pairs for number in group)
         ]
         groups += longest
     return tuple(

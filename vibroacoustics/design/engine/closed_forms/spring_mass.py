@@ -43,7 +43,7 @@ class OfSpringMass(ClosedForm):
 
 @register
 class OfSpringMassPrinted(OfSpringMass):
-    """The same with the mass as printed."""
+    """Spring and mass with the mass as printed."""
 
     kind: ClassVar[str] = "spring-mass-printed"
     mass: ClassVar = staticmethod(printed_mass)
