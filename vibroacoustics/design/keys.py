@@ -17,8 +17,8 @@ def acts_on(key: str, option: str) -> bool:
 
 def check_key(key: str, options: Sequence[str], where: str) -> None:
     """Refuse a key of no value of the machine, of a source or of an option of the designs."""
-    first, _, rest = key.partition(".")
-    if first in ("machine", "sources") and rest:
+    first, _, subkey = key.partition(".")
+    if first in ("machine", "sources") and subkey:
         return
     names = dict.fromkeys(name for option in options for name in (option, *joined_names(option)))
     if first == "options" and any(key.startswith(f"options.{name}.") for name in names):

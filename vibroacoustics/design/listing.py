@@ -18,7 +18,7 @@ class Listing:
 
     Attributes
     ----------
-    count : of designs
+    count : number of designs
     designs : gives the designs of some numbers, shape (design, variable), SI
     ordered : gives the numbers at some positions of the order in which designs are evaluated
     """

@@ -27,7 +27,7 @@ OBJECTIVES: Final = {
     "foot_force_n": {"figure": "foot_force_n"},
     "added_mass_kg": {"figure": "added_mass_kg"},
 }
-"""Of a study that names none."""
+"""Objectives of a study that names none."""
 
 
 def sweep(
@@ -83,9 +83,9 @@ class Prepared(NamedTuple):
 
     Attributes
     ----------
-    problem : of the study
+    problem : problem of the study
     listing : its designs
-    plan : what it will take
+    plan : expected time, memory and disk space
     """
 
     problem: Problem
@@ -98,7 +98,7 @@ def prepare(problem: Problem, longest_s: float = LONGEST_S, workers: int = 1) ->
 
     Parameters
     ----------
-    problem : of the study
+    problem : problem of the study
     longest_s : longest time that the sweep may take
     workers : processes that evaluate
 
@@ -185,8 +185,8 @@ def with_variables(study: Study, variables: Mapping[str, Any]) -> Study:
     ParameterError
         No variable is of an option, and the study has no table that names one.
     """
-    tables = {key: given if isinstance(given, Mapping) else {"list": list(given)}
-              for key, given in variables.items()}  # fmt: skip
+    tables = {key: entry if isinstance(entry, Mapping) else {"list": list(entry)}
+              for key, entry in variables.items()}  # fmt: skip
     if study.design is not None:
         return study.replace({"design.variables": None}).replace({"design.variables": tables})
     option = _options_of(list(tables), study)
@@ -205,7 +205,7 @@ def _options_of(keys: Sequence[str], study: Study) -> list[str]:
 
 
 def _routes(problem: Problem) -> dict[str, dict[str, str]]:
-    """How each variable was computed, by option."""
+    """Return the route of each variable, by option."""
     return {
         option: {
             key: ("linear: " if route.linear else "runs: ") + route.reason

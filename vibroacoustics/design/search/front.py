@@ -32,7 +32,7 @@ def search_front(
     problem : with two objectives or more
     population : designs a generation
     generations : with the first
-    seed : of the random numbers; the same seed asks for the same designs
+    seed : seed of the random numbers; the same seed asks for the same designs
     progress : called with the generations done
 
     Raises

@@ -12,7 +12,7 @@ from ..evaluation import Evaluate, Evaluation, joined
 
 @dataclass(frozen=True)
 class SearchProblem:
-    """What a search needs to know.
+    """Problem of a search: bounds, integers and evaluation.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Searched:
     Attributes
     ----------
     designs : shape (design, variable)
-    evaluation : of each
+    evaluation : evaluation of each design
     generation : in which each was evaluated, from 0, shape (design,)
     """
 

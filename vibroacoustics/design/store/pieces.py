@@ -39,7 +39,7 @@ class PieceStore:
 
     Parameters
     ----------
-    folder : of the files
+    folder : folder of the files
     clock : gives the time, s
     """
 
@@ -154,8 +154,8 @@ def opened_store(path: Path, plan: dict[str, object]) -> Iterator[PieceStore]:
 
     Parameters
     ----------
-    path : of the folder, in that of the results; both are made where they are missing
-    plan : what shapes the designs and their evaluation, as JSON values
+    path : path of the folder, in that of the results; both are made where they are missing
+    plan : inputs that shape the designs and their evaluation, as JSON values
 
     Raises
     ------

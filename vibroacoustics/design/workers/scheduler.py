@@ -71,7 +71,7 @@ def opened_scheduler(access: SchedulerAccess, required: bytes) -> Iterator[Paral
     Parameters
     ----------
     access : to the scheduler
-    required : what workers must have, from `requirement`
+    required : requirement of the workers, from `requirement`
 
     Raises
     ------

@@ -29,10 +29,10 @@ def spread(
 
     Parameters
     ----------
-    parallel_map : of the workers
+    parallel_map : map of the workers
     builder : function of a module that the workers have, which makes the evaluation
     task : JSON for the builder
-    counts : of objectives and of constraints, for designs that no worker survives
+    counts : number of objectives and of constraints, for designs that no worker survives
     """
 
     def lost(designs: Array, reason: str) -> Evaluation:

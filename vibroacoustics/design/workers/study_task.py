@@ -26,9 +26,10 @@ _MAXIMUM_BYTES = 10_000_000
 
 
 def study_plan(study: Study, plugins: Sequence[Path]) -> dict[str, object]:
-    """What shapes designs and their values: a store that holds those of another plan is refused.
+    """Return the inputs that shape designs and their values.
 
-    A longer search of the same space goes on where a shorter one ended.
+    A store that holds designs of another plan is refused. A longer search of the same space goes
+    on where a shorter one ended.
     """
     parameters = study.parameters()
     for name in ("generations", "best", "fresh_samples", "runs", "repeats", "least_gain"):
@@ -36,7 +37,7 @@ def study_plan(study: Study, plugins: Sequence[Path]) -> dict[str, object]:
     return {
         "parameters": sha256(canonical_json(parameters).encode()),
         "version": software_version(),
-        "plugins": [_hash_of(one) for one in plugins],
+        "plugins": [_hash_of(path) for path in plugins],
     }
 
 
@@ -78,7 +79,7 @@ def study_task(path: Path, study: Study, plugins: Sequence[Path]) -> bytes:
 
     Parameters
     ----------
-    path : of the study's file, which the workers can read too
+    path : path of the study's file, which the workers can read too
     study : that was read from it
     plugins : files that were loaded before
     """
