@@ -89,7 +89,7 @@ class Plan:
 
     Attributes
     ----------
-    study : to be moved
+    study : study whose values are moved
     speed_rpm : speed of all figures, the nearest to that of the published level
     before : figures with the template's values, by option and microphone
     moves : one a run
@@ -111,8 +111,8 @@ def planned(study: Study, radiation: Radiation = transfer_vectors) -> Plan:
 
     Parameters
     ----------
-    study : from `load_study` or `coarse`
-    radiation : gives the transfer vectors
+    study : study from `load_study` or `coarse`
+    radiation : function that gives the transfer vectors
 
     Raises
     ------
@@ -145,9 +145,9 @@ def ranked(
 
     Parameters
     ----------
-    plan : from `planned`
-    progress : called with the advance
-    radiation : gives the transfer vectors
+    plan : plan from `planned`
+    progress : function called with the advance
+    radiation : function that gives the transfer vectors
     """
     study, task = plan.study, "values of the example"
 

@@ -29,9 +29,9 @@ def explained(
 
     Parameters
     ----------
-    problem : that was searched
+    problem : problem that was searched
     searched : designs with their evaluation
-    evaluate : takes further designs
+    evaluate : function that takes further designs
     attributes : attributes of the dataset, in place of those of a search
 
     Raises
@@ -85,7 +85,7 @@ def best_by_one(designs: Array, limits: Array, objective: Array, count: int) -> 
     limits : limits of the variables, shape (variable, 2)
     objective : objective of each design, less is better, shape (design,); infinite for designs
         that do not count
-    count : at most
+    count : largest number of designs
     """
     chosen: list[int] = []
     remaining = np.isfinite(objective)
@@ -117,7 +117,7 @@ def best_of_front(objectives: Array, count: int) -> IndexArray:
     Parameters
     ----------
     objectives : objectives of the front, shape (design, objective)
-    count : at most
+    count : largest number of designs
     """
     low = objectives.min(axis=0)
     span = np.maximum(np.ptp(objectives, axis=0), np.finfo(float).tiny)

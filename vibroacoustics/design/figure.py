@@ -19,8 +19,8 @@ class Setting:
     ----------
     wanted : entry of the study's table
     speeds_rpm : speeds of the study, shape (speed,)
-    unmodelled : gives the mean square beside the modelled sound, shape (design or 1, speed,
-        receiver), Pa²
+    unmodelled : function that gives the mean square beside the modelled sound, shape
+        (design or 1, speed, receiver), Pa²
     """
 
     wanted: Wanted

@@ -19,8 +19,8 @@ class Listing:
     Attributes
     ----------
     count : number of designs
-    designs : gives the designs of some numbers, shape (design, variable), SI
-    ordered : gives the numbers at some positions of the order in which designs are evaluated
+    designs : function that gives the designs of some numbers, shape (design, variable), SI
+    ordered : function that gives the numbers at some positions of the order of evaluation
     """
 
     count: int

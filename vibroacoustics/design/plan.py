@@ -53,8 +53,8 @@ class Plan:
     ----------
     designs, pieces : number of them; a piece is a design with a sample of its tolerances
     speeds : number of them
-    seconds : expected
-    memory_bytes : expected at the peak, in this process
+    seconds : expected time, s
+    memory_bytes : expected peak of memory in this process
     disk_bytes : size of all files
     runs : variables of which every value takes runs of the pipeline's stages, with the reason
     """

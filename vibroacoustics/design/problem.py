@@ -47,7 +47,8 @@ class Judged:
     values : value of every objective and constraint in its unit, shape (design, wanted),
         objectives first; not a number where a design failed
     objectives : objectives with signs, less is always better, shape (design, objective)
-    constraints : at most zero where a design keeps to them, in their units, (design, constraint)
+    constraints : excess of each constraint in its unit, at most zero where a design meets it, shape
+        (design, constraint)
     failed : reason by number of the design
     """
 
@@ -63,7 +64,7 @@ class Compared(NamedTuple):
     Attributes
     ----------
     responses : responses of its pieces and pairs
-    setting : gives the settings of a figure
+    setting : function that gives the settings of a figure
     changes : reference values of changes, by figure; none of figures that are no change
     """
 
@@ -77,8 +78,8 @@ class Problem:
 
     Parameters
     ----------
-    study : with the table
-    radiation : gives the transfer vectors; the package's where it is not given
+    study : study with the table `design`
+    radiation : function that gives the transfer vectors; the package's where it is not given
 
     Raises
     ------

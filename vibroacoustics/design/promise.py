@@ -26,7 +26,7 @@ class Promise:
     low, high : ends of the 80 % interval over samples of the machine and pieces; of a nominal
         machine 95 % limits of the promised value, from the number of pieces alone
     samples : number of samples
-    is_sampled : whether they are of the machine too
+    is_sampled : whether the samples are of the machine too
     """
 
     meant: Array

@@ -98,9 +98,9 @@ def with_total_change(
     Parameters
     ----------
     dataset : dataset of the search
-    problem : that was searched
-    designs : that meet the constraints, shape (design, variable), SI
-    changes : changes of the totals by these designs; see `total_changes`
+    problem : problem that was searched
+    designs : designs that meet the constraints, shape (design, variable), SI
+    changes : changes of each total by these designs, dB, see `total_changes`
     """
     totals = all(wanted.figure in TOTALS for wanted in problem.design.objectives.values())
     return dataset.assign_attrs(
@@ -144,7 +144,7 @@ def with_shares(
     Parameters
     ----------
     dataset : dataset of the search
-    problem : that was searched
+    problem : problem that was searched
     designs : shape (design, variable), SI
     evaluation : evaluation of these designs
     """

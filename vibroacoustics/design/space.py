@@ -31,10 +31,10 @@ class Space:
 
     Attributes
     ----------
-    study : with the options that designs choose among, and `none`
+    study : study with the options that designs choose among, and `none`
     options : their names
-    variables : in the order of the columns of designs; the choice among options first, where
-        there is one
+    variables : variables in the order of the columns of designs; first the choice among options,
+        where there is one
     """
 
     study: Study
@@ -120,7 +120,7 @@ class Space:
         return self._with_its_option(self.study.replace(self.written(design)), design)
 
     def quick_study_of(self, design: Array) -> Study:
-        """Return the study of a design, from no file where the values are plain numbers.
+        """Return the study of a design, without reading files where values are plain numbers.
 
         Raises
         ------

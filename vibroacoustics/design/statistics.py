@@ -19,7 +19,7 @@ def statistic_of(values: Array, axis: int, statistic: Statistic, more_is_better:
     Parameters
     ----------
     values : any shape
-    axis : that is taken away
+    axis : axis that is reduced
     statistic : worst, mean or a share
     more_is_better : whether the smallest value is the worst
     """

@@ -42,11 +42,12 @@ def sweep(
 
     Parameters
     ----------
-    study : with a table `design`, or any with `variables`
-    variables : in place of those of the table: by dotted key with its unit, a list of values, or a
-        table as in a file
-    progress : called with the advance
-    radiation : gives the transfer vectors: the package's, measured ones or a second method's
+    study : study with a table `design`, or any with `variables`
+    variables : variables in place of those of the table: by dotted key with its unit, a list of
+        values, or a table as in a file
+    progress : function called with the advance
+    radiation : function that gives the transfer vectors: the package's, measured ones or a second
+        method's
     longest_s : a sweep that takes longer is refused before it starts
 
     Returns
@@ -119,9 +120,9 @@ def swept(
 
     Parameters
     ----------
-    prepared : from `prepare`
-    progress : called with the advance
-    stream : evaluates pieces: from a store, or by workers; this process where none is given
+    prepared : prepared sweep from `prepare`
+    progress : function called with the advance
+    stream : function that evaluates pieces: from a store, or by workers; default: this process
     """
     problem, listing, _ = prepared
     values, waiting = SweepValues(problem, listing), deque[IndexArray]()

@@ -25,7 +25,7 @@ class SweepValues:
 
     Parameters
     ----------
-    problem : that is swept
+    problem : problem that is swept
     listing : its designs
     """
 

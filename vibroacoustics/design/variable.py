@@ -19,7 +19,7 @@ class Variable:
     ----------
     key : dotted, with the unit of the file; `option` for the choice among options
     unit : symbol of that unit
-    factor : from that unit to SI
+    factor : factor from that unit to SI
     limits : lowest and highest value in SI; numbers of the words where it takes words
     choices : values in SI that it may take, or words; none for any value between the limits
     points : number of points of a grid; none where it takes some values only, or none are given

@@ -171,12 +171,12 @@ def search_active(
 
     Parameters
     ----------
-    problem : whose `evaluate` takes designs with a further column, the number of the run
-    runs : at most
+    problem : problem whose `evaluate` takes designs with a further column, the number of the run
+    runs : largest number of runs
     repeats : runs of the best design at the end, with starts that the search has not seen
     least_gain : expected gain of one run more, in the unit of the objective, below which it ends
     seed : seed of the random numbers; the same seed asks for the same designs
-    progress : called with the runs done
+    progress : function called with the runs done
 
     Raises
     ------

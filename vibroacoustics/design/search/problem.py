@@ -18,7 +18,7 @@ class SearchProblem:
     ----------
     lower, upper : bounds of the variables, shape (variable,)
     integer : variables that take whole numbers only (choices by their number), shape (variable,)
-    evaluate : evaluates a batch of designs
+    evaluate : function that evaluates a batch of designs
     """
 
     lower: Array
@@ -45,7 +45,7 @@ class Searched:
     ----------
     designs : shape (design, variable)
     evaluation : evaluation of each design
-    generation : in which each was evaluated, from 0, shape (design,)
+    generation : generation in which each was evaluated, from 0, shape (design,)
     """
 
     designs: Array

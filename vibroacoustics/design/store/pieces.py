@@ -40,7 +40,7 @@ class PieceStore:
     Parameters
     ----------
     folder : folder of the files
-    clock : gives the time, s
+    clock : function that gives the time, s
     """
 
     def __init__(self, folder: Folder, clock: Callable[[], float] = time.monotonic) -> None:
@@ -197,8 +197,8 @@ def stored(stream: Stream, store: PieceStore) -> Stream:
 
     Parameters
     ----------
-    stream : evaluates pieces that the store does not hold
-    store : keeps them
+    stream : function that evaluates pieces that the store does not hold
+    store : store of evaluated pieces
     """
 
     def each(pieces: Iterable[Array]) -> Iterator[Evaluation]:

@@ -70,7 +70,7 @@ def opened_scheduler(access: SchedulerAccess, required: bytes) -> Iterator[Paral
 
     Parameters
     ----------
-    access : to the scheduler
+    access : access to the scheduler
     required : requirement of the workers, from `requirement`
 
     Raises

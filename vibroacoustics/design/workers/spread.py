@@ -49,7 +49,7 @@ def evaluate_piece(builder: Builder, task: bytes, designs: Array) -> Evaluation:
     ----------
     builder : makes the evaluation of the task, once a process
     task : JSON for the builder
-    designs : in SI, shape (design, variable)
+    designs : shape (design, variable), SI
     """
     with one_thread_of_linear_algebra():
         return _built(builder, task)(designs)

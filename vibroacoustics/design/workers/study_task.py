@@ -80,15 +80,15 @@ def study_task(path: Path, study: Study, plugins: Sequence[Path]) -> bytes:
     Parameters
     ----------
     path : path of the study's file, which the workers can read too
-    study : that was read from it
+    study : study that was read from it
     plugins : files that were loaded before
     """
-    said = {
+    content = {
         "study": str(path.resolve()),
         "parameters": study_hash(study),
         "requirement": requirement(plugins).decode(),
     }
-    return canonical_json(said).encode()
+    return canonical_json(content).encode()
 
 
 def evaluate_task(task: bytes, radiation: Radiation = transfer_vectors) -> Evaluate:
@@ -96,20 +96,20 @@ def evaluate_task(task: bytes, radiation: Radiation = transfer_vectors) -> Evalu
 
     Parameters
     ----------
-    task : from `study_task`
-    radiation : gives the transfer vectors
+    task : task from `study_task`
+    radiation : function that gives the transfer vectors
 
     Raises
     ------
     ParameterError
         A file is missing there, or is another one.
     """
-    said = json.loads(task)
-    meet(said["requirement"].encode())
-    study = load_study(said["study"])
-    if study_hash(study) != said["parameters"]:
+    content = json.loads(task)
+    meet(content["requirement"].encode())
+    study = load_study(content["study"])
+    if study_hash(study) != content["parameters"]:
         here = f"worker on {socket.gethostname()}"
-        raise ParameterError(f"{here}: {said['study']}: is another study there")
+        raise ParameterError(f"{here}: {content['study']}: is another study there")
     return evaluating(Problem(study, radiation))
 
 
