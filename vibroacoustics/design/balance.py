@@ -73,14 +73,14 @@ def balance(
 
     Parameters
     ----------
-    study : with the option, a counterweight or a combination that joins some
+    study : study with the option, a counterweight or a combination that joins some
     option : name of the option
     figure : `force_n` or `moment_nm` of the moving parts, `foot_force_n` of all feet, or
         `pressure_pa` at all microphones
     speeds : `worst` makes the largest sum of squares of a speed least, `all` the sum over speeds
     holes : number of evenly spaced bolt holes, the first at the angle of the option, and the
         masses in kg that fit there, by name of each counterweight; any mass and angle without it
-    radiation : gives the transfer vectors
+    radiation : function that gives the transfer vectors
 
     Raises
     ------
@@ -151,21 +151,21 @@ def _positions(
 
 
 def _influence(
-    study: Study, option: str, weights: Mapping[str, Counterweight], figure: str, ways: Ways
+    study: Study, option: str, weights: Mapping[str, Counterweight], figure: str, paths: Ways
 ) -> tuple[ComplexArray, ComplexArray]:
     """Response without the counterweights, and per moment of each; see `sums_of_squares`."""
-    as_given = _response(study, option, {}, figure, ways)
+    as_given = _response(study, option, {}, figure, paths)
     parts = []
     for name, weight in weights.items():
         turned = weight.model_copy(update={"angle_rad": weight.angle_rad + pi})
-        parts.append(0.5 * (as_given - _response(study, option, {name: turned}, figure, ways)))
+        parts.append(0.5 * (as_given - _response(study, option, {name: turned}, figure, paths)))
     moments = [w.mass_kg * w.radius_m * np.exp(1j * w.angle_rad) for w in weights.values()]
     part = np.stack(parts, axis=-1)
     return as_given - part.sum(axis=-1), np.asarray(part / np.array(moments))
 
 
 def _response(
-    study: Study, option: str, changed: Mapping[str, Option], figure: str, ways: Ways
+    study: Study, option: str, changed: Mapping[str, Option], figure: str, paths: Ways
 ) -> ComplexArray:
     """Response with some counterweights changed, shape (speed, row)."""
     joined = study.options[option]
@@ -176,7 +176,7 @@ def _response(
     with_changed = study.model_copy(update={"options": options})
     made = probe(with_changed, option)
     machine = machine_of_design(with_changed, option, None, with_bodies=True)
-    responses = ways(with_changed).path(machine).responses(made.layout)
+    responses = paths(with_changed).path(machine).responses(made.layout)
     return _at_shaft_frequency(
         made, lines_of(study.operation.speed_rpm, made.layout, responses), figure
     )

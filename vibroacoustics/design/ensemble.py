@@ -49,8 +49,8 @@ class ComparedMachine:
     Attributes
     ----------
     machine : nominal, or a sample
-    engine : of its designs
-    reference : of the machine without an option, with the tolerances of values no design chooses
+    engine : engine of its designs
+    reference : engine without an option, with tolerances of the values that no design chooses
     """
 
     machine: MachineSample
@@ -68,39 +68,39 @@ def compared_machines(
     ParameterError, SolverError
         The study cannot be run.
     """
-    ways, machines = Ways(radiation), _machines(study, pieces.wide.study, radiation)
+    paths, machines = Ways(radiation), _machines(study, pieces.wide.study, radiation)
     compared: list[ComparedMachine] = []
     for machine in machines:
         first = compared[0] if compared else None
         with suppress(*([ParameterError, SolverError] if len(machines) > 1 else [])):
-            compared.append(_compared(pieces, needs, ways, machine, first))
+            compared.append(_compared(pieces, needs, paths, machine, first))
     return compared
 
 
 def _compared(
     pieces: Pieces,
     needs: Sequence[Need],
-    ways: Ways,
+    paths: Ways,
     machine: MachineSample,
     first: ComparedMachine | None,
 ) -> ComparedMachine:
     """Prepare a machine; variables act as they do in the first one."""
     space, bare = pieces.wide, pieces.without_designs
-    gains = _gains(bare, ways, machine)
+    gains = _gains(bare, paths, machine)
     of_designs, of_reference = (None, None) if first is None else (first.engine, first.reference)
     return ComparedMachine(
         machine,
-        Engine(space, pieces.limits, needs, ways, machine, gains, of_designs),
-        Engine(bare, pieces.limits_without_designs, needs, ways, machine, gains, of_reference),
+        Engine(space, pieces.limits, needs, paths, machine, gains, of_designs),
+        Engine(bare, pieces.limits_without_designs, needs, paths, machine, gains, of_reference),
     )
 
 
-def _gains(space: Space, ways: Ways, machine: MachineSample) -> tuple[Gains | None, ...]:
+def _gains(space: Space, paths: Ways, machine: MachineSample) -> tuple[Gains | None, ...]:
     """Discrepancies by speed, with the energy of the machine without an option."""
     study = space.study
     if machine.deviation is None:
         return (None,) * len(study.operation.speed_rpm)
-    of_reference = Contraction(space, REFERENCE_OPTION, ways, machine)
+    of_reference = Contraction(space, REFERENCE_OPTION, paths, machine)
     present = np.array([present_value(study, key) for key in space.names])
     probe = of_reference.probe(present)
     responses = of_reference.paths(probe.layout)(present).responses(probe.layout)
@@ -165,7 +165,7 @@ def _unmodelled(
 
 
 def unmodelled_of(study: Study, radiation: Radiation) -> Callable[[str], Unmodelled]:
-    """Return what gives the noise beside the modelled sound of an option as given.
+    """Return what gives the noise beside the modelled sound of an option of the nominal machine.
 
     It has one pair. The study is run at the first call.
 
@@ -181,9 +181,9 @@ def unmodelled_of(study: Study, radiation: Radiation) -> Callable[[str], Unmodel
         nominal = study.model_copy(update={"ranges": (), "operation": operation})
         results = run(nominal, no_progress, radiation)
         modelled = results["level_modelled"].sel(weighting="A")
-        left = power_of_level(results["level_total"]) - power_of_level(modelled)
+        residual = power_of_level(results["level_total"]) - power_of_level(modelled)
         dims = ("option", "speed", "receiver")
-        squares = REFERENCE_PRESSURE_PA**2 * left.transpose(*dims).values
+        squares = REFERENCE_PRESSURE_PA**2 * residual.transpose(*dims).values
         level_db = results["unmodelled_band_level"].transpose(*dims, "noise_band").values
         parts = zip(np.maximum(squares, 0.0)[:, None], band_square(level_db)[:, None], strict=True)
         options = results["option"].values.tolist()
