@@ -28,9 +28,9 @@ def actively_searched(problem: Problem, evaluate: Evaluate, progress: Progress) 
 
     Parameters
     ----------
-    problem : with one objective
-    evaluate : takes designs in SI with a further column, the number of the run
-    progress : called with the runs done
+    problem : problem with one objective
+    evaluate : function that takes designs in SI with a further column, the number of the run
+    progress : function called with the runs done
 
     Raises
     ------
@@ -71,7 +71,7 @@ def promise_of_runs(values: Array) -> Promise:
 
     Parameters
     ----------
-    values : in their units, shape (run, wanted); the first run is the one without scatter
+    values : wanted values in their units, shape (run, wanted); the first run has no scatter
     """
     nominal, repeated = values[0], values[1:]
     count = len(repeated)

@@ -73,14 +73,14 @@ def balance(
 
     Parameters
     ----------
-    study : with the option, a counterweight or a combination that joins some
+    study : study with the option, a counterweight or a combination that joins some
     option : name of the option
     figure : `force_n` or `moment_nm` of the moving parts, `foot_force_n` of all feet, or
         `pressure_pa` at all microphones
     speeds : `worst` makes the largest sum of squares of a speed least, `all` the sum over speeds
     holes : number of evenly spaced bolt holes, the first at the angle of the option, and the
         masses in kg that fit there, by name of each counterweight; any mass and angle without it
-    radiation : gives the transfer vectors
+    radiation : function that gives the transfer vectors
 
     Raises
     ------

@@ -172,7 +172,7 @@ class _Node(NamedTuple):
     Attributes
     ----------
     bound : least worst speed with these positions
-    numbers : of the positions
+    numbers : number of the position of each weight
     response : turned, with these weights, shape (speed, row)
     sums : sum of squares that no other weight changes, shape (speed,)
     """

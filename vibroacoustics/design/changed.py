@@ -63,10 +63,10 @@ def _put(table: dict[str, Any], keys: list[str], value: Any) -> None:
     table[keys[-1]] = value
 
 
-def _validated(given: BaseModel, fields: Mapping[str, Any]) -> BaseModel:
+def _validated(table: BaseModel, fields: Mapping[str, Any]) -> BaseModel:
     """A table with other values, also in its tables."""
     inner = {
-        name: _validated(getattr(given, name), value) if isinstance(value, dict) else value
+        name: _validated(getattr(table, name), value) if isinstance(value, dict) else value
         for name, value in fields.items()
     }
-    return type(given).model_validate({**dict(iter(given)), **inner})
+    return type(table).model_validate({**dict(iter(table)), **inner})

@@ -17,13 +17,13 @@ class Coding:
 
     Attributes
     ----------
-    variables : of the designs, in the order of the columns
+    variables : design variables in the order of the columns
     """
 
     variables: Sequence[Variable]
 
     def problem(self, evaluate: Evaluate) -> SearchProblem:
-        """What a search needs to know; `evaluate` takes designs in SI."""
+        """Return the problem of a search; `evaluate` takes designs in SI."""
         ends = [
             variable.limits if variable.values is None else (0.0, variable.values.size - 1.0)
             for variable in self.variables

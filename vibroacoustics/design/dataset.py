@@ -18,7 +18,7 @@ from .variable import Variable
 
 DESIGN = "design"
 DIGITS: Final = "{:.10g}"
-"""Of a number in the table of a sweep; the dataset has all of them."""
+"""Format of a number in the table of a sweep; the dataset has all digits."""
 
 
 def labelled(problem: Problem, listing: Listing, values: SweepValues) -> xr.Dataset:
@@ -26,9 +26,9 @@ def labelled(problem: Problem, listing: Listing, values: SweepValues) -> xr.Data
 
     Parameters
     ----------
-    problem : of the study
+    problem : problem of the study
     listing : its designs
-    values : of them
+    values : evaluated values of the designs
     """
     variables = problem.space.variables
     names = short_names([variable.key for variable in variables])
@@ -56,7 +56,7 @@ def labelled(problem: Problem, listing: Listing, values: SweepValues) -> xr.Data
 
 
 def short_names(keys: list[str]) -> list[str]:
-    """Last parts of dotted keys, with as many before them as tell them apart."""
+    """Last parts of dotted keys, with as many before them as make them distinct."""
     short = []
     for key in keys:
         parts = key.split(".")
@@ -79,13 +79,13 @@ def _of_wanted(problem: Problem, name: str) -> dict[str, Any]:
     named = wanted.reported if wanted.reported is not None else figure.name
     unit = split_key(named)[1]
     words = wanted.reported or figure.label or figure.name
-    over = (
+    statistics = (
         f"speeds {wanted.speeds}, receivers {wanted.receivers}, samples {problem.statistic(wanted)}"
     )
     order = f", order {wanted.order}" if wanted.order is not None else ""
     return {
         "units": unit.symbol if unit and unit.symbol else "1",
-        "long_name": f"{words}{order} ({over})",
+        "long_name": f"{words}{order} ({statistics})",
         "figure": figure.name,
     }
 

@@ -49,8 +49,8 @@ class ComparedMachine:
     Attributes
     ----------
     machine : nominal, or a sample
-    engine : of its designs
-    reference : of the machine without an option, with the tolerances of values no design chooses
+    engine : engine of its designs
+    reference : engine without an option, with tolerances of the values that no design chooses
     """
 
     machine: MachineSample
@@ -165,7 +165,7 @@ def _unmodelled(
 
 
 def unmodelled_of(study: Study, radiation: Radiation) -> Callable[[str], Unmodelled]:
-    """Return what gives the noise beside the modelled sound of an option as given.
+    """Return what gives the noise beside the modelled sound of an option of the nominal machine.
 
     It has one pair. The study is run at the first call.
 
@@ -181,9 +181,9 @@ def unmodelled_of(study: Study, radiation: Radiation) -> Callable[[str], Unmodel
         nominal = study.model_copy(update={"ranges": (), "operation": operation})
         results = run(nominal, no_progress, radiation)
         modelled = results["level_modelled"].sel(weighting="A")
-        left = power_of_level(results["level_total"]) - power_of_level(modelled)
+        residual = power_of_level(results["level_total"]) - power_of_level(modelled)
         dims = ("option", "speed", "receiver")
-        squares = REFERENCE_PRESSURE_PA**2 * left.transpose(*dims).values
+        squares = REFERENCE_PRESSURE_PA**2 * residual.transpose(*dims).values
         level_db = results["unmodelled_band_level"].transpose(*dims, "noise_band").values
         parts = zip(np.maximum(squares, 0.0)[:, None], band_square(level_db)[:, None], strict=True)
         options = results["option"].values.tolist()

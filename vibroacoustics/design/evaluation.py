@@ -1,4 +1,4 @@
-"""What the evaluation of designs takes and gives: arrays, so that any search can ask for it."""
+"""Evaluation of designs as a function of arrays, so that any search can use it."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass

@@ -62,13 +62,13 @@ class Move(NamedTuple):
 
 @dataclass(frozen=True)
 class Effect:
-    """What a value of the template does, moved down and up.
+    """Effect of a value of the template, moved down and up.
 
     Attributes
     ----------
     record : the value
     ends : values that it is moved to; empty where it is not moved
-    changes : of the figures at each end, dB and N; the reason where it is refused
+    changes : changes of the figures at each end, dB and N; the reason where it is refused
     """
 
     record: ParameterRecord
@@ -89,8 +89,8 @@ class Plan:
 
     Attributes
     ----------
-    study : to be moved
-    speed_rpm : of all figures, the nearest to that of the published level
+    study : study whose values are moved
+    speed_rpm : speed of all figures, the nearest to that of the published level
     before : figures with the template's values, by option and microphone
     moves : one a run
     radiations : number of runs with a radiation of their own
@@ -111,8 +111,8 @@ def planned(study: Study, radiation: Radiation = transfer_vectors) -> Plan:
 
     Parameters
     ----------
-    study : from `load_study` or `coarse`
-    radiation : gives the transfer vectors
+    study : study from `load_study` or `coarse`
+    radiation : function that gives the transfer vectors
 
     Raises
     ------
@@ -145,9 +145,9 @@ def ranked(
 
     Parameters
     ----------
-    plan : from `planned`
-    progress : called with the advance
-    radiation : gives the transfer vectors
+    plan : plan from `planned`
+    progress : function called with the advance
+    radiation : function that gives the transfer vectors
     """
     study, task = plan.study, "values of the example"
 
@@ -258,7 +258,7 @@ def _radiating(study: Study, moves: Sequence[Move]) -> set[str]:
 
 
 def _inputs(study: Study) -> Any:
-    """What transfer vectors follow from; of the modes, the table that they follow from."""
+    """Return the inputs of the transfer vectors; of the modes, their table."""
     shell, receivers, settings, *_ = inputs_of(study, ())
     structure = getattr(study.machine, "structure", None) if study.drives_shell else None
     return shell, receivers, settings, structure

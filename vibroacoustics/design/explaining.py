@@ -29,10 +29,10 @@ def explained(
 
     Parameters
     ----------
-    problem : that was searched
+    problem : problem that was searched
     searched : designs with their evaluation
-    evaluate : takes further designs
-    attributes : of the dataset, in place of those of a search
+    evaluate : function that takes further designs
+    attributes : attributes of the dataset, in place of those of a search
 
     Raises
     ------
@@ -82,16 +82,17 @@ def best_by_one(designs: Array, limits: Array, objective: Array, count: int) -> 
     Parameters
     ----------
     designs : shape (design, variable)
-    limits : of the variables, shape (variable, 2)
-    objective : the less the better; infinite for designs that do not count
-    count : at most
+    limits : limits of the variables, shape (variable, 2)
+    objective : objective of each design, less is better, shape (design,); infinite for designs
+        that do not count
+    count : largest number of designs
     """
     chosen: list[int] = []
-    left = np.isfinite(objective)
-    while left.any() and len(chosen) < count:
-        row = int(np.argmin(np.where(left, objective, np.inf)))
+    remaining = np.isfinite(objective)
+    while remaining.any() and len(chosen) < count:
+        row = int(np.argmin(np.where(remaining, objective, np.inf)))
         chosen.append(row)
-        left &= apart(designs, designs[row], limits)
+        remaining &= apart(designs, designs[row], limits)
     return np.array(chosen, dtype=np.intp)
 
 
@@ -102,7 +103,7 @@ def apart(designs: Array, design: Array, limits: Array) -> Mask:
     ----------
     designs : shape (design, variable)
     design : shape (variable,) or (1, variable)
-    limits : of the variables, shape (variable, 2)
+    limits : limits of the variables, shape (variable, 2)
     """
     span = np.maximum(np.ptp(limits, axis=1), np.finfo(float).tiny)
     return np.asarray((np.abs(designs - design) > _APART * span).any(axis=1))
@@ -115,8 +116,8 @@ def best_of_front(objectives: Array, count: int) -> IndexArray:
 
     Parameters
     ----------
-    objectives : of the front, shape (design, objective)
-    count : at most
+    objectives : objectives of the front, shape (design, objective)
+    count : largest number of designs
     """
     low = objectives.min(axis=0)
     span = np.maximum(np.ptp(objectives, axis=0), np.finfo(float).tiny)

@@ -13,14 +13,14 @@ from .engine.seen import Need, Seen
 
 @dataclass(frozen=True)
 class Setting:
-    """What a figure is of beside the designs.
+    """Settings of a figure beside the designs.
 
     Attributes
     ----------
-    wanted : as the study's table gives it
-    speeds_rpm : of the study, shape (speed,)
-    unmodelled : gives the mean square beside the modelled sound, shape (design or 1, speed,
-        receiver), Pa²
+    wanted : entry of the study's table
+    speeds_rpm : speeds of the study, shape (speed,)
+    unmodelled : function that gives the mean square beside the modelled sound, shape
+        (design or 1, speed, receiver), Pa²
     """
 
     wanted: Wanted
@@ -29,7 +29,7 @@ class Setting:
 
 
 class DesignFigure:
-    """What designs are judged by; a further one is one file of `design.figures`, or a stranger's.
+    """Figure that designs are judged by; another is one file of `design.figures` or a plug-in.
 
     Examples
     --------
@@ -38,8 +38,8 @@ class DesignFigure:
     ...     label = "Force of all moving parts"
     ...     def needs(self, wanted):
     ...         return (va.Need("force", wanted.order or 1),)
-    ...     def values(self, seen, setting):
-    ...         return seen[self.needs(setting.wanted)[0]]
+    ...     def values(self, responses, setting):
+    ...         return responses[self.needs(setting.wanted)[0]]
     """
 
     name: ClassVar[str]
@@ -55,21 +55,21 @@ class DesignFigure:
     """Whether it has a value at each speed."""
 
     def needs(self, wanted: Wanted) -> tuple[Need, ...]:
-        """What it is made of.
+        """Return the needs that it is computed from.
 
         Parameters
         ----------
-        wanted : as the study's table gives it
+        wanted : entry of the study's table
         """
         raise NotImplementedError
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
-        """Of designs, shape (design, speed), (design, speed, receiver or foot) or (design,).
+    def values(self, responses: Seen, setting: Setting) -> Array:
+        """Compute it, shape (design, speed), (design, speed, receiver or foot) or (design,).
 
         Parameters
         ----------
-        seen : by need
-        setting : what else it is of
+        responses : responses of the designs by need
+        setting : settings beside the designs
         """
         raise NotImplementedError
 
@@ -85,10 +85,10 @@ class OfCriterion(DesignFigure):
         """Its value."""
         return (Need("criterion", None, self.name),)
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
-        """In the unit of its name, shape (design,)."""
+    def values(self, responses: Seen, setting: Setting) -> Array:
+        """Criterion in the unit of its name, shape (design,)."""
         (need,) = self.needs(setting.wanted)
-        return seen[need]
+        return responses[need]
 
 
 FIGURES: Final[Registry[type[DesignFigure]]] = Registry(

@@ -17,8 +17,8 @@ def acts_on(key: str, option: str) -> bool:
 
 def check_key(key: str, options: Sequence[str], where: str) -> None:
     """Refuse a key of no value of the machine, of a source or of an option of the designs."""
-    first, _, rest = key.partition(".")
-    if first in ("machine", "sources") and rest:
+    first, _, subkey = key.partition(".")
+    if first in ("machine", "sources") and subkey:
         return
     names = dict.fromkeys(name for option in options for name in (option, *joined_names(option)))
     if first == "options" and any(key.startswith(f"options.{name}.") for name in names):
@@ -36,10 +36,10 @@ def present_value(study: Study, key: str) -> float:
         There is none.
     """
     first, *tables, last = key.split(".")
-    thing: Any = getattr(study, first)
+    table: Any = getattr(study, first)
     for name in tables:
-        thing = thing.get(name) if isinstance(thing, Mapping) else getattr(thing, name, None)
-    value = getattr(thing, si_key(last)[0], None)
+        table = table.get(name) if isinstance(table, Mapping) else getattr(table, name, None)
+    value = getattr(table, si_key(last)[0], None)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise ParameterError(f"{key}: there is no such number")
     return value

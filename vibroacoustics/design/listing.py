@@ -18,9 +18,9 @@ class Listing:
 
     Attributes
     ----------
-    count : of designs
-    designs : gives the designs of some numbers, shape (design, variable), SI
-    ordered : gives the numbers at some positions of the order in which designs are evaluated
+    count : number of designs
+    designs : function that gives the designs of some numbers, shape (design, variable), SI
+    ordered : function that gives the numbers at some positions of the order of evaluation
     """
 
     count: int

@@ -27,9 +27,10 @@ def optimise(
 
     Parameters
     ----------
-    study : with a table `design`
-    progress : called with the generations done
-    radiation : gives the transfer vectors: the package's, measured ones or a second method's
+    study : study with a table `design`
+    progress : function called with the generations done
+    radiation : function that gives the transfer vectors: the package's, measured ones or a second
+        method's
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What a sweep will take, before it starts: time, memory and disk."""
+"""Expected time, memory and disk space of a sweep, before it starts."""
 
 import time
 import zlib
@@ -22,7 +22,7 @@ from .space import OPTION
 from .sweep_values import MOST_SHOWN
 
 LONGEST_S: Final = 12 * 3600.0
-"""That a sweep takes unless more is allowed."""
+"""Longest time of a sweep unless more is allowed."""
 _STARTS, _CONSECUTIVE = 3, 4
 """Numbers of pieces from which some are timed, and how many that follow each other."""
 _TRIED_S: Final = 2.0
@@ -30,7 +30,7 @@ _TRIED_S: Final = 2.0
 _WRITTEN: Final = 2_000
 """Designs that are written to see how large they are."""
 _FURTHER_BYTES: Final = 5.0
-"""Of a row of the table: whether a design is allowed, and ends of cells."""
+"""Bytes of a row of the table: whether a design is allowed, and ends of cells."""
 _REPORT_S, _SHOWN_S = 0.3, 5e-6
 """Processor time of a report, and of each design that it shows."""
 _SELECTED_S, _SORTED_S = 1.0, 3e-7
@@ -53,9 +53,9 @@ class Plan:
     ----------
     designs, pieces : number of them; a piece is a design with a sample of its tolerances
     speeds : number of them
-    seconds : expected
-    memory_bytes : expected at the peak, in this process
-    disk_bytes : of all files
+    seconds : expected time, s
+    memory_bytes : expected peak of memory in this process
+    disk_bytes : size of all files
     runs : variables of which every value takes runs of the pipeline's stages, with the reason
     """
 
@@ -84,10 +84,10 @@ class _Tried(NamedTuple):
     Attributes
     ----------
     designs : shape (design, variable), SI
-    evaluation : of them
+    evaluation : evaluation of the designs
     pieces : number of them
     seconds : processor time of all of them
-    share : of the work of the sweep
+    share : share of the work of the sweep
     kept_bytes : memory that results of runs keep of each
     """
 
@@ -100,7 +100,7 @@ class _Tried(NamedTuple):
 
 
 class _Written(NamedTuple):
-    """What a design takes in files: time, s, and bytes of the table and of compressed values."""
+    """Size of a design in files: time, s, and bytes of the table and of compressed values."""
 
     seconds: float
     row_bytes: float
@@ -157,7 +157,7 @@ def planned(
 
     Parameters
     ----------
-    problem : of the study
+    problem : problem of the study
     listing : its designs
     longest_s : longest time that it may take
     workers : processes that evaluate

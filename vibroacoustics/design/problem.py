@@ -23,7 +23,7 @@ from .engine.seen import PAIRED, Need, Seen
 from .ensemble import ComparedMachine, compared_machines
 from .figure import FIGURES, DesignFigure, OfCriterion, Setting
 from .space import Space
-from .statistics import by_speed, of_each, over, over_weighted
+from .statistics import by_speed, of_each, statistic_of, weighted_statistic
 from .tolerances import Pieces
 
 MOST_ROWS: Final = 16_384
@@ -44,10 +44,11 @@ class Judged:
 
     Attributes
     ----------
-    values : of every objective and constraint in its unit, shape (design, wanted), objectives
-        first; not a number where a design failed
-    objectives : the same, less is always better, shape (design, objective)
-    constraints : at most zero where a design keeps to them, in their units, (design, constraint)
+    values : value of every objective and constraint in its unit, shape (design, wanted),
+        objectives first; not a number where a design failed
+    objectives : objectives with signs, less is always better, shape (design, objective)
+    constraints : excess of each constraint in its unit, at most zero where a design meets it, shape
+        (design, constraint)
     failed : reason by number of the design
     """
 
@@ -62,23 +63,23 @@ class Compared(NamedTuple):
 
     Attributes
     ----------
-    seen : of its pieces and pairs
-    setting : gives what else a figure is of
-    changes : what changes are against, by figure; none of figures that are no change
+    responses : responses of its pieces and pairs
+    setting : function that gives the settings of a figure
+    changes : reference values of changes, by figure; none of figures that are no change
     """
 
-    seen: Seen
+    responses: Seen
     setting: Callable[[Wanted], Setting]
     changes: list[Array | None]
 
 
 class Problem:
-    """What a study's table `design` asks, as a function of designs.
+    """Objectives and constraints of a study's table `design` as a function of designs.
 
     Parameters
     ----------
-    study : with the table
-    radiation : gives the transfer vectors; the package's where it is not given
+    study : study with the table `design`
+    radiation : function that gives the transfer vectors; the package's where it is not given
 
     Raises
     ------
@@ -114,7 +115,7 @@ class Problem:
 
     @property
     def names(self) -> list[str]:
-        """Of objectives and constraints, in the order of the values."""
+        """Names of objectives and constraints, in the order of the values."""
         return list(self.wanted)
 
     @cached_property
@@ -192,8 +193,8 @@ class Problem:
 
         Parameters
         ----------
-        count : of samples; those of the study where it is not given
-        number : of the set; sets of other numbers are independent
+        count : number of samples; that of the study where it is not given
+        number : number of the set; sets of other numbers are independent
         """
         return self.pieces.samples(count or self.design.tolerance_samples, number)
 
@@ -210,12 +211,12 @@ class Problem:
         return self.pieces.of_run(self.design.search.seed, run, count)
 
     def evaluate(self, designs: Array, samples: Array | None = None) -> Judged:
-        """What is wanted of designs.
+        """Evaluate the objectives and constraints of designs.
 
         Parameters
         ----------
         designs : shape (design, variable), SI; see `Space`
-        samples : of the tolerances, shape (sample, scatter); default: those of `samples()`
+        samples : samples of the tolerances, shape (sample, scatter); default: those of `samples()`
         """
         samples = self.samples() if samples is None else samples
         size = max(MOST_ROWS // self.weight(samples).size, 1)
@@ -243,7 +244,7 @@ class Problem:
         Parameters
         ----------
         designs : shape (design, variable), SI
-        samples : of the tolerances, shape (sample, scatter)
+        samples : samples of the tolerances, shape (sample, scatter)
         """
         return self._of_pieces(designs, samples)[0]
 
@@ -252,7 +253,7 @@ class Problem:
 
         Parameters
         ----------
-        samples : of the tolerances, shape (sample, scatter)
+        samples : samples of the tolerances, shape (sample, scatter)
         """
         each = [
             np.tile(machine.machine.weight / len(shares), len(shares))
@@ -265,9 +266,9 @@ class Problem:
         """Every wanted value of the machine without an option, shape (wanted,)."""
         rows = []
         for compared in self.machines:
-            seen, setting, reference = self._compared(compared, self.pieces.present[None])
+            responses, setting, reference = self._compared(compared, self.pieces.present[None])
             columns = [
-                of_each(figure, seen, setting(wanted), more_is_better(wanted), before)
+                of_each(figure, responses, setting(wanted), more_is_better(wanted), before)
                 for (figure, wanted), before in zip(self._each, reference, strict=True)
             ]
             rows.append(np.stack(columns, axis=1))
@@ -282,7 +283,9 @@ class Problem:
         """
         _ = self.machines  # shared
         return [
-            self._instead(one) for one in self.design.objectives.values() if one.figure in TOTALS
+            self._instead(objective)
+            for objective in self.design.objectives.values()
+            if objective.figure in TOTALS
         ]
 
     def _instead(self, objective: Objective) -> "Problem":
@@ -323,9 +326,11 @@ class Problem:
         for column, wanted in enumerate(self.wanted.values()):
             values, statistic = by_sample[:, :, column], self.statistic(wanted)
             if self.is_sampled:
-                columns.append(over_weighted(values, weight, statistic, more_is_better(wanted)))
+                columns.append(
+                    weighted_statistic(values, weight, statistic, more_is_better(wanted))
+                )
             else:
-                columns.append(over(values, 1, statistic, more_is_better(wanted)))
+                columns.append(statistic_of(values, 1, statistic, more_is_better(wanted)))
         return np.stack(columns, axis=1)
 
     def statistic(self, wanted: Wanted) -> Statistic:
@@ -362,7 +367,7 @@ class Problem:
         if not outcome.results:
             shape = (len(designs), len(shares) * pairs, len(self.wanted))
             return np.full(shape, np.nan), failed
-        seen = by_row(outcome.results, pairs)
+        responses = by_row(outcome.results, pairs)
         reference: list[Array | None] = [None] * len(self.figures)
         if any(figure.is_change for figure in self.figures):
             _, _, reference = self._reference(compared, shares)
@@ -377,12 +382,12 @@ class Problem:
         for (figure, wanted), before in zip(self._each, reference, strict=True):
             setting = Setting(wanted, self._speeds, unmodelled)
             change = None if before is None else np.concatenate([before] * len(designs))
-            columns.append(of_each(figure, seen, setting, more_is_better(wanted), change))
+            columns.append(of_each(figure, responses, setting, more_is_better(wanted), change))
         values = np.stack(columns, axis=1).reshape(len(designs), len(shares) * pairs, -1)
         return values, failed
 
     def _reference(self, compared: ComparedMachine, shares: Array) -> Compared:
-        """What is seen of pieces of a machine without an option, kept."""
+        """Return the responses of pieces of a machine without an option, kept."""
         key = id(compared), shares.tobytes()
         if key not in self._references:
             nothing = np.zeros((1, len(self.space.variables)))
@@ -391,14 +396,14 @@ class Problem:
         return self._references[key]
 
     def _compared(self, compared: ComparedMachine, pieces: Array) -> Compared:
-        """What is seen of a machine without an option, and the values of changes.
+        """Return the responses of a machine without an option, and the reference of changes.
 
         Parameters
         ----------
         compared : the machine
         pieces : values that scatter but no design chooses, shape (piece, value), SI
         """
-        seen = by_row(compared.reference.outcome(pieces).results, compared.machine.weight.size)
+        responses = by_row(compared.reference.outcome(pieces).results, compared.machine.weight.size)
 
         def setting(wanted: Wanted) -> Setting:
             def unmodelled() -> Array:
@@ -408,10 +413,10 @@ class Problem:
             return Setting(wanted, self._speeds, unmodelled)
 
         changes = [
-            by_speed(figure, seen, setting(wanted)) if figure.is_change else None
+            by_speed(figure, responses, setting(wanted)) if figure.is_change else None
             for figure, wanted in self._each
         ]
-        return Compared(seen, setting, changes)
+        return Compared(responses, setting, changes)
 
     @property
     def _speeds(self) -> Array:
@@ -434,17 +439,17 @@ class Problem:
         return np.array(sign), side, limit
 
 
-def by_row(seen: Seen, pairs: int) -> Seen:
-    """Return what is seen with a row for each pair of each design.
+def by_row(responses: Seen, pairs: int) -> Seen:
+    """Return the responses with a row for each pair of each design.
 
     Parameters
     ----------
-    seen : what is `PAIRED` of shape (design, pair, ...), others of shape (design, ...)
-    pairs : of a discrepancy and an unmodelled level
+    responses : those in `PAIRED` of shape (design, pair, ...), others of shape (design, ...)
+    pairs : number of pairs of a discrepancy and an unmodelled level
     """
     return {
         need: _rows(values) if need.what in PAIRED else np.repeat(values, pairs, axis=0)
-        for need, values in seen.items()
+        for need, values in responses.items()
     }
 
 

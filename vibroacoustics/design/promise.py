@@ -1,4 +1,4 @@
-"""What a design promises of the pieces that are built: from samples that no search has seen."""
+"""Promised values of a design over the pieces that are built, from samples no search has used."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -21,12 +21,12 @@ class Promise:
 
     Attributes
     ----------
-    meant : of the piece as meant, without a tolerance
+    meant : values of the piece as meant, without a tolerance
     promised : the statistic over samples that the study asks for
     low, high : ends of the 80 % interval over samples of the machine and pieces; of a nominal
         machine 95 % limits of the promised value, from the number of pieces alone
     samples : number of samples
-    is_sampled : whether they are of the machine too
+    is_sampled : whether the samples are of the machine too
     """
 
     meant: Array
@@ -38,13 +38,13 @@ class Promise:
 
 
 def promise(problem: Problem, design: Array, count: int) -> Promise:
-    """What a design promises.
+    """Estimate the promised values of a design.
 
     Parameters
     ----------
-    problem : that it belongs to
+    problem : problem that it belongs to
     design : shape (variable,), SI
-    count : of samples
+    count : number of samples
     """
     samples = problem.samples(count, _SET)
     as_meant = problem.evaluate(design[None], np.full((1, samples.shape[1]), 0.5)).values[0]

@@ -1,4 +1,4 @@
-"""What a search has found, as a dataset: all designs, the best few, what decides."""
+"""Result of a search as a dataset: all designs, the best few, what decides."""
 
 import json
 from collections import Counter
@@ -44,7 +44,7 @@ def searched_dataset(problem: Problem, searched: Searched) -> xr.Dataset:
         "search_generation": searched.generation,
         "wanted_reference": problem.without_option(),
     }
-    dataset = xr.Dataset({name: stamp(name, one) for name, one in data.items()})
+    dataset = xr.Dataset({name: stamp(name, array) for name, array in data.items()})
     reasons = Counter(reason for reason in evaluation.failures if reason).most_common(_MOST_REASONS)
     counts = {"evaluated": len(met), "allowed": int(met.sum())}
     words = {v.key: v.choices for v in problem.space.variables if v.takes_words}
@@ -59,7 +59,7 @@ def searched_dataset(problem: Problem, searched: Searched) -> xr.Dataset:
 
 
 def _method(problem: Problem, count: int) -> str:
-    """How was searched, in a sentence."""
+    """Return the method of the search, in a sentence."""
     search = problem.design.search
     single = len(problem.design.objectives) == 1
     name = "Differential evolution with a simplex at the end" if single else "NSGA-II (pymoo)"
@@ -97,10 +97,10 @@ def with_total_change(
 
     Parameters
     ----------
-    dataset : of the search
-    problem : that was searched
-    designs : that meet the constraints, shape (design, variable), SI
-    changes : of these; see `total_changes`
+    dataset : dataset of the search
+    problem : problem that was searched
+    designs : designs that meet the constraints, shape (design, variable), SI
+    changes : changes of each total by these designs, dB, see `total_changes`
     """
     totals = all(wanted.figure in TOTALS for wanted in problem.design.objectives.values())
     return dataset.assign_attrs(
@@ -117,12 +117,12 @@ def with_best(dataset: xr.Dataset, rows: IndexArray, promises: list[Promise]) ->
     """The dataset with the best few designs and what they promise."""
     data = {
         "best_design": rows,
-        "wanted_as_meant": np.array([one.meant for one in promises]),
-        "wanted_promised": np.array([one.promised for one in promises]),
-        "wanted_promised_low": np.array([one.low for one in promises]),
-        "wanted_promised_high": np.array([one.high for one in promises]),
+        "wanted_as_meant": np.array([promise.meant for promise in promises]),
+        "wanted_promised": np.array([promise.promised for promise in promises]),
+        "wanted_promised_low": np.array([promise.low for promise in promises]),
+        "wanted_promised_high": np.array([promise.high for promise in promises]),
     }
-    best = xr.Dataset({name: stamp(name, one) for name, one in data.items()})
+    best = xr.Dataset({name: stamp(name, array) for name, array in data.items()})
     ranks = {"best_rank": np.arange(1, len(rows) + 1)}
     samples = promises[0].samples if promises else 0
     return check(
@@ -143,10 +143,10 @@ def with_shares(
 
     Parameters
     ----------
-    dataset : of the search
-    problem : that was searched
+    dataset : dataset of the search
+    problem : problem that was searched
     designs : shape (design, variable), SI
-    evaluation : of these
+    evaluation : evaluation of these designs
     """
     values = problem.in_units(evaluation.objectives, evaluation.constraints)
     shares = [shares_of(designs, column, np.ones(len(designs))) for column in values.T]
@@ -155,7 +155,7 @@ def with_shares(
         "spread_wanted": values,
         **labelled_shares("design_share", shares),
     }
-    spread = xr.Dataset({name: stamp(name, np.array(one)) for name, one in data.items()})
+    spread = xr.Dataset({name: stamp(name, np.array(array)) for name, array in data.items()})
     numbers = {"spread_design": np.arange(len(designs))}
     return dataset.merge(spread.assign_coords(numbers)).assign_attrs(dataset.attrs)
 
@@ -186,13 +186,13 @@ def _design_coords(problem: Problem, count: int) -> dict[str, Any]:
 
 
 def _wanted_coords(problem: Problem) -> dict[str, Any]:
-    each = list(zip(problem.wanted.items(), problem.figures, strict=True))
+    each = list(zip(problem.wanted.values(), problem.figures, strict=True))
     return {
         "wanted": problem.names,
         "wanted_unit": ("wanted", [_unit(figure.name) for _, figure in each]),
-        "wanted_label": ("wanted", [_label(problem, figure, one) for (_, one), figure in each]),
-        "wanted_role": ("wanted", [_role(one) for (_, one), _ in each]),
-        "wanted_limit": ("wanted", np.array([_limit(one) for (_, one), _ in each])),
+        "wanted_label": ("wanted", [_label(problem, figure, wanted) for wanted, figure in each]),
+        "wanted_role": ("wanted", [_role(wanted) for wanted, _ in each]),
+        "wanted_limit": ("wanted", np.array([_limit(wanted) for wanted, _ in each])),
     }
 
 
@@ -202,7 +202,7 @@ def _unit(key: str) -> str:
 
 
 def _label(problem: Problem, figure: DesignFigure, wanted: Wanted) -> str:
-    """What a figure is, over what: `Level of an order, 1×, worst speed, 90 % of pieces`."""
+    """Return figure and statistics: `Level of an order, 1×, worst speed, 90 % of pieces`."""
     parts = [figure.label if wanted.reported is None else wanted.reported]
     parts += [f"{wanted.order}×"] if wanted.order is not None else []
     parts += [_over(wanted.speeds, "speed")] if figure.of_speeds else []

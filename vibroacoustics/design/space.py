@@ -31,10 +31,10 @@ class Space:
 
     Attributes
     ----------
-    study : with the options that designs choose among, and `none`
+    study : study with the options that designs choose among, and `none`
     options : their names
-    variables : in the order of the columns of designs; the choice among options first, where
-        there is one
+    variables : variables in the order of the columns of designs; first the choice among options,
+        where there is one
     """
 
     study: Study
@@ -43,7 +43,7 @@ class Space:
 
     @classmethod
     def of(cls, study: Study) -> "Space":
-        """The space that the table `design` of a study tells.
+        """Return the space of the table `design` of a study.
 
         Raises
         ------
@@ -100,7 +100,7 @@ class Space:
     def written(self, design: Array) -> dict[str, Any]:
         """Values of a design as a study's file writes them, by dotted key.
 
-        Those of other options than its are left out.
+        Values of options other than its own are absent.
         """
         option = self.option_of(design)
         return {
@@ -120,7 +120,7 @@ class Space:
         return self._with_its_option(self.study.replace(self.written(design)), design)
 
     def quick_study_of(self, design: Array) -> Study:
-        """The same without reading files again where the values are plain numbers.
+        """Return the study of a design, without reading files where values are plain numbers.
 
         Raises
         ------
@@ -161,7 +161,7 @@ class Space:
         Parameters
         ----------
         kind : latin-hypercube or sobol
-        count : of designs
+        count : number of designs
         """
         size = len(self.variables)
         if kind == "sobol":
@@ -176,8 +176,8 @@ class Space:
 
         Parameters
         ----------
-        limits : of the variables, shape (variable, 2), SI
-        table : of the table `design` that the ends come of
+        limits : limits of the variables, shape (variable, 2), SI
+        table : name of the table in `design` that the ends are from
 
         Raises
         ------
@@ -203,10 +203,10 @@ class Space:
             ) from None
 
 
-def _variable(study: Study, key: str, given: DesignVariable, options: Sequence[str]) -> Variable:
+def _variable(study: Study, key: str, entry: DesignVariable, options: Sequence[str]) -> Variable:
     check_key(key, options, f"{study.source_file}: design.variables.{key}")
     try:
-        return variable_of(key, given)
+        return variable_of(key, entry)
     except ParameterError as error:
         raise ParameterError(f"{study.source_file}: {error}") from None
 

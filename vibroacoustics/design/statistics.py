@@ -10,8 +10,8 @@ from .engine.seen import Seen
 from .figure import DesignFigure, Setting
 
 
-def over(values: Array, axis: int, statistic: Statistic, more_is_better: bool) -> Array:
-    """Worst value, mean, or the value that a share of the values is as good as, along an axis.
+def statistic_of(values: Array, axis: int, statistic: Statistic, more_is_better: bool) -> Array:
+    """Return the worst value, the mean, or the quantile that a share reaches, along an axis.
 
     The quantile is that of sorted values without interpolation, the first that at least the share
     reaches: what it promises, that share keeps.
@@ -19,7 +19,7 @@ def over(values: Array, axis: int, statistic: Statistic, more_is_better: bool) -
     Parameters
     ----------
     values : any shape
-    axis : that is taken away
+    axis : axis that is reduced
     statistic : worst, mean or a share
     more_is_better : whether the smallest value is the worst
     """
@@ -36,7 +36,7 @@ def over(values: Array, axis: int, statistic: Statistic, more_is_better: bool) -
     return np.asarray(-reached if more_is_better else reached)
 
 
-def over_weighted(
+def weighted_statistic(
     values: Array, weight: Array, statistic: Statistic, more_is_better: bool
 ) -> Array:
     """Compute the worst value, the mean or a quantile of weighted samples, shape (design,).
@@ -44,21 +44,21 @@ def over_weighted(
     Parameters
     ----------
     values : shape (design, sample)
-    weight : of the samples, shape (sample,)
+    weight : weights of the samples, shape (sample,)
     statistic : worst, mean or a share; 0.5 is the median
     more_is_better : whether the smallest value is the worst
     """
     if isinstance(statistic, str):
         if statistic == "mean":
             return np.asarray(values @ weight / weight.sum())
-        return over(values[:, weight > 0.0], 1, statistic, more_is_better)
+        return statistic_of(values[:, weight > 0.0], 1, statistic, more_is_better)
     share = 1.0 - statistic if more_is_better else statistic
     return np.asarray(weighted_quantiles(values.T, weight, (share,))[0])
 
 
 def of_each(
     figure: DesignFigure,
-    seen: Seen,
+    responses: Seen,
     setting: Setting,
     more_is_better: bool,
     reference: Array | None = None,
@@ -70,26 +70,26 @@ def of_each(
 
     Parameters
     ----------
-    figure : of the designs
-    seen : of them
-    setting : what else it is of
+    figure : figure of the designs
+    responses : responses of the designs, by need
+    setting : settings of the figure
     more_is_better : whether the smallest value is the worst
-    reference : of a change, from `by_speed` for the machine without an option
+    reference : reference of a change, from `by_speed` for the machine without an option
     """
     wanted: Wanted = setting.wanted
-    values = by_speed(figure, seen, setting)
+    values = by_speed(figure, responses, setting)
     if reference is not None:
         values = values - reference
     if values.ndim == 3:
-        values = over(values, 2, wanted.receivers, more_is_better)
+        values = statistic_of(values, 2, wanted.receivers, more_is_better)
     if values.ndim == 2:
-        values = over(values, 1, wanted.speeds, more_is_better)
+        values = statistic_of(values, 1, wanted.speeds, more_is_better)
     return values
 
 
-def by_speed(figure: DesignFigure, seen: Seen, setting: Setting) -> Array:
+def by_speed(figure: DesignFigure, responses: Seen, setting: Setting) -> Array:
     """Compute a figure by design, speed and, where it has them, microphone; levels in dB."""
-    values = figure.values(seen, setting)
+    values = figure.values(responses, setting)
     return _level(values, setting.wanted) if figure.is_level else values
 
 

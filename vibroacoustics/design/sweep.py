@@ -27,7 +27,7 @@ OBJECTIVES: Final = {
     "foot_force_n": {"figure": "foot_force_n"},
     "added_mass_kg": {"figure": "added_mass_kg"},
 }
-"""Of a study that names none."""
+"""Objectives of a study that names none."""
 
 
 def sweep(
@@ -42,11 +42,12 @@ def sweep(
 
     Parameters
     ----------
-    study : with a table `design`, or any with `variables`
-    variables : in place of those of the table: by dotted key with its unit, a list of values, or a
-        table as in a file
-    progress : called with the advance
-    radiation : gives the transfer vectors: the package's, measured ones or a second method's
+    study : study with a table `design`, or any with `variables`
+    variables : variables in place of those of the table: by dotted key with its unit, a list of
+        values, or a table as in a file
+    progress : function called with the advance
+    radiation : function that gives the transfer vectors: the package's, measured ones or a second
+        method's
     longest_s : a sweep that takes longer is refused before it starts
 
     Returns
@@ -83,9 +84,9 @@ class Prepared(NamedTuple):
 
     Attributes
     ----------
-    problem : of the study
+    problem : problem of the study
     listing : its designs
-    plan : what it will take
+    plan : expected time, memory and disk space
     """
 
     problem: Problem
@@ -98,7 +99,7 @@ def prepare(problem: Problem, longest_s: float = LONGEST_S, workers: int = 1) ->
 
     Parameters
     ----------
-    problem : of the study
+    problem : problem of the study
     longest_s : longest time that the sweep may take
     workers : processes that evaluate
 
@@ -119,9 +120,9 @@ def swept(
 
     Parameters
     ----------
-    prepared : from `prepare`
-    progress : called with the advance
-    stream : evaluates pieces: from a store, or by workers; this process where none is given
+    prepared : prepared sweep from `prepare`
+    progress : function called with the advance
+    stream : function that evaluates pieces: from a store, or by workers; default: this process
     """
     problem, listing, _ = prepared
     values, waiting = SweepValues(problem, listing), deque[IndexArray]()
@@ -185,8 +186,8 @@ def with_variables(study: Study, variables: Mapping[str, Any]) -> Study:
     ParameterError
         No variable is of an option, and the study has no table that names one.
     """
-    tables = {key: given if isinstance(given, Mapping) else {"list": list(given)}
-              for key, given in variables.items()}  # fmt: skip
+    tables = {key: entry if isinstance(entry, Mapping) else {"list": list(entry)}
+              for key, entry in variables.items()}  # fmt: skip
     if study.design is not None:
         return study.replace({"design.variables": None}).replace({"design.variables": tables})
     option = _options_of(list(tables), study)
@@ -205,7 +206,7 @@ def _options_of(keys: Sequence[str], study: Study) -> list[str]:
 
 
 def _routes(problem: Problem) -> dict[str, dict[str, str]]:
-    """How each variable was computed, by option."""
+    """Return the route of each variable, by option."""
     return {
         option: {
             key: ("linear: " if route.linear else "runs: ") + route.reason

@@ -25,7 +25,7 @@ class SweepValues:
 
     Parameters
     ----------
-    problem : that is swept
+    problem : problem that is swept
     listing : its designs
     """
 
@@ -38,7 +38,7 @@ class SweepValues:
         self.failure = np.zeros(listing.count, dtype=np.int32)
         """Number of the reason why a design failed, 0 where it did not, shape (design,)."""
         self.reasons: list[str] = []
-        """Why designs failed."""
+        """Reasons why designs failed."""
 
     def take(self, numbers: IndexArray, evaluation: Evaluation) -> None:
         """Take in the evaluation of the designs of some numbers."""

@@ -1,4 +1,4 @@
-"""What scatters from piece to piece: samples of values about those of a design."""
+"""Scatter from piece to piece: samples of values about those of a design."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -20,14 +20,14 @@ _RANDOM: Final = 4
 
 @dataclass(frozen=True)
 class Scatter:
-    """How one value scatters, evenly: x (1 + r u) + d u, or in a range of its values.
+    """Uniform scatter of one value: x (1 + r u) + d u, or in a range of its values.
 
     Attributes
     ----------
-    column : of the value among those of the wide space
+    column : column of the value among those of the wide space
     ratio : r
     distance : d, SI
-    limits : of the range, SI; none where the value scatters about what is meant
+    limits : ends of the range, SI; none where the value scatters about what is meant
     integer : whether the value is rounded to an integer
     """
 
@@ -37,7 +37,7 @@ class Scatter:
     limits: tuple[float, float] | None = None
     integer: bool = False
 
-    def at(self, meant: Array, share: Array) -> Array:
+    def pieces_of(self, meant: Array, share: Array) -> Array:
         """Values of pieces; shares from 0 to 1 of the way from the lowest to the highest."""
         if self.limits is not None:
             low, high = self.limits
@@ -54,8 +54,8 @@ class Pieces:
     Attributes
     ----------
     wide : the space with the values that scatter alone as further variables
-    scatters : of the values
-    present : values of the further variables as meant, SI
+    scatters : scatters of the values
+    present : values of the further variables as meant, shape (further variable,), SI
     """
 
     wide: Space
@@ -73,7 +73,7 @@ class Pieces:
         """
         design = study.design
         names, further, scatters, present = list(space.names), [], [], []
-        for key, given in (design.tolerances if design else {}).items():
+        for key, entry in (design.tolerances if design else {}).items():
             where = f"{study.source_file}: design.tolerances.{key}"
             check_key(key, space.options, where)
             unit = split_key(key.rpartition(".")[2])[1]
@@ -89,9 +89,9 @@ class Pieces:
                 present.append(value)
                 further.append(Variable(key, symbol, factor, (value, value), integer=integer))
             limits = (
-                None if given.range is None else (factor * given.range[0], factor * given.range[1])
+                None if entry.range is None else (factor * entry.range[0], factor * entry.range[1])
             )
-            ratio, distance = given.ratio or 0.0, factor * (given.plus_minus or 0.0)
+            ratio, distance = entry.ratio or 0.0, factor * (entry.plus_minus or 0.0)
             scatters.append(Scatter(names.index(key), ratio, distance, limits, integer))
         wide = Space(space.study, space.options, (*space.variables, *further))
         pieces = cls(wide, tuple(scatters), np.array(present))
@@ -104,7 +104,7 @@ class Pieces:
         limits = self.wide.limits.copy()
         for scatter in self.scatters:
             ends = limits[scatter.column]
-            made = [scatter.at(ends, np.full(2, share)) for share in (0.0, 1.0)]
+            made = [scatter.pieces_of(ends, np.full(2, share)) for share in (0.0, 1.0)]
             limits[scatter.column] = np.min(made), np.max(made)
         return limits
 
@@ -125,8 +125,8 @@ class Pieces:
 
         Parameters
         ----------
-        count : of samples
-        number : of the set; sets of other numbers are independent
+        count : number of samples
+        number : number of the set; sets of other numbers are independent
         """
         if not self.scatters:
             return np.zeros((1, 0))
@@ -138,9 +138,9 @@ class Pieces:
 
         Parameters
         ----------
-        seed : of the search
+        seed : seed of the search
         run : number of the run; other runs have independent shares
-        count : of samples
+        count : number of samples
         """
         rng = np.random.default_rng((_RANDOM, seed, run))
         return rng.random((count, len(self.scatters)))
@@ -157,5 +157,5 @@ class Pieces:
         pieces = np.repeat(meant[:, None], len(samples), axis=1)
         for scatter, share in zip(self.scatters, samples.T, strict=True):
             column = scatter.column
-            pieces[:, :, column] = scatter.at(meant[:, None, column], share)
+            pieces[:, :, column] = scatter.pieces_of(meant[:, None, column], share)
         return pieces

@@ -16,7 +16,7 @@ def total_changes(problem: Problem, designs: Array) -> Array | None:
 
     Parameters
     ----------
-    problem : that was searched
+    problem : problem that was searched
     designs : shape (design, variable), SI
 
     Returns
@@ -33,8 +33,8 @@ def no_change_words(problem: Problem, changes: Array | None) -> str:
 
     Parameters
     ----------
-    problem : that was searched
-    changes : see `total_changes`
+    problem : problem that was searched
+    changes : changes of each total, dB, see `total_changes`
     """
     least = problem.study.scoring.measurable.level_db
     if changes is None:
@@ -54,9 +54,9 @@ def lowering_words(problem: Problem, designs: Array, changes: Array | None) -> s
 
     Parameters
     ----------
-    problem : that was searched
+    problem : problem that was searched
     designs : shape (design, variable), SI, in their order
-    changes : see `total_changes`
+    changes : changes of each total, dB, see `total_changes`
     """
     if changes is None:
         return ""

@@ -19,10 +19,10 @@ class Variable:
     ----------
     key : dotted, with the unit of the file; `option` for the choice among options
     unit : symbol of that unit
-    factor : from that unit to SI
+    factor : factor from that unit to SI
     limits : lowest and highest value in SI; numbers of the words where it takes words
     choices : values in SI that it may take, or words; none for any value between the limits
-    points : of a grid; none where it takes some values only, or none are given
+    points : number of points of a grid; none where it takes some values only, or none are given
     integer : whether the file writes whole numbers
     """
 
@@ -79,7 +79,7 @@ class Variable:
         return int(in_file) if self.integer and in_file.is_integer() else in_file
 
 
-def variable_of(key: str, given: DesignVariable) -> Variable:
+def variable_of(key: str, entry: DesignVariable) -> Variable:
     """A variable as the file gives it.
 
     Raises
@@ -89,29 +89,29 @@ def variable_of(key: str, given: DesignVariable) -> Variable:
     """
     unit = split_key(key.rpartition(".")[2])[1]
     symbol, factor = (unit.symbol, unit.factor) if unit else ("", 1.0)
-    if given.list is None:
-        return _in_range(key, given, symbol, factor)
-    words = [value for value in given.list if isinstance(value, str)]
-    if words and len(words) < len(given.list):
+    if entry.list is None:
+        return _in_range(key, entry, symbol, factor)
+    words = [value for value in entry.list if isinstance(value, str)]
+    if words and len(words) < len(entry.list):
         raise ParameterError(f"design.variables.{key}.list: mixes words and numbers")
     if words:
         return Variable(key, "", 1.0, (0.0, len(words) - 1.0), tuple(words))
-    numbers = tuple(factor * value for value in given.list if not isinstance(value, str))
-    integer = all(isinstance(value, int) for value in given.list)
+    numbers = tuple(factor * value for value in entry.list if not isinstance(value, str))
+    integer = all(isinstance(value, int) for value in entry.list)
     return Variable(key, symbol, factor, (min(numbers), max(numbers)), numbers, integer=integer)
 
 
-def _in_range(key: str, given: DesignVariable, symbol: str, factor: float) -> Variable:
-    low, high = given.range or (0.0, 1.0)
+def _in_range(key: str, entry: DesignVariable, symbol: str, factor: float) -> Variable:
+    low, high = entry.range or (0.0, 1.0)
     limits = (factor * low, factor * high)
-    if given.step is None:
-        return Variable(key, symbol, factor, limits, points=given.points)
-    count = int((high - low) / given.step + 1e-9) + 1
+    if entry.step is None:
+        return Variable(key, symbol, factor, limits, points=entry.points)
+    count = int((high - low) / entry.step + 1e-9) + 1
     if not 2 <= count <= 100_000:
         raise ParameterError(
-            f"design.variables.{key}.step = {given.step:g} {symbol}: makes {count} values; "
+            f"design.variables.{key}.step = {entry.step:g} {symbol}: makes {count} values; "
             "allowed 2 to 100000"
         )
-    choices = tuple(factor * (low + given.step * number) for number in range(count))
-    integer = all(isinstance(value, int) for value in (low, high, given.step))
+    choices = tuple(factor * (low + entry.step * number) for number in range(count))
+    integer = all(isinstance(value, int) for value in (low, high, entry.step))
     return Variable(key, symbol, factor, (choices[0], choices[-1]), choices, integer=integer)

@@ -12,7 +12,7 @@ from vibroacoustics.design.dataset import short_names, table_csv
 from vibroacoustics.design.plan import Plan
 from vibroacoustics.design.problem import Problem
 from vibroacoustics.design.space import Space
-from vibroacoustics.design.statistics import over
+from vibroacoustics.design.statistics import statistic_of
 from vibroacoustics.design.sweep import listing_of
 from vibroacoustics.pipeline import run
 from vibroacoustics.study.loading import load_study
@@ -157,7 +157,7 @@ machine.balance_quality.lower_angle_deg = { range = [0, 360] }
 )  # fmt: skip
 def test_statistics(statistic, more, expected):
     values = np.array([[3.0, 1.0, 4.0, 2.0]])
-    assert over(values, 1, statistic, more).tolist() == [expected]
+    assert statistic_of(values, 1, statistic, more).tolist() == [expected]
 
 
 def test_names_are_as_short_as_they_tell_apart():

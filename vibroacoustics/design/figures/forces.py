@@ -20,10 +20,10 @@ class OrderFigure(DesignFigure):
         """The order's amplitude."""
         return (Need(self.what, wanted.order or 1),)
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
+    def values(self, responses: Seen, setting: Setting) -> Array:
         """Amplitude by speed; of feet the largest."""
         (need,) = self.needs(setting.wanted)
-        return seen[need]
+        return responses[need]
 
 
 @register
@@ -55,6 +55,6 @@ class FootForce(OrderFigure):
     position = 12.0
     what = "foot"
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
-        """Of the foot with the largest force, N."""
-        return np.asarray(super().values(seen, setting).max(axis=-1))
+    def values(self, responses: Seen, setting: Setting) -> Array:
+        """Largest force into a foot by speed, N."""
+        return np.asarray(super().values(responses, setting).max(axis=-1))

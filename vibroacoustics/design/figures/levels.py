@@ -1,4 +1,4 @@
-"""Levels at the microphones and their changes against the study as given without an option."""
+"""Levels at the microphones and their changes relative to the machine without an option."""
 
 from typing import ClassVar
 
@@ -11,7 +11,7 @@ from ..figure import DesignFigure, Setting
 
 
 def _power(mean_square: Array) -> Array:
-    """Over that of 0 dB."""
+    """Return the power relative to that of 0 dB."""
     return mean_square / REFERENCE_PRESSURE_PA**2
 
 
@@ -28,9 +28,9 @@ class Level(DesignFigure):
         """All sound."""
         return (Need("sound"),)
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
+    def values(self, responses: Seen, setting: Setting) -> Array:
         """Power over that of 0 dB(A)."""
-        return _power(seen[Need("sound")])
+        return _power(responses[Need("sound")])
 
 
 @register
@@ -51,9 +51,9 @@ class TotalLevel(Level):
     label = "Level of the machine"
     position = 3.0
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
+    def values(self, responses: Seen, setting: Setting) -> Array:
         """Power over that of 0 dB(A)."""
-        return _power(seen[Need("sound")] + setting.unmodelled())
+        return _power(responses[Need("sound")] + setting.unmodelled())
 
 
 @register
@@ -79,10 +79,10 @@ class OrderLevel(DesignFigure):
         """The order's sound."""
         return (Need("sound", wanted.order or 1),)
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
+    def values(self, responses: Seen, setting: Setting) -> Array:
         """Power over that of 0 dB."""
         (need,) = self.needs(setting.wanted)
-        return _power(seen[need])
+        return _power(responses[need])
 
 
 @register

@@ -23,9 +23,9 @@ class AddedMass(DesignFigure):
         """The option's figure."""
         return (Need("figure", None, "added_mass_kg"),)
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
+    def values(self, responses: Seen, setting: Setting) -> Array:
         """Mass, kg."""
-        return seen[self.needs(setting.wanted)[0]]
+        return responses[self.needs(setting.wanted)[0]]
 
 
 @register
@@ -42,9 +42,9 @@ class Reported(DesignFigure):
             raise ParameterError('reported: is missing; name the figure, as "stroke_amplitude_mm"')
         return (Need("figure", None, wanted.reported),)
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
-        """In the unit of its name."""
-        return seen[self.needs(setting.wanted)[0]]
+    def values(self, responses: Seen, setting: Setting) -> Array:
+        """Figure in the unit of its name."""
+        return responses[self.needs(setting.wanted)[0]]
 
 
 @register
@@ -60,7 +60,7 @@ class ResonanceMargin(DesignFigure):
         """Natural frequencies."""
         return (Need("natural"),)
 
-    def values(self, seen: Seen, setting: Setting) -> Array:
+    def values(self, responses: Seen, setting: Setting) -> Array:
         """Least of f_n / f_highest - 1 above and of 1 - f_n / f_lowest below the shaft's range.
 
         An order that is given multiplies the shaft's frequencies; below zero a resonance lies in
@@ -71,6 +71,6 @@ class ResonanceMargin(DesignFigure):
             order * shaft_frequency_hz(float(speed))
             for speed in (setting.speeds_rpm.min(), setting.speeds_rpm.max())
         )
-        natural = seen[Need("natural")]
+        natural = responses[Need("natural")]
         margin = np.maximum(natural / highest - 1.0, 1.0 - natural / lowest)
         return np.asarray(margin.min(axis=-1))

@@ -48,7 +48,7 @@ def expected_improvement(mean: Array, deviation: Array, best: float) -> Array:
 
     Parameters
     ----------
-    mean, deviation : of Y, shape (design,)
+    mean, deviation : mean and standard deviation of Y, shape (design,)
     best : value that Y shall be below
     """
     deviation = np.maximum(deviation, CERTAIN)
@@ -61,7 +61,7 @@ def augmented_improvement(mean: Array, deviation: Array, best: float, noise: flo
 
     Parameters
     ----------
-    mean, deviation : of the figure without noise, shape (design,)
+    mean, deviation : mean and standard deviation of the figure without noise, shape (design,)
     best : mean of the effective best design
     noise : variance of a run
     """
@@ -91,7 +91,7 @@ class Models:
 
         Parameters
         ----------
-        designs : as shares of the ranges, shape (design, variable)
+        designs : shares of the ranges, shape (design, variable)
         """
         probability = np.ones(len(designs))
         for process in self.limited:
@@ -104,7 +104,7 @@ class Models:
 
         Parameters
         ----------
-        designs : as shares of the ranges, shape (design, variable)
+        designs : shares of the ranges, shape (design, variable)
         constraints : their number
         """
         objective, *limited = (
@@ -126,7 +126,7 @@ class Models:
 
         Parameters
         ----------
-        designs : as shares of the ranges, shape (design, variable)
+        designs : shares of the ranges, shape (design, variable)
         """
         runs, allowed = self.objective.runs, self.allowed(designs)
         eligible = runs.designs[self.allowed(runs.designs) >= 0.5]
@@ -140,15 +140,15 @@ class Models:
 
 @dataclass(frozen=True)
 class ActiveSearch:
-    """What an active search ran, and what it recommends.
+    """Runs of an active search, and the design that it recommends.
 
     Attributes
     ----------
     searched : all runs; the last column of the designs is the number of the run
     best : recommended design, shape (variable,)
     promised : rows of the runs that repeat it at the end; the first without any scatter
-    models : of the objective and constraints, over shares of the ranges
-    expected_gain : of one run more, in the unit of the objective
+    models : processes of the objective and constraints, over shares of the ranges
+    expected_gain : expected gain of one run more, in the unit of the objective
     """
 
     searched: Searched
@@ -171,12 +171,12 @@ def search_active(
 
     Parameters
     ----------
-    problem : whose `evaluate` takes designs with a further column, the number of the run
-    runs : at most
+    problem : problem whose `evaluate` takes designs with a further column, the number of the run
+    runs : largest number of runs
     repeats : runs of the best design at the end, with starts that the search has not seen
     least_gain : expected gain of one run more, in the unit of the objective, below which it ends
-    seed : of the random numbers; the same seed asks for the same designs
-    progress : called with the runs done
+    seed : seed of the random numbers; the same seed asks for the same designs
+    progress : function called with the runs done
 
     Raises
     ------

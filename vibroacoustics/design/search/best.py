@@ -16,10 +16,10 @@ from ..evaluation import Evaluate, Evaluation
 from .problem import History, Searched, SearchProblem
 
 _INFEASIBLE: Final = 1e9
-"""Above every objective that can be met."""
+"""Value above every objective that can be met."""
 _FAILED: Final = 1e30
 _SPREAD: Final = 1e-6
-"""Of a population's objectives (in their unit), at which it has converged."""
+"""Spread of a population's objectives, in their unit, at which it has converged."""
 _POLISHED: Final = 1e-9
 """Change of the objective at which the polish ends."""
 
@@ -37,13 +37,14 @@ def search_best(
 
     Parameters
     ----------
-    problem : with one objective or more, of which the first counts
+    problem : search problem with one objective or more, of which the first counts
     population : designs a generation
-    generations : at most, the first included; it ends before, once a population agrees within 1e-6
-    seed : of the random numbers; the same seed asks for the same designs
-    polish : evaluates single designs for a search by simplex (Nelder and Mead) from the best one at
-        the end; none for no such end
-    progress : called with the generations done
+    generations : largest number, the first included; the search ends before, once a population
+        agrees within 1e-6
+    seed : seed of the random numbers; the same seed asks for the same designs
+    polish : function that evaluates single designs for a search by simplex (Nelder and Mead)
+        from the best one at the end; none for no such end
+    progress : function called with the generations done
     """
     history = History(problem.evaluate)
     begin = _latin_hypercube(problem, population, seed)

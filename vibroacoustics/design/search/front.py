@@ -29,11 +29,11 @@ def search_front(
 
     Parameters
     ----------
-    problem : with two objectives or more
+    problem : search problem with two objectives or more
     population : designs a generation
-    generations : with the first
-    seed : of the random numbers; the same seed asks for the same designs
-    progress : called with the generations done
+    generations : number of generations, the first included
+    seed : seed of the random numbers; the same seed asks for the same designs
+    progress : function called with the generations done
 
     Raises
     ------

@@ -36,7 +36,7 @@ class Runs:
     Attributes
     ----------
     designs : distinct designs as shares of the ranges, shape (design, variable)
-    mean : of the runs of each design, shape (design,)
+    mean : mean of the runs of each design, shape (design,)
     count : number of runs of each design, shape (design,)
     squares : sum of squared deviations of all runs from the mean of their design
     """
@@ -52,8 +52,8 @@ class Runs:
 
         Parameters
         ----------
-        designs : of each run, shape (run, variable)
-        values : of each run, shape (run,)
+        designs : design of each run, shape (run, variable)
+        values : value of each run, shape (run,)
         """
         distinct, number = np.unique(designs, axis=0, return_inverse=True)
         count = np.bincount(number.ravel()).astype(float)
@@ -116,7 +116,7 @@ class Process:
 
         Parameters
         ----------
-        designs : as shares of the ranges, shape (design, variable)
+        designs : shares of the ranges, shape (design, variable)
 
         Returns
         -------
@@ -202,7 +202,7 @@ def fitted(runs: Runs, first: Sequence[Process] = ()) -> Process:
 
     Parameters
     ----------
-    runs : of two distinct designs or more
+    runs : runs of two distinct designs or more
     first : processes from whose parameters the search begins, too
     """
     if len(runs.mean) < 2:

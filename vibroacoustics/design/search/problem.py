@@ -12,13 +12,13 @@ from ..evaluation import Evaluate, Evaluation, joined
 
 @dataclass(frozen=True)
 class SearchProblem:
-    """What a search needs to know.
+    """Problem of a search: bounds, integers and evaluation.
 
     Attributes
     ----------
     lower, upper : bounds of the variables, shape (variable,)
     integer : variables that take whole numbers only (choices by their number), shape (variable,)
-    evaluate : evaluates a batch of designs
+    evaluate : function that evaluates a batch of designs
     """
 
     lower: Array
@@ -44,8 +44,8 @@ class Searched:
     Attributes
     ----------
     designs : shape (design, variable)
-    evaluation : of each
-    generation : in which each was evaluated, from 0, shape (design,)
+    evaluation : evaluation of each design
+    generation : generation in which each was evaluated, from 0, shape (design,)
     """
 
     designs: Array

@@ -39,8 +39,8 @@ class PieceStore:
 
     Parameters
     ----------
-    folder : of the files
-    clock : gives the time, s
+    folder : folder of the files
+    clock : function that gives the time, s
     """
 
     def __init__(self, folder: Folder, clock: Callable[[], float] = time.monotonic) -> None:
@@ -154,8 +154,8 @@ def opened_store(path: Path, plan: dict[str, object]) -> Iterator[PieceStore]:
 
     Parameters
     ----------
-    path : of the folder, in that of the results; both are made where they are missing
-    plan : what shapes the designs and their evaluation, as JSON values
+    path : path of the folder, in that of the results; both are made where they are missing
+    plan : inputs that shape the designs and their evaluation, as JSON values
 
     Raises
     ------
@@ -197,8 +197,8 @@ def stored(stream: Stream, store: PieceStore) -> Stream:
 
     Parameters
     ----------
-    stream : evaluates pieces that the store does not hold
-    store : keeps them
+    stream : function that evaluates pieces that the store does not hold
+    store : store of evaluated pieces
     """
 
     def each(pieces: Iterable[Array]) -> Iterator[Evaluation]:

@@ -70,8 +70,8 @@ def opened_scheduler(access: SchedulerAccess, required: bytes) -> Iterator[Paral
 
     Parameters
     ----------
-    access : to the scheduler
-    required : what workers must have, from `requirement`
+    access : access to the scheduler
+    required : requirement of the workers, from `requirement`
 
     Raises
     ------

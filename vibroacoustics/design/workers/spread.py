@@ -29,10 +29,10 @@ def spread(
 
     Parameters
     ----------
-    parallel_map : of the workers
+    parallel_map : map of the workers
     builder : function of a module that the workers have, which makes the evaluation
     task : JSON for the builder
-    counts : of objectives and of constraints, for designs that no worker survives
+    counts : number of objectives and of constraints, for designs that no worker survives
     """
 
     def lost(designs: Array, reason: str) -> Evaluation:
@@ -49,7 +49,7 @@ def evaluate_piece(builder: Builder, task: bytes, designs: Array) -> Evaluation:
     ----------
     builder : makes the evaluation of the task, once a process
     task : JSON for the builder
-    designs : in SI, shape (design, variable)
+    designs : shape (design, variable), SI
     """
     with one_thread_of_linear_algebra():
         return _built(builder, task)(designs)

@@ -26,9 +26,10 @@ _MAXIMUM_BYTES = 10_000_000
 
 
 def study_plan(study: Study, plugins: Sequence[Path]) -> dict[str, object]:
-    """What shapes designs and their values: a store that holds those of another plan is refused.
+    """Return the inputs that shape designs and their values.
 
-    A longer search of the same space goes on where a shorter one ended.
+    A store that holds designs of another plan is refused. A longer search of the same space goes
+    on where a shorter one ended.
     """
     parameters = study.parameters()
     for name in ("generations", "best", "fresh_samples", "runs", "repeats", "least_gain"):
@@ -36,7 +37,7 @@ def study_plan(study: Study, plugins: Sequence[Path]) -> dict[str, object]:
     return {
         "parameters": sha256(canonical_json(parameters).encode()),
         "version": software_version(),
-        "plugins": [_hash_of(one) for one in plugins],
+        "plugins": [_hash_of(path) for path in plugins],
     }
 
 
@@ -78,16 +79,16 @@ def study_task(path: Path, study: Study, plugins: Sequence[Path]) -> bytes:
 
     Parameters
     ----------
-    path : of the study's file, which the workers can read too
-    study : that was read from it
+    path : path of the study's file, which the workers can read too
+    study : study that was read from it
     plugins : files that were loaded before
     """
-    said = {
+    content = {
         "study": str(path.resolve()),
         "parameters": study_hash(study),
         "requirement": requirement(plugins).decode(),
     }
-    return canonical_json(said).encode()
+    return canonical_json(content).encode()
 
 
 def evaluate_task(task: bytes, radiation: Radiation = transfer_vectors) -> Evaluate:
@@ -95,20 +96,20 @@ def evaluate_task(task: bytes, radiation: Radiation = transfer_vectors) -> Evalu
 
     Parameters
     ----------
-    task : from `study_task`
-    radiation : gives the transfer vectors
+    task : task from `study_task`
+    radiation : function that gives the transfer vectors
 
     Raises
     ------
     ParameterError
         A file is missing there, or is another one.
     """
-    said = json.loads(task)
-    meet(said["requirement"].encode())
-    study = load_study(said["study"])
-    if study_hash(study) != said["parameters"]:
+    content = json.loads(task)
+    meet(content["requirement"].encode())
+    study = load_study(content["study"])
+    if study_hash(study) != content["parameters"]:
         here = f"worker on {socket.gethostname()}"
-        raise ParameterError(f"{here}: {said['study']}: is another study there")
+        raise ParameterError(f"{here}: {content['study']}: is another study there")
     return evaluating(Problem(study, radiation))
 
 

@@ -39,9 +39,9 @@ def apply(required: bytes, content: bytes, item: Any) -> Any:
 
     Parameters
     ----------
-    required : what the worker must have, from `requirement`
-    content : of the function, from `travelling`
-    item : of any kind
+    required : requirement of the worker, from `requirement`
+    content : bytes of the function, from `travelling`
+    item : item of any kind
     """
     meet(required)
     with one_thread_of_linear_algebra():
