@@ -1,1 +1,1 @@
-"""What everything else stands on."""
+"""Foundations of all other packages: arrays, units, files, vocabulary, registry."""

@@ -16,13 +16,13 @@ from .errors import ParameterError
 
 @dataclass(frozen=True)
 class Columns:
-    """What a file's columns hold.
+    """Content of a file's columns.
 
     Attributes
     ----------
-    path : of the file
+    path : path of the file
     numbers : in SI by SI name, shape (row,)
-    texts : of the columns of words
+    texts : columns of words by name, one text a row
     lines : number of each row's line
     """
 
@@ -36,7 +36,7 @@ class Columns:
         return f"{self.path}: line {self.lines[row]}"
 
     def refusal(self, row: int, words: str) -> ParameterError:
-        """What to raise of a row."""
+        """Return the error to raise for a row."""
         return ParameterError(f"{self.origin(row)}: {words}")
 
 

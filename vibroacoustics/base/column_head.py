@@ -62,7 +62,7 @@ class Column(NamedTuple):
     Attributes
     ----------
     number : position among the cells
-    cell : of the head
+    cell : text of the cell in the head
     name : SI name
     factor : to SI; none where no unit is stated
     problem : why the stated unit does not fit; empty where it does
@@ -103,10 +103,10 @@ class Head:
 
     Attributes
     ----------
-    layout : of the columns
-    separator : of the cells
+    layout : layout of the columns
+    separator : character between cells
     row : number of the head among the lines, from 0
-    cells : of the head
+    cells : cells of the head
     """
 
     layout: Layout
@@ -150,7 +150,7 @@ def find_head(lines: Lines, layouts: Sequence[Layout]) -> Head:
 
     Parameters
     ----------
-    lines : of the file
+    lines : lines of the file
     layouts : that it may have
 
     Raises
@@ -200,7 +200,7 @@ def with_units(head: Head, row: Sequence[str]) -> list[Column] | None:
 
     Parameters
     ----------
-    head : of the file
+    head : head of the file
     row : cells of the line
     """
     cells = [

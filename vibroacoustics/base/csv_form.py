@@ -66,7 +66,7 @@ def cells_of(line: str, separator: str, strict: bool = True) -> list[str]:
     Parameters
     ----------
     line : without its end
-    separator : of the cells
+    separator : character between cells
     strict : whether text behind a quote is refused
 
     Raises
@@ -85,7 +85,7 @@ def split_head(cell: str, is_unit: Callable[[str], bool]) -> tuple[str, str | No
 
     Parameters
     ----------
-    cell : of a head
+    cell : text of a cell of a head
     is_unit : whether a text in round brackets or behind a slash is a unit, not part of the name
     """
     match = _HEAD.fullmatch(cell)
@@ -190,7 +190,7 @@ def number_form(cells: Iterable[str], separator: str) -> NumberForm:
     Parameters
     ----------
     cells : that hold numbers; others are left to `NumberForm.numbers`
-    separator : of the cells
+    separator : character between cells
 
     Raises
     ------

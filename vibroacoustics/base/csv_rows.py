@@ -22,9 +22,9 @@ class Lines:
 
     Attributes
     ----------
-    path : of the file
-    numbers : of the lines, from 1
-    texts : of the lines
+    path : path of the file
+    numbers : numbers of the lines, from 1
+    texts : texts of the lines
     separators : that the file may have; one where it states it
     comments : without their mark
     """

@@ -39,7 +39,7 @@ def fused(text: str) -> str:
 
 
 def _text(cell: str) -> str:
-    """Without carriage returns, which csv does not quote, though they end a row."""
+    """Replace carriage returns, which csv does not quote, though they end a row."""
     return defused(cell.replace("\r", " "))
 
 

@@ -22,11 +22,11 @@ ORBIT_AXES: Final = ("x", "y")
 
 
 class CurveAxis(NamedTuple):
-    """What a curve is given over.
+    """Abscissa of a curve, or the quantity that parts its lines or panels.
 
     Attributes
     ----------
-    name : of the dimension
+    name : name of the dimension
     values : numbers in SI, or words
     unit : key of `units.UNITS` in which they are read; empty for words
     label : in a picture; the name in words where empty
@@ -54,9 +54,9 @@ class Curve:
 
     Attributes
     ----------
-    name : of the variable, and of its table and picture
-    title : what is shown, in words
-    values : SI, one dimension for each axis
+    name : name of the variable, and of its table and picture
+    title : quantity that is shown, in words
+    values : SI, shape (...), one dimension for each axis
     axes : the last is the abscissa, the one before parts the lines, the first of three the panels
     unit : key of `units.UNITS` in which the values are read
     source : document and figure or equation that it repeats; or what it is derived from
@@ -87,7 +87,7 @@ class Curve:
             raise ParameterError(f"curve {self.name}: {reason}")
 
     def _reasons(self) -> Iterator[str | None]:
-        """What is wrong; what comes later takes for granted that nothing was before."""
+        """Yield what is wrong; later checks assume that the earlier ones passed."""
         if not self.name.isidentifier() or not self.title or not self.source:
             yield "name, title and source must be said, the name as a word of letters, digits, _"
         most = MOST_AXES + (self.picture == "orbit")

@@ -13,7 +13,7 @@ def semi_major_axis(phasor: ComplexArray, axis: int) -> Array:
 
     Parameters
     ----------
-    phasor : complex peak components along `axis`, any unit
+    phasor : complex peak components along `axis`, shape (...), any unit
     axis : the axis of the components; it is removed
 
     Returns

@@ -89,7 +89,7 @@ class StorageError(VibroacousticsError):
 
 
 class PluginError(VibroacousticsError):
-    """A stranger's option, machine, criterion, section or column cannot be taken in.
+    """A third party's option, machine, criterion, section or column is refused.
 
     Examples
     --------

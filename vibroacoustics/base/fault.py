@@ -17,7 +17,7 @@ class Owner(NamedTuple):
 
     Attributes
     ----------
-    noun, name : of the thing, as its registry calls it
+    noun, name : noun and name of the thing in its registry
     file : name of the file that holds it
     thing : class or object
     """
@@ -33,7 +33,7 @@ class FaultError(PluginError):
 
     Attributes
     ----------
-    noun, name : of the thing
+    noun, name : noun and name of the thing in its registry
     reason : file, line and words, without noun and name
     """
 

@@ -17,7 +17,7 @@ from .fault import FaultError, Owner, cut
 from .fitting import attribute_hints, misfit, result_hint
 
 REFUSALS: Final = (ParameterError, StorageError)
-"""With which a plug-in refuses a value or a file of the user; they are no fault of its own."""
+"""Errors by which a plug-in refuses a value or a file of the user; they are not its faults."""
 
 
 @contextmanager

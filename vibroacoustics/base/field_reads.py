@@ -1,4 +1,4 @@
-"""Which values of tables a computation reads: what it depends on, without being told."""
+"""Values of tables that a computation reads, and so depends on, recorded while it runs."""
 
 from collections.abc import Hashable, Iterator, Mapping
 from contextlib import contextmanager
@@ -15,7 +15,7 @@ _RECORDS: Final[list[set[Hashable]]] = []
 """Sets of labels that are being recorded, in any thread."""
 _IS_PAUSED: Final[ContextVar[bool]] = ContextVar("_IS_PAUSED", default=False)
 _ALL_FIELDS: Final = "__dict__"
-"""Through this attribute a table is compared, hashed, dumped and iterated over."""
+"""Attribute through which a table is compared, hashed, dumped and iterated over."""
 
 
 @contextmanager
@@ -46,7 +46,7 @@ def watched(table: Table, labels: Mapping[tuple[str, ...], Hashable]) -> Table:
 
     Parameters
     ----------
-    table : of the values, itself or in its inner tables
+    table : table that holds the values, itself or in its inner tables
     labels : by the names of the inner tables and of the field, such as ("mounts", "pitch_m")
 
     Examples

@@ -42,7 +42,7 @@ class FileTable(Parameters):
 
         Parameters
         ----------
-        path : of the file
+        path : path of the file
         table : the table's other values
 
         Raises

@@ -38,7 +38,7 @@ class Folder:
     Attributes
     ----------
     path : its name, for messages
-    descriptor : of the folder
+    descriptor : file descriptor of the folder
     """
 
     path: Path
@@ -84,7 +84,7 @@ class Folder:
 
         Parameters
         ----------
-        name : of the file
+        name : name of the file
         content : all of it, or parts that are written one after another
 
         Raises

@@ -26,10 +26,10 @@ def check_heaps(content: bytes) -> None:
     for collection in _COLLECTION.finditer(content):
         (size,) = struct.unpack("<Q", collection[1])
         end = min(collection.start() + size, len(content))
-        at = collection.end()
-        while at + _HEAD.size <= end:
-            index, _, _, length = _HEAD.unpack_from(content, at)
+        offset = collection.end()
+        while offset + _HEAD.size <= end:
+            index, _, _, length = _HEAD.unpack_from(content, offset)
             step = length if index == 0 else _HEAD.size + 8 * -(-length // 8)
             if step < _HEAD.size:
                 raise StorageError("is no result file: a heap in it is damaged")
-            at += step
+            offset += step

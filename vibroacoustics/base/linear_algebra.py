@@ -43,7 +43,7 @@ class _OpenBlas:
 
     @property
     def threads(self) -> list[int]:
-        """Of each library."""
+        """Number of threads of each library."""
         return [get() for get, _ in self._functions]
 
     def _put(self, threads: list[int]) -> None:

@@ -1,4 +1,4 @@
-"""What every parameter object has in common."""
+"""Base class of all parameter objects."""
 
 import json
 from collections.abc import Callable, Iterable, Mapping
@@ -45,7 +45,7 @@ class Parameters(BaseModel):
         frozen=True, strict=True, extra="forbid", allow_inf_nan=False, validate_default=True
     )
     lines_to_add: ClassVar[str] = ""
-    """What a refusal says of a missing table, where its required keys alone do not say enough."""
+    """Help in the refusal of a missing table, where its required keys alone do not say enough."""
 
     def __dir__(self) -> list[str]:
         return [name for name in super().__dir__() if name not in _OF_PYDANTIC]
@@ -159,10 +159,10 @@ class AnyOf:
         required = ["kind", *schema.get("required", [])]
         return {**schema, "properties": properties, "required": required}
 
-    def _read(self, given: Any, info: ValidationInfo) -> Any:
-        if not isinstance(given, dict):
-            return given
-        kind, values = split_kind(self._registry, given)
+    def _read(self, content: Any, info: ValidationInfo) -> Any:
+        if not isinstance(content, dict):
+            return content
+        kind, values = split_kind(self._registry, content)
         if info.mode == "json":  # where a list stands for a tuple
             return kind.model_validate_json(json.dumps(values))
         return kind.model_validate(values)

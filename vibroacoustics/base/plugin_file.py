@@ -1,4 +1,4 @@
-"""Python files of strangers that the user names: what they register becomes known."""
+"""Python files of third parties that the user names: what they register becomes known."""
 
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
@@ -13,7 +13,7 @@ from .regular_file import opened
 MAXIMUM_BYTES: Final = 10_000_000
 
 _FILES: Final[dict[str, Path]] = {}
-"""By the name of the module that each became."""
+"""Files by the name of the module that each became."""
 
 
 def plugin_file(module: str) -> Path | None:
@@ -59,12 +59,12 @@ def load_plugin(path: str | Path) -> None:
         raise
 
 
-def _check(file: Path, given: str | Path) -> None:
+def _check(file: Path, named: str | Path) -> None:
     """Refuse what is no regular file, or too large for a module."""
     try:
         with opened(file, MAXIMUM_BYTES):
             return
     except FileNotFoundError:
-        raise PluginError(f"{given}: no such file") from None
+        raise PluginError(f"{named}: no such file") from None
     except OSError as error:
-        raise PluginError(f"{given}: cannot be read: {error.strerror}") from None
+        raise PluginError(f"{named}: cannot be read: {error.strerror}") from None

@@ -1,4 +1,4 @@
-"""What the package takes from Linux and macOS that Windows lacks: locks, limits, a signal by time.
+"""Functions of Linux and macOS that Windows lacks: locks, limits, a signal by time.
 
 Modules import `fcntl`, `resource` and ENDING from here.
 """

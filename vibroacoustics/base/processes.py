@@ -35,7 +35,7 @@ class ProcessPool:
 
     Parameters
     ----------
-    number : of processes, at least 1
+    number : number of processes, at least 1
     inherited : function of any kind that forked workers know, where `can_fork`; without it
         workers are started afresh
 
@@ -130,8 +130,8 @@ class ProcessPool:
 
     def _give(self, function: Callable[[Item], Result], tasks: "_Tasks[Item]") -> None:
         """Give waiting tasks to idle workers; start workers where there are fewer than tasks."""
-        given = {worker.task for worker in self._workers}
-        waiting = [task for task in tasks.unfinished.values() if task not in given]
+        assigned = {worker.task for worker in self._workers}
+        waiting = [task for task in tasks.unfinished.values() if task not in assigned]
         idle = [worker for worker in self._workers if worker.ready and not worker.task]
         for worker, task in zip(idle, waiting, strict=False):
             worker.take(None if function is self._inherited else function, task)
@@ -186,7 +186,7 @@ class _Tasks(Generic[Item]):
     Parameters
     ----------
     items : are taken when workers are free for them
-    number : of workers
+    number : number of workers
     ahead : largest difference of the indices of two unfinished tasks; None: any
     """
 
@@ -239,8 +239,8 @@ def distributed(
 
     Parameters
     ----------
-    function : of any kind; what it changes may be lost
-    items : what pickle takes, as the results are
+    function : function of any kind; what it changes may be lost
+    items : arguments that pickle takes, as it does the results
     otherwise : applies the function where there are no such workers
     """
     parallel_map = _PARALLEL_MAP.get()

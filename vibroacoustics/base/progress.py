@@ -1,4 +1,4 @@
-"""How long work reports its advance."""
+"""Reports of the advance of long work."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

@@ -27,7 +27,9 @@ def weighted_quantiles(values: Array, weight: Array, shares: Sequence[float]) ->
     middle = np.cumsum(sizes, axis=0) - 0.5 * sizes
     middle -= middle[0].copy()
     middle /= np.where(middle[-1] > 0.0, middle[-1], 1.0)
-    rows = [np.interp(shares, at, of) for at, of in zip(middle.T, rising.T, strict=True)]
+    rows = [
+        np.interp(shares, share, value) for share, value in zip(middle.T, rising.T, strict=True)
+    ]
     return np.transpose(rows).reshape(len(shares), *values.shape[1:])
 
 
@@ -39,7 +41,7 @@ def stepped_quantiles(values: Array, weight: Array, shares: Sequence[float]) -> 
 
     Parameters
     ----------
-    values, weight, shares : as in `weighted_quantiles`
+    values, weight, shares : values, weights and shares, see `weighted_quantiles`
     """
     rising, sizes = _rising(values, weight)
     below = np.cumsum(sizes, axis=0)

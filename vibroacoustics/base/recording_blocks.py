@@ -20,7 +20,7 @@ class RecordingBlocks(Protocol):
 
     @property
     def samples(self) -> int:
-        """Of a channel, all in all."""
+        """Number of samples of a channel in all blocks."""
 
     @property
     def channels(self) -> Sequence[str]:

@@ -29,13 +29,14 @@ LAST: Final = 1000.0
 
 
 class Origin(NamedTuple):
-    """Where a thing comes from that is not built in.
+    """Origin of a thing that is not built in.
 
     Attributes
     ----------
     file : name of the file that holds it
-    version : of the installed package, or `__version__` of the file; empty where it has none
-    sha256 : of the file's content
+    version : version of the installed package, or `__version__` of the file; empty
+        where it has none
+    sha256 : hash of the file's content
     """
 
     file: str
@@ -48,7 +49,7 @@ class Registry(Generic[Thing]):
 
     Parameters
     ----------
-    noun : what one of them is called in messages
+    noun : noun for one of them in messages
     base : class that they are instances, or subclasses, of
     label : attribute that holds a thing's name
     folder : package, relative to this one, whose modules hold the built-in things
@@ -132,7 +133,7 @@ class Registry(Generic[Thing]):
         return f", did you mean {close[0]}?" if close else ""
 
     def unknown(self, name: str, further: Iterable[str] = ()) -> str:
-        """What a refusal of a name says: names that come close, or all that there are.
+        """Return words of a refusal of a name: names that come close, or all that there are.
 
 
         Raises
@@ -146,12 +147,12 @@ class Registry(Generic[Thing]):
         return f"unknown{self.meant(name, allowed) or ';'} allowed {', '.join(allowed)}"
 
     def origin(self, name: str) -> Origin | None:
-        """Where a thing comes from; None for a built-in one."""
+        """Return where a thing comes from; None for a built-in one."""
         self._fill()
         return self._origins.get(name)
 
     def origins(self) -> dict[str, Origin]:
-        """Where each thing comes from that is not built in."""
+        """Return where each thing comes from that is not built in."""
         self._fill()
         return dict(self._origins)
 
@@ -168,10 +169,10 @@ class Registry(Generic[Thing]):
             raise PluginError(f"{thing!r}: a {self.noun} needs a text `{self._label}`")
         if origin is not None:
             self._fill()
-        known = self._things.get(name)
-        if known is thing:
+        registered = self._things.get(name)
+        if registered is thing:
             return
-        if known is not None:
+        if registered is not None:
             other = self._origins.get(name)
             whose = "is built in" if other is None else f"is given by {other.file} already"
             prefix = "" if origin is None else f"{origin.file}: "
@@ -263,7 +264,7 @@ def origin_of(module: dict[str, Any], version: str = "") -> Origin:
 
 
 def plugins() -> dict[str, dict[str, str]]:
-    """Where every loaded thing of a third party comes from, by noun and name, as JSON values."""
+    """Return the origin of every loaded thing of a third party by noun and name, as JSON values."""
     return {
         f"{registry.noun} {name}": origin._asdict()
         for registry in _REGISTRIES

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .arrays import Array
 
 Parameters = NDArray[np.floating[Any]]
-"""Along a curve, from 0 to 1, shape (point,)."""
+"""Parameters along a curve, from 0 to 1, shape (point,)."""
 Point = tuple[float, float]
 """Radius and height, m."""
 _PIECES: Final = 32

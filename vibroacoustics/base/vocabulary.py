@@ -16,7 +16,7 @@ MEDIAN_STEP: Final = "median step"
 MEAN: Final = "mean"
 REPRESENTATIVE: Final = "representative"
 STATISTICS: Final = (NOMINAL, MEDIAN, MEDIAN_STEP, MEAN, REPRESENTATIVE)
-"""What the value of a variable is: nominal, the median or mean of the weighted samples, or that of
+"""Statistic of a variable's value: nominal, the median or mean of the weighted samples, or that of
 the representative sample. Of a variable in steps, median and interval are steps themselves."""
 LOW: Final = "low"
 HIGH: Final = "high"
@@ -49,7 +49,7 @@ _ROUNDING: Final = 1e-9
 
 @dataclass(frozen=True)
 class _Labelled:
-    """What variables and coordinates have in common.
+    """Fields that variables and coordinates have in common.
 
     Attributes
     ----------
@@ -110,7 +110,7 @@ class Variable(_Labelled):
     Attributes
     ----------
     complex_peak : whether its values are phasors, complex peaks
-    statistic : what its values are in a run with samples: nominal ones, or medians or means
+    statistic : statistic of its values in a run with samples: nominal ones, or medians or means
 
     Examples
     --------
@@ -185,7 +185,7 @@ def stamp(
 
     Parameters
     ----------
-    name : of a registered variable; it fixes the dims and the unit
+    name : name of a registered variable; it fixes the dims and the unit
     values : array whose shape follows those dims
     coords : coordinate values by name
     attrs : further attributes, such as `source`

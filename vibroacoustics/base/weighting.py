@@ -33,7 +33,7 @@ def c_weighting(frequency_hz: Array | float) -> Array:
 
 
 def z_weighting(frequency_hz: Array | float) -> Array:
-    """No weighting: 0 dB at every frequency."""
+    """Gain of the Z-weighting: 0 dB at every frequency."""
     return np.zeros_like(np.asarray(frequency_hz, dtype=float))
 
 
@@ -68,7 +68,7 @@ def weighted_signal(signal: Array, sample_rate_hz: float, weighting: str) -> Arr
     Parameters
     ----------
     signal : shape (..., time), any unit
-    sample_rate_hz : of the signal
+    sample_rate_hz : sampling rate of the signal, Hz
     weighting : a key of WEIGHTING
 
     Returns

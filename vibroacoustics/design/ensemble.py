@@ -26,9 +26,9 @@ from ..sound.tone_spectra import band_square
 from ..stages.chain import Chain
 from ..study.study import Study
 from ..transfer.received import Transmission
-from ..uncertainty.bank import Bank
 from ..uncertainty.discrepancy import Discrepancy
 from ..uncertainty.evidence import Evidence
+from ..uncertainty.prior_ensemble import PriorEnsemble
 from .engine.contraction import Contraction
 from .engine.deviating import Gains, energy
 from .engine.engine import Engine
@@ -124,8 +124,8 @@ def _machines(study: Study, cut: Study, radiation: Radiation) -> list[MachineSam
 
 
 def _samples(study: Study, radiation: Radiation) -> Iterator[MachineSample]:
-    chain = chain_with(study, Bank, radiation=radiation)
-    ensemble, evidence = chain[Bank], chain[Evidence]
+    chain = chain_with(study, PriorEnsemble, radiation=radiation)
+    ensemble, evidence = chain[PriorEnsemble], chain[Evidence]
     if not ensemble.suffices:
         return
     index, count = ensemble.chosen(study.uncertainty.seed)
@@ -148,7 +148,7 @@ def _unmodelled(
     chain: Chain, number: int, discrepancy: Discrepancy, noise: Array
 ) -> list[Unmodelled]:
     """Noise beside the modelled sound of each option."""
-    study, nominal, ensemble = chain.study, chain[NominalSound], chain[Bank]
+    study, nominal, ensemble = chain.study, chain[NominalSound], chain[PriorEnsemble]
     machine, axes = ensemble.batch.machines[number], nominal.axes
     unmodelled = [remaining(study, axes, machine, of_pair) for of_pair in noise]
     sounds: list[dict[CaseKey, SourceSound]] = [{}] * len(unmodelled)

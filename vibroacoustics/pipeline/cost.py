@@ -1,4 +1,4 @@
-"""What a run will cost, before it starts: its stages are tried at the first speed."""
+"""Cost of a run, before it starts: its stages are tried at the first speed."""
 
 import time
 from dataclasses import dataclass
@@ -21,11 +21,11 @@ _REPORT_S: Final = (2.0, 6.0)
 
 @dataclass(frozen=True)
 class RunCost:
-    """What a run will take.
+    """Time and memory that a run will take.
 
     Attributes
     ----------
-    costs : of its stages, in their order
+    costs : costs of its stages, in their order
     result_bytes : size of the result
     was_cached : whether the transfer vectors are cached
     """

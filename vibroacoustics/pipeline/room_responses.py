@@ -13,8 +13,8 @@ def impulse_responses(study: Study, progress: Progress = no_progress) -> xr.Data
     """Sound pressure at the listeners in the room per acceleration of the shell, over time.
 
     At 48 kHz, per sample: the convolution of a sampled acceleration of a rigid motion with it is
-    the pressure that this motion makes. To the seam by waves, above it by direct sound and decaying
-    noise of a fixed seed.
+    the pressure that this motion makes. To the crossover frequency it is by waves, above it by
+    direct sound and decaying noise of a fixed seed.
 
     Parameters
     ----------

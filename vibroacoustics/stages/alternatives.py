@@ -1,12 +1,12 @@
-"""What the first screen would show with less evidence, another prior or other laws."""
+"""First screen with less evidence, another prior or other laws."""
 
 from ..base.registry import register
 from ..results.estimates import prior_ensemble
 from ..study.study import Study
 from ..uncertainty.alternative_sounds import ComputedSamples
 from ..uncertainty.alternative_variables import alternative_variables
-from ..uncertainty.bank import Bank
 from ..uncertainty.evidence import Evidence
+from ..uncertainty.prior_ensemble import PriorEnsemble
 from .chain import Chain
 from .stage import Given, Stage
 
@@ -16,14 +16,14 @@ class Alternatives(Stage):
     """Level, shares and changes by options with other inputs, by reweighting the samples."""
 
     name = "alternatives"
-    reads = (Bank, Evidence, ComputedSamples, "prior_sample_*", "shell_weight")
+    reads = (PriorEnsemble, Evidence, ComputedSamples, "prior_sample_*", "shell_weight")
     gives = ("alternative_*",)
 
     def applies(self, study: Study) -> bool:
         return bool(study.ranges) and study.baseline is None
 
     def run(self, chain: Chain) -> Given:
-        ensemble, prior = chain[Bank], prior_ensemble(chain.results)
+        ensemble, prior = chain[PriorEnsemble], prior_ensemble(chain.results)
         if prior is None or not ensemble.suffices:
             return Given()
         computed = chain.get(ComputedSamples) or ComputedSamples()

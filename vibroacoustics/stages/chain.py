@@ -28,7 +28,7 @@ class Chain:
     radiation : callable that gives the transfer vectors
     progress : called with the advance of long work
     results : all variables so far
-    products : what is not stored, by its type
+    products : things that are not stored, by their type
 
     Examples
     --------

@@ -10,12 +10,12 @@ from ..study.study import Study
 from ..transfer.path import ShellPath
 from ..transfer.received import Transmission
 from ..transfer.study_path import projection_errors
-from ..uncertainty.bank import Bank
 from ..uncertainty.cost import ensemble_cost
 from ..uncertainty.every_sample import errors_of_projection
 from ..uncertainty.evidence import Evidence
 from ..uncertainty.hammer_test import HammerTest
 from ..uncertainty.posterior import posterior
+from ..uncertainty.prior_ensemble import PriorEnsemble
 from .chain import Chain
 from .forces import PublishedCases, with_published
 from .radiation import Radiated
@@ -34,7 +34,7 @@ class PosteriorEnsemble(Stage):
     name = "ensemble"
     reads = (Cases, PublishedCases, Transmission, NominalSound, ShellPath, HammerTest)
     gives = (
-        Bank, Evidence, "prior_sample_*", "datum_*", "conflict_tail", "spectrum_*",
+        PriorEnsemble, Evidence, "prior_sample_*", "datum_*", "conflict_tail", "spectrum_*",
         "level_share*", "projection_error", "shell_likelihood", "shell_gain",
         "shell_*_ratio", "shell_value", "shell_level_before", "shell_weight", "shell_peak_loss",
     )  # fmt: skip
@@ -53,17 +53,17 @@ class PosteriorEnsemble(Stage):
             return sounds_of(weighing, batch, done)
 
         test = chain.get(HammerTest)
-        bank, results = posterior(evidence, sounds_at_evidence, test, chain.progress)
-        chain.progress(_WEIGHTED, len(bank.samples), len(bank.samples))
+        ensemble, results = posterior(evidence, sounds_at_evidence, test, chain.progress)
+        chain.progress(_WEIGHTED, len(ensemble.samples), len(ensemble.samples))
         errors = {} if shell is None else projection_errors(study, shell, chain.progress)
-        return Given(results.merge(errors_of_projection(study.ranges, errors)), (bank, evidence))
+        results = results.merge(errors_of_projection(study.ranges, errors))
+        return Given(results, (ensemble, evidence))
 
     def tried(self, chain: Chain, study: Study) -> Trial:
-        weighing, known = _weighing(chain), chain[Radiated].was_cached
+        weighing, was_cached = _weighing(chain), chain[Radiated].was_cached
         sounds, seconds = timed_sounds(weighing, study, _TIMED)
-        return Trial(
-            chain, (ensemble_cost(Evidence(weighing[NominalSound]), sounds, seconds, known),)
-        )
+        cost = ensemble_cost(Evidence(weighing[NominalSound]), sounds, seconds, was_cached)
+        return Trial(chain, (cost,))
 
 
 def _weighing(chain: Chain) -> Chain:

@@ -103,8 +103,8 @@ def _published(study: Study, nominal: Cases) -> PublishedCases:
         return PublishedCases({}, {}, {})
     machine = study.catalogue_machine or study.machine
     reference = {REFERENCE_OPTION: study.options[REFERENCE_OPTION]}
-    there = study.model_copy(update={"machine": machine})
-    _, of = motion_of(at_speeds(there, key[:1], reference), no_progress)
+    published = study.model_copy(update={"machine": machine})
+    _, of = motion_of(at_speeds(published, key[:1], reference), no_progress)
     cases, loads, wrenches = (dict.fromkeys([key], *part.values()) for part in vars(of).values())
     return PublishedCases(cases, loads, wrenches)
 

@@ -56,11 +56,11 @@ class KeptRadiation:
 
 @dataclass(frozen=True)
 class Radiated:
-    """Where the transfer vectors come from.
+    """Origin of the transfer vectors.
 
     Attributes
     ----------
-    attributes : of method, grids and errors
+    attributes : attributes of method, grids and errors
     was_cached : whether they were read, not computed
     """
 

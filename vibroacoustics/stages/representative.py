@@ -21,8 +21,8 @@ from ..study.study import Study
 from ..transfer.labelled import housing_variables
 from ..transfer.received import Transmission
 from ..uncertainty.alternative_sounds import ComputedSamples
-from ..uncertainty.bank import Bank
 from ..uncertainty.evidence import PAIRS, Evidence
+from ..uncertainty.prior_ensemble import PriorEnsemble
 from ..uncertainty.representative import at_medians, nearest_row
 from .chain import Chain
 from .forces import PublishedCases, motion_of, with_published
@@ -64,7 +64,7 @@ class RepresentativeSample(Stage):
 
     name = "representative"
     reads = (
-        Cases, PublishedCases, Transmission, NominalSound, Bank, Evidence, ComputedSamples,
+        Cases, PublishedCases, Transmission, NominalSound, PriorEnsemble, Evidence, ComputedSamples,
         "source_level*", "level_unmodelled*", "level_total", "sample_weight", "sampled_value",
         "order_level", "force_amplitude", "moment_amplitude", "foot_force_amplitude",
     )  # fmt: skip
@@ -79,7 +79,7 @@ class RepresentativeSample(Stage):
         return bool(study.ranges) and study.baseline is None
 
     def run(self, chain: Chain) -> Given:
-        computed, ensemble = chain.get(ComputedSamples), chain[Bank]
+        computed, ensemble = chain.get(ComputedSamples), chain[PriorEnsemble]
         if computed is None:
             return Given()
         row = nearest_row(chain.results)
@@ -114,8 +114,7 @@ def _sound(
     }
     unmodelled = remaining(chain.study, axes, sample.machine, sample.unmodelled[chosen.pair])
     noise = noise_levels(axes, received, unmodelled)
-    nominal = chain.results["line"].values.tolist()
-    lines = line_pressure(axes, received, nominal)
+    lines = line_pressure(axes, received, chain.results["line"].values.tolist())
     return with_order_levels(lines, chain.results["order_level"]), noise[list(_NOISE)].rename(
         {name: f"representative_{name}" for name in _NOISE}
     )

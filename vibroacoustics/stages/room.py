@@ -80,18 +80,17 @@ def _sound_in_room(chain: Chain, settings: StudyRoom) -> xr.Dataset:
     pressure, listeners = rooms.pressure_at_positions(vectors), list(settings.listeners)
     modes = None if shell is None else rooms.of_modes(pressure)
     paths = Transmission(study, Observers(rooms.of_rigid(pressure), modes), shell)
-    both = paths_of(settings, study.machine.shell, vectors, pressure)
+    room_paths = paths_of(settings, study.machine.shell, vectors, pressure)
     received = paths.received(chain[Cases]).items()
-    sound = {key: room_sound(of_case, both.paths) for key, of_case in received}
-    gains, _ = blended_gains(both.waves, both.paths)
+    sound = {key: room_sound(of_case, room_paths.paths) for key, of_case in received}
+    gains, _ = blended_gains(room_paths.waves, room_paths.paths)
     air = AirInRoom.of(chain[NominalSound], listeners, sound, results, gains)
     per_power = rooms.plate_per_power(settings, vectors)
     statistics = sampled_room_level(air, results, study.catalogue_receiver)
     levels = room_variables(air, sound, results, statistics, per_power)
     levels = levels.merge(rooms.surface_variables(settings))
-    levels = levels.merge(
-        crossover_variables(listeners, both.shown, *both.transfers, both.gains_db)
-    )
+    transfers, gains_db = room_paths.transfers, room_paths.gains_db
+    levels = levels.merge(crossover_variables(listeners, room_paths.shown, *transfers, gains_db))
     return levels.merge(_map(study, settings, air, chain.progress))
 
 

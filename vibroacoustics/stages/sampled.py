@@ -11,9 +11,9 @@ from ..study.samples import batches_of_samples
 from ..study.sampling import Sample
 from ..study.study import Study
 from ..transfer.received import Transmission
-from ..uncertainty.bank import Bank
 from ..uncertainty.every_sample import in_every_sample
 from ..uncertainty.evidence import Evidence, Pairs
+from ..uncertainty.prior_ensemble import PriorEnsemble
 from ..uncertainty.sample_variables import SampleValues
 from ..uncertainty.sampled_forces import force_variables, sampled_forces
 from ..uncertainty.sampled_tones import sampled_tones
@@ -32,7 +32,10 @@ def sounds_of(chain: Chain, samples: list[Sample], progress: Callable[[int], Non
 
 
 def values_of(
-    chain: Chain, ensemble: Bank, numbers: list[tuple[int, int]], progress: Callable[[int], None]
+    chain: Chain,
+    ensemble: PriorEnsemble,
+    numbers: list[tuple[int, int]],
+    progress: Callable[[int], None],
 ) -> list[SampleValues | None]:
     """Compute levels and forces of the samples that go on; none of those without a solution."""
 
@@ -42,7 +45,7 @@ def values_of(
     return in_every_sample(numbers, of_number, None, progress)
 
 
-def _values(chain: Chain, ensemble: Bank, number: int, count: int) -> SampleValues:
+def _values(chain: Chain, ensemble: PriorEnsemble, number: int, count: int) -> SampleValues:
     """Levels and forces of a sample with its pairs of discrepancy and unmodelled level."""
     study, axes = chain.study, chain[NominalSound].axes
     sample, pairs, sampled, sound = deviating(chain, ensemble, number)
@@ -57,9 +60,10 @@ def _values(chain: Chain, ensemble: Bank, number: int, count: int) -> SampleValu
     return SampleValues.of(levels, forces, pairs.repeated(count), mutual)
 
 
-def deviating(chain: Chain, ensemble: Bank, number: int) -> tuple[Deviating, Pairs, Cases, Sound]:
+def deviating(
+    chain: Chain, ensemble: PriorEnsemble, number: int
+) -> tuple[Deviating, Pairs, Cases, Sound]:
     """Compute the sound of a sample with the discrepancies of its pairs.
-
 
     Returns
     -------

@@ -9,9 +9,9 @@ from ..machine.cases import Cases
 from ..study.study import Study
 from ..transfer.received import Transmission
 from ..uncertainty.alternative_sounds import ComputedSamples
-from ..uncertainty.bank import Bank
 from ..uncertainty.cost import samples_cost
 from ..uncertainty.evidence import Evidence
+from ..uncertainty.prior_ensemble import PriorEnsemble
 from ..uncertainty.sample_variables import SampleValues, sample_variables
 from .chain import Chain
 from .forces import PublishedCases, with_published
@@ -36,8 +36,8 @@ class Samples(Stage):
 
     name = "samples"
     reads = (
-        Cases, PublishedCases, Transmission, NominalSound, Bank, Evidence, "force_amplitude",
-        "moment_amplitude", "foot_force_amplitude", "reported_figure", "rating_limit",
+        Cases, PublishedCases, Transmission, NominalSound, PriorEnsemble, Evidence, "rating_limit",
+        "force_amplitude", "moment_amplitude", "foot_force_amplitude", "reported_figure",
     )  # fmt: skip
     gives = (
         ComputedSamples, "*_by_sample", "sample_weight", "sampled_value", "choice_utility",
@@ -47,12 +47,11 @@ class Samples(Stage):
         "force_amplitude", "moment_amplitude", "foot_force_amplitude", "largest_foot_force",
         "reported_figure", "force_change_1x", "moment_change_1x", "foot_force_change_1x",
         "order_level", "level_modelled", "level_total", "level_unmodelled", "residual_level",
-        "noise_band_level", "unmodelled_band_level", "total_band_level",
-        "sources_band_level", "order_change", "change_1x", "change_modelled", "change_total",
-        "increase_probability", "decrease_probability", "source_level", "source_band_level",
-        "source_share", "unmodelled_share", "tone_level", "tone_excess", "largest_tone_excess",
-        "tone_audibility", "decisive_audibility", "tonal_adjustment", "tone_probability",
-        "any_tone_probability",
+        "noise_band_level", "unmodelled_band_level", "total_band_level", "sources_band_level",
+        "order_change", "change_1x", "change_modelled", "change_total", "increase_probability",
+        "decrease_probability", "source_level", "source_band_level", "source_share",
+        "unmodelled_share", "tone_level", "tone_excess", "largest_tone_excess", "tone_audibility",
+        "decisive_audibility", "tonal_adjustment", "tone_probability", "any_tone_probability",
         "rating_level", "rating_adjustment", "limit_probability",
     )  # fmt: skip
 
@@ -60,7 +59,7 @@ class Samples(Stage):
         return bool(study.ranges)
 
     def run(self, chain: Chain) -> Given:
-        ensemble = chain[Bank]
+        ensemble = chain[PriorEnsemble]
         if not ensemble.suffices:
             return Given()
         index, count = ensemble.chosen(chain.study.uncertainty.seed)
@@ -70,11 +69,8 @@ class Samples(Stage):
             chain.progress("sources", number, len(numbers))
 
         values = values_of(with_published(chain), ensemble, numbers, done)
-        solved = {
-            counted: value
-            for counted, value in zip(numbers, values, strict=True)
-            if value is not None
-        }
+        counted = zip(numbers, values, strict=True)
+        solved = {key: value for key, value in counted if value is not None}
         if not solved:
             return Given()
         statistics, kept = sample_variables(

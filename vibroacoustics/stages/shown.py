@@ -30,7 +30,7 @@ UNMODELLED_NOISE: Final = ("representative_unmodelled_band_level", "unmodelled_b
 SHOWN: Final[tuple[str | type, ...]] = (
     Cases, Transmission, Representative, "rank", *UNMODELLED_NOISE
 )  # fmt: skip
-"""What a stage reads that asks for the cases; with the ranks it comes after the scores."""
+"""Reads of a stage that asks for the cases; with the ranks it comes after the scores."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Shown:
     options : none, and the one that ranks first
     receiver : number of the microphone of the published level
     machine : without an option
-    cases : of these options
+    cases : cases of these options
     gain : factors of the discrepancy on the power of sources, shape (source, receiver, gain band);
         empty without samples
     unmodelled : level of unmodelled noise, (option, receiver, noise_band), dB
@@ -85,10 +85,9 @@ class Shown:
             without it
         """
         rows = slice(None) if receiver is None else [receiver]
-        sound = path.received(self.cases)
         return [
             with_discrepancy(case, self.gain[key][:, rows]) if self.gain else case
-            for key, case in sound.items()
+            for key, case in path.received(self.cases).items()
         ]
 
 
@@ -102,7 +101,7 @@ def _first_ranked(results: xr.Dataset) -> list[str]:
 
 @register
 class Energies(Stage):
-    """What each source, and unmodelled noise, adds to lines and third octaves.
+    """Energies that each source and unmodelled noise add to lines and third octaves.
 
     None with a measured baseline, which takes the place of what the sources make.
     """

@@ -16,10 +16,10 @@ from ..study.sampling import Sample
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.received import Transmission
-from ..uncertainty.bank import Bank
 from ..uncertainty.cost import sliders_cost
 from ..uncertainty.every_sample import in_every_sample
 from ..uncertainty.evidence import Evidence
+from ..uncertainty.prior_ensemble import PriorEnsemble
 from ..uncertainty.sample_bands import SampleBands
 from ..uncertainty.slider_variables import slider_variables
 from ..uncertainty.sliders import Compute, candidates, chosen_sliders
@@ -37,7 +37,7 @@ class Sliders(Stage):
     """Changes of the level by single parameters of the representative sample."""
 
     name = "sliders"
-    reads = (Cases, Transmission, NominalSound, Bank, Evidence, Representative)
+    reads = (Cases, Transmission, NominalSound, PriorEnsemble, Evidence, Representative)
     gives = ("slider_*",)
 
     def applies(self, study: Study) -> bool:
@@ -47,7 +47,7 @@ class Sliders(Stage):
         chosen = chain.get(Representative)
         if chosen is None:
             return Given()
-        study, ensemble = chain.study, chain[Bank]
+        study, ensemble = chain.study, chain[PriorEnsemble]
         ranges = candidates(study.ranges, ensemble.modelled_db, ensemble.samples)
         receiver = list(chain[NominalSound].axes.receivers).index(study.catalogue_receiver)
         with stage(chain.progress, self.name):
@@ -77,7 +77,7 @@ def _axes(chain: Chain, options: Sequence[str]) -> LevelAxes:
 def _computing(chain: Chain, chosen: Representative, axes: LevelAxes) -> Compute:
     """Third octaves of the representative sample with other values."""
     nominal, pair = _at_sample(chain, chosen, axes), (chosen.number, chosen.pair)
-    bands = SampleBands.of_pair(chain[Evidence], chain[Bank], pair, nominal.study, axes)
+    bands = SampleBands.of_pair(chain[Evidence], chain[PriorEnsemble], pair, nominal.study, axes)
 
     def of_sample(changed: Sample) -> Array | None:
         try:

@@ -21,7 +21,7 @@ EVERYTHING: Final = "*"
 
 @dataclass(frozen=True)
 class Given:
-    """What a stage gives.
+    """Results of a stage.
 
     Attributes
     ----------
@@ -98,7 +98,7 @@ class Trial(NamedTuple):
     Attributes
     ----------
     chain : with what the stage gave, if it was run
-    costs : of the stage at all speeds; empty where it costs little
+    costs : costs of the stage at all speeds; empty where it costs little
     """
 
     chain: Chain
@@ -161,13 +161,13 @@ def needed_for(product: type, stages: Sequence[Stage]) -> list[Stage]:
 def _givers(stages: Iterable[Stage]) -> dict[str | type, str]:
     """Name of the stage that gives each thing; a name goes before a pattern that it fits."""
     givers: dict[str | type, str] = {}
-    given = [(thing, stage.name) for stage in stages for thing in stage.gives]
-    for thing, name in given:
+    things = [(thing, stage.name) for stage in stages for thing in stage.gives]
+    for thing, name in things:
         other = givers.setdefault(thing, name)
         if other != name:
             raise PluginError(f"stage {name}: {_word(thing)} is given by {other} already")
     for variable in VARIABLES:
-        fitting = (name for thing, name in given if is_among(variable, (thing,)))
+        fitting = (name for thing, name in things if is_among(variable, (thing,)))
         givers.setdefault(variable, next(fitting, ""))
     return givers
 
@@ -193,7 +193,7 @@ def _after_estimates(
         further = set().union(*(before[name] for name in further if name in before))
     estimated = [name for name in VARIABLES if is_among(name, estimating.estimates)]
     for stage in stages:
-        if stage.name not in ancestors and any(is_among(one, stage.reads) for one in estimated):
+        if stage.name not in ancestors and any(is_among(name, stage.reads) for name in estimated):
             before[stage.name].add(estimating.name)
 
 
@@ -225,23 +225,23 @@ def advanced(chain: Chain, stage: Stage) -> Chain:
 
 
 def _advanced(chain: Chain, stage: Stage) -> Chain:
-    given = stage.run(chain if EVERYTHING in stage.reads else chain.limited(stage.reads))
+    output = stage.run(chain if EVERYTHING in stage.reads else chain.limited(stage.reads))
     if STAGES.origin(stage.name):
-        _check_variables(given.results)
-    names: list[str | type] = [str(name) for name in given.results.data_vars]
-    for thing in names + [type(product) for product in given.products]:
+        _check_variables(output.results)
+    names: list[str | type] = [str(name) for name in output.results.data_vars]
+    for thing in names + [type(product) for product in output.products]:
         if not is_among(thing, stage.gives):
             raise PluginError(f"stage {stage.name}: gives {_word(thing)}, which it does not name")
-    for name in map(str, given.estimates.data_vars):
-        if not any(name == one or name.startswith(f"{one}_") for one in stage.estimates):
+    for name in map(str, output.estimates.data_vars):
+        if not any(name == base or name.startswith(f"{base}_") for base in stage.estimates):
             raise PluginError(f"stage {stage.name}: estimates {name}, which it does not name")
-    results = estimated(chain.results, given.estimates).merge(given.results)
-    return chain.having(*given.products, results=results)
+    results = estimated(chain.results, output.estimates).merge(output.results)
+    return chain.having(*output.products, results=results)
 
 
-def _check_variables(given: xr.Dataset) -> None:
+def _check_variables(results: xr.Dataset) -> None:
     """Refuse what a stage of a plug-in may not give: other dims or units, no finite numbers."""
-    for name, array in check(given).data_vars.items():
+    for name, array in check(results).data_vars.items():
         VARIABLES[str(name)].check_numbers(array)
 
 

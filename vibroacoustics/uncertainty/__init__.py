@@ -1,1 +1,1 @@
-"""What is not known: ranges, and samples of values from them."""
+"""Uncertain parameters: ranges, and samples of values from them."""

@@ -18,9 +18,9 @@ from ..levels.remainder import remaining
 from ..levels.spectrum_data import SpectrumData
 from ..machine.machine import Machine
 from .alternatives import Alternative
-from .bank import Bank
 from .discrepancy import Discrepancy, with_added
 from .evidence import Evidence, Pairs, with_gain
+from .prior_ensemble import PriorEnsemble
 
 CHANGES: Final = (TOTAL, FORCES[-1])
 """Quantities whose changes by options the first screen of a report gives."""
@@ -53,8 +53,8 @@ class SampleSound(NamedTuple):
     log_weight : logarithm of the likelihood of the sample
     parts : energy of sources, with half of their interference, and of unmodelled noise at the
         published point, shape (pair, part), Pa²; None of a sample without weight
-    changes : of `CHANGES`, shape (pair, quantity, speed, option), dB; None of a sample that was
-        not computed in all cases
+    changes : changes of `CHANGES`, shape (pair, quantity, speed, option), dB; None of a sample
+        that was not computed in all cases
     """
 
     log_weight: float
@@ -64,7 +64,7 @@ class SampleSound(NamedTuple):
 
 def sounds_of_alternatives(
     evidence: Evidence,
-    ensemble: Bank,
+    ensemble: PriorEnsemble,
     computed: ComputedSamples,
     alternatives: Sequence[Alternative],
 ) -> list[list[SampleSound]]:
@@ -102,8 +102,8 @@ class SampleLikelihood:
     Attributes
     ----------
     evidence : with the settings of the discrepancy
-    sound, machine : of the sample
-    number : of the sample
+    sound, machine : sound and machine of the sample
+    number : number of the sample
     """
 
     evidence: Evidence
@@ -123,7 +123,7 @@ class SampleLikelihood:
         ----------
         published : data and one prior
         computed : samples with all cases
-        row : of the sample among them; None where it is none of them
+        row : row of the sample among them; None where it is none of them
         """
         key = (published.priors[0].name, *map(_key, _data(published)))
         if key not in self._sounds:
@@ -196,7 +196,7 @@ def modelled_energy(discrepancy: Discrepancy, mutual: Array, reference: int) -> 
 
     Parameters
     ----------
-    discrepancy : of pairs
+    discrepancy : discrepancies of the pairs
     mutual : shape (speed, option, source, source, gain band), Pa²
     reference : number of the option without a change
     """

@@ -17,15 +17,15 @@ from ..study.regimes import density_ratios
 from ..study.study import Study
 from .alternative_sounds import CHANGES, ComputedSamples, SampleSound, sounds_of_alternatives
 from .alternatives import alternatives_of
-from .bank import Bank
 from .evidence import PAIRS, Evidence
+from .prior_ensemble import PriorEnsemble
 
 _LEAST_WEIGHT = 1e-4
 """Relative to the largest one: samples of less weight do not change a quantile."""
 
 
 def alternative_variables(
-    evidence: Evidence, ensemble: Bank, before: Array, computed: ComputedSamples
+    evidence: Evidence, ensemble: PriorEnsemble, before: Array, computed: ComputedSamples
 ) -> xr.Dataset:
     """Label what the first screen of a report shows, with each alternative.
 
@@ -81,8 +81,8 @@ def _at_published(
 
     Parameters
     ----------
-    parts : of each sample, shape (pair, part), Pa²
-    weight : of the samples, shape (sample,)
+    parts : energy of the parts of each sample, shape (pair, part), Pa²
+    weight : weights of the samples, shape (sample,)
     count : number of parts
     """
     energy, by_pair = _rows(parts, weight, (count,))
@@ -100,8 +100,8 @@ def _changes(
 
     Parameters
     ----------
-    changes : of each sample, shape (pair, quantity, speed, option), dB
-    weight : of the samples, shape (sample,)
+    changes : changes of each sample, shape (pair, quantity, speed, option), dB
+    weight : weights of the samples, shape (sample,)
     cases : numbers of quantities, speeds and options
     study : smallest changes that could be measured
     """

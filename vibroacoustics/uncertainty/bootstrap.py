@@ -18,7 +18,7 @@ def bootstrap_weights(weight: Array, sample: IndexArray) -> Array:
 
     Parameters
     ----------
-    weight : of the rows, shape (row,)
+    weight : weights of the rows, shape (row,)
     sample : number of the independent sample that each row belongs to, shape (row,)
     """
     counting = weight > 0.0

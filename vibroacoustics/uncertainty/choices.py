@@ -1,4 +1,4 @@
-"""Which unknown is worth a measurement before an option is chosen, labelled."""
+"""Value of a measurement of each unknown before an option is chosen, labelled."""
 
 from typing import Final
 
@@ -26,7 +26,7 @@ def choice_information(study: Study, levels: xr.Dataset, pairs: int) -> xr.Datas
     Parameters
     ----------
     study : options and published level
-    levels : of `sample_level_variables`, `first_order_by_sample` and `sampled_values`
+    levels : variables of `sample_level_variables`, `first_order_by_sample` and `sampled_values`
     pairs : number of successive pairs of each sample
     """
     names = [name for name in levels["option"].values.tolist() if study.options[name].to_be_built]
@@ -36,16 +36,16 @@ def choice_information(study: Study, levels: xr.Dataset, pairs: int) -> xr.Datas
     loss = _losses(levels.sel(receiver=study.catalogue_receiver))
     utility = -np.nan_to_num(loss.sel(option=names).max("speed").values)
     values = levels["sampled_value"].values[::pairs]
-    information = [_of_samples(values, one, weight, pairs) for one in utility]
+    information = [_of_samples(values, of_choice, weight, pairs) for of_choice in utility]
     expected = weight @ utility
     perfect = utility.max(axis=2) @ weight - expected.max(axis=1)
     return stamped(
         {
             "choice_utility": expected,
             "perfect_information": perfect,
-            "parameter_information": [one.gain for one in information],
-            "parameter_information_votes": [one.votes for one in information],
-            "parameter_information_floor": [one.floor for one in information],
+            "parameter_information": [of_choice.gain for of_choice in information],
+            "parameter_information_votes": [of_choice.votes for of_choice in information],
+            "parameter_information_floor": [of_choice.floor for of_choice in information],
         },
         {
             "choice": loss["choice"].values.tolist(),
@@ -56,14 +56,15 @@ def choice_information(study: Study, levels: xr.Dataset, pairs: int) -> xr.Datas
 
 
 def _losses(levels: xr.Dataset) -> xr.DataArray:
-    """What an option loses by each choice, dB, dims choice, sample, option, speed."""
+    """Loss of an option by each choice, dB, dims choice, sample, option, speed."""
     axes = ("sample", "option", "speed")
     total = levels["level_total_by_sample"].transpose(*axes)
     force = levels["foot_force_1x_by_sample"].transpose(*axes)
     change = total - total.sel(option=REFERENCE_OPTION)
     ratio = (force / force.sel(option=REFERENCE_OPTION)).clip(min=_LEAST_RATIO)
-    both = change + level_of_amplitude(ratio)
-    return xr.concat([change, both], xr.Variable("choice", [SOUND, SOUND_AND_FOOT_FORCE]))
+    sound_and_force = change + level_of_amplitude(ratio)
+    choices = xr.Variable("choice", [SOUND, SOUND_AND_FOOT_FORCE])
+    return xr.concat([change, sound_and_force], choices)
 
 
 def _of_samples(values: Array, utility: Array, weight: Array, pairs: int) -> Information:

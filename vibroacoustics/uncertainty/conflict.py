@@ -29,9 +29,9 @@ def conflict_variables(
     Parameters
     ----------
     data : published and measured ones
-    expected : of each sample with a solution, shape (datum, sample)
-    weight : of the samples before the data, shape (sample,)
-    generator : of random numbers
+    expected : expected data of each sample with a solution, shape (datum, sample)
+    weight : weights of the samples before the data, shape (sample,)
+    generator : generator of random numbers
     """
     values, deviations = (
         np.array([getattr(datum, name) for datum in data]) for name in ("value", "deviation")
@@ -59,9 +59,9 @@ def _tail_of_all(
     Parameters
     ----------
     expected : relative to the deviations, shape (datum, sample)
-    values : of the data, relative to the deviations, shape (datum,)
+    values : values of the data, relative to the deviations, shape (datum,)
     share : weights that sum to one, shape (sample,)
-    generator : of random numbers
+    generator : generator of random numbers
     """
     picked = generator.choice(share.size, _MOST, p=share)
     predicted = expected[:, picked] + generator.standard_normal((len(expected), _MOST))

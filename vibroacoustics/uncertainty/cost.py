@@ -1,4 +1,4 @@
-"""What samples will cost, from the time that a few take."""
+"""Cost of samples, from the time that a few take."""
 
 from collections.abc import Sequence
 from math import ceil
@@ -11,8 +11,8 @@ from ..levels.agreement import effective_samples
 from ..levels.nominal import Sound
 from ..radiation.cost import Cost
 from ..study.study import Study
-from .bank import MOST_ROUNDS, MOST_SAMPLES
 from .evidence import Evidence
+from .prior_ensemble import MOST_ROUNDS, MOST_SAMPLES
 from .slider_variables import SETTINGS
 from .sliders import MOST_CANDIDATES, NODES
 
@@ -30,8 +30,8 @@ def ensemble_cost(
 
     Parameters
     ----------
-    evidence : what weighs the samples
-    sounds : of a few samples
+    evidence : evidence that weighs the samples
+    sounds : sounds of a few samples
     seconds : processor time that they took
     was_cached : whether the transfer vectors are computed already
     """

@@ -62,7 +62,7 @@ class Discrepancy:
         ----------
         settings : standard deviations and seed
         sources : number of sources of sound
-        number : of the sample
+        number : number of the sample
         with_spectrum : whether a measured spectrum weighs; bands of unmodelled noise deviate too
         """
         count, bands = WITH_SPECTRUM if with_spectrum else DISCREPANCIES, len(GAIN_BANDS)
@@ -88,11 +88,11 @@ class Discrepancy:
 
         Parameters
         ----------
-        sound : of every case, without discrepancy
+        sound : sound of every case, without discrepancy
         """
         gains = self.gains(sound)
         return [
-            {key: one.scaled(gains[key][number]) for key, one in sound.items()}
+            {key: of_case.scaled(gains[key][number]) for key, of_case in sound.items()}
             for number in range(self.added.size)
         ]
 
@@ -101,15 +101,15 @@ class Discrepancy:
 
         Parameters
         ----------
-        sound : of every case, without discrepancy
+        sound : sound of every case, without discrepancy
 
         Returns
         -------
         shape (discrepancy, source, receiver, gain band)
         """
         return {
-            key: with_added(self.gain, self.added, one.energy, _before(sound, key))
-            for key, one in sound.items()
+            key: with_added(self.gain, self.added, of_case.energy, _before(sound, key))
+            for key, of_case in sound.items()
         }
 
 
@@ -118,11 +118,11 @@ def with_added(gain: Array, added: Array, energy: Array, before: Array) -> Array
 
     Parameters
     ----------
-    gain : of the discrepancies, shape (discrepancy, source, band)
+    gain : factors of the discrepancies, shape (discrepancy, source, band)
     added : factors on what an option adds, shape (discrepancy,)
-    energy : of each source alone, shape (..., 1, source, receiver, band) or without the
+    energy : energy of each source alone, shape (..., 1, source, receiver, band) or without the
         first ones, Pa²
-    before : of each source without an option, shape (source, receiver, band), Pa²
+    before : energy of each source without an option, shape (source, receiver, band), Pa²
     """
     more = np.maximum(energy - before, 0.0)
     part = np.divide(more, energy, out=np.zeros_like(more), where=energy > 0.0)

@@ -34,7 +34,7 @@ class Pairs(NamedTuple):
 
     Attributes
     ----------
-    discrepancy : of each pair
+    discrepancy : discrepancy of each pair
     unmodelled_db : level of unmodelled noise relative to the published one, shape (pair,)
     weight : relative to the first prior, shape (prior, pair)
     """
@@ -50,7 +50,7 @@ class Pairs(NamedTuple):
 
 @dataclass(frozen=True)
 class Evidence:
-    """What weighs the samples of a study.
+    """Data that weigh the samples of a study.
 
     Attributes
     ----------
@@ -99,8 +99,8 @@ class Evidence:
 
         Parameters
         ----------
-        sound, machine : of the sample
-        power : of unmodelled noise relative to the published level
+        sound, machine : sound and machine of the sample
+        power : power of unmodelled noise relative to the published level
         spectrum : at whose point; at the published one where it is None
         """
         noise = power * self.growth(machine, spectrum) * self.unmodelled(machine)
@@ -113,9 +113,9 @@ class Evidence:
 
         Parameters
         ----------
-        sound : of the sample, at the cases that weigh
-        machine : of the sample
-        number : of the sample
+        sound : sound of the sample, at the cases that weigh
+        machine : machine of the sample
+        number : number of the sample
         published : data that weigh, and priors of the level of unmodelled noise
         """
         of_sample, study = self.discrepancy(number), self.nominal.study
@@ -158,8 +158,8 @@ class Evidence:
 
         Parameters
         ----------
-        log_weights : of the sample, see `log_weights`
-        number : of the sample
+        log_weights : logarithms of the sample's weights, see `log_weights`
+        number : number of the sample
         """
         rng = np.random.default_rng((self.nominal.study.uncertainty.seed, number, PAIRS))
         flat = log_weights.reshape(len(log_weights), -1)
@@ -179,8 +179,8 @@ def systematic(weight: Array, count: int, start: float) -> IndexArray:
 
     Parameters
     ----------
-    weight : of each, shape (number,)
-    count : of picks
+    weight : weight of each, shape (number,)
+    count : number of picks
     start : from 0 to 1
     """
     share = np.cumsum(weight) / weight.sum()

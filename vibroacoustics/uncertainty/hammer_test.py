@@ -26,9 +26,9 @@ MOST_TRIED: Final = 8192
 CHANCE: Final = 0.3
 """A sample whose likelihood is less than this part of the best one goes on by chance only."""
 LEAST_LIKELIHOOD: Final = float(np.exp(-0.5 * 3.0 * 3.0**2))
-"""Of gain, frequencies and loss factors three tolerances off each."""
+"""Likelihood of gain, frequencies and loss factors that are three tolerances off each."""
 OF_THE_SHELL: Final = ("structure", "variation", "frame", "shaft")
-"""Tables that mobilities hang on."""
+"""Tables that mobilities depend on."""
 NO_MACHINE: Final = ShellAgreement(0.0, np.nan, np.nan, np.nan)
 
 
@@ -41,12 +41,12 @@ class HammerTest:
     study : with its machine
     path : modes and joints of the shell
     settings : points and tolerances
-    mobilities : as measured
+    mobilities : measured mobilities
     measured : their features
     wall : points of the wall
     tried : all samples that were held against it
-    agreements : of each of them
-    weights : of those that went on
+    agreements : agreement of each of them
+    weights : weights of those that went on
     reference : likelihood to which weights are related
     """
 
@@ -100,7 +100,7 @@ class HammerTest:
 
         Parameters
         ----------
-        batches : of samples from the ranges alone
+        batches : batches of samples from the ranges alone
         wanted : how many a batch shall have
         progress : called with the number of samples that were held against the test
 
@@ -135,7 +135,7 @@ class HammerTest:
         return np.array(self.weights[before : before + count]) / self.reference
 
     def _why_none(self) -> str:
-        best = max(self.agreements, key=lambda one: one.likelihood, default=NO_MACHINE)
+        best = max(self.agreements, key=lambda agreement: agreement.likelihood, default=NO_MACHINE)
         return (
             f"measured.shell: none of {len(self.tried)} samples agrees with the hammer test within "
             f"three tolerances; the best one has {best.gain_db:+.1f} dB, "
@@ -167,35 +167,37 @@ class HammerTest:
         return shell_agreement(self.measured, sampled, tolerances)
 
     def mobility(self, machine: Machine) -> ComplexArray:
-        """Of the measured pairs, m/(N s), shape (mobility, frequency)."""
+        """Compute the mobility of the measured pairs, m/(N s), shape (mobility, frequency)."""
         parts, names = self.settings.parts, list(self.settings.wall)
         used = list(dict.fromkeys(self.mobilities.reference))
         references: list[Reference] = [
-            names.index(one) if one in names else (parts[one].part, parts[one].component)
-            for one in used
+            names.index(name) if name in names else (parts[name].part, parts[name].component)
+            for name in used
         ]
         every = wall_mobility(
             machine, self.path, self.wall, references, self.mobilities.frequency_hz
         )
         rows = [names.index(name) for name in self.mobilities.response]
-        return np.asarray(every[rows, [used.index(one) for one in self.mobilities.reference]])
+        return np.asarray(every[rows, [used.index(name) for name in self.mobilities.reference]])
 
     def labelled(self, before_dba: Array, gone: int) -> xr.Dataset:
-        """How all samples agree, their values, and the peaks that were measured.
+        """Label the agreement of all samples, their values, and the measured peaks.
 
         Parameters
         ----------
         before_dba : modelled level of samples from the ranges alone, shape (sample,)
         gone : number of samples whose sound was computed
         """
-        ranges = [one for one in self.study.ranges if one.table.split(".")[0] in OF_THE_SHELL]
+        ranges = [
+            limits for limits in self.study.ranges if limits.table.split(".")[0] in OF_THE_SHELL
+        ]
         values = {
             "shell_likelihood": [agreement.likelihood for agreement in self.agreements],
             "shell_gain": [agreement.gain_db for agreement in self.agreements],
             "shell_frequency_ratio": [agreement.frequency_ratio for agreement in self.agreements],
             "shell_loss_ratio": [agreement.loss_ratio for agreement in self.agreements],
             "shell_value": [
-                [sample[one.table, one.field] for one in ranges] for sample in self.tried
+                [sample[limits.table, limits.field] for limits in ranges] for sample in self.tried
             ],
             "shell_level_before": before_dba,
             "shell_weight": self.likelihood(0, gone),
@@ -204,7 +206,7 @@ class HammerTest:
             values["shell_peak_loss"] = self.measured.loss_ratio
         coords = {
             "shell_sample": np.arange(1, len(self.tried) + 1),
-            "shell_parameter": [one.name for one in ranges],
+            "shell_parameter": [limits.name for limits in ranges],
             "shell_level_sample": np.arange(1, len(before_dba) + 1),
             "prior_sample": np.arange(1, gone + 1),
             "shell_peak": self.measured.peak_hz,

@@ -15,10 +15,10 @@ from ..levels.nominal import Sound
 from ..levels.spectrum_data import SpectrumData
 from ..study.samples import batches_of_samples, with_sample
 from ..study.sampling import Sample
-from .bank import Bank, Weighted, bank_of
 from .conflict import conflict_variables
 from .evidence import Evidence
 from .hammer_test import HammerTest
+from .prior_ensemble import PriorEnsemble, Weighted, prior_ensemble_of
 from .share_variables import level_shares
 from .spectrum_variables import spectrum_variables
 
@@ -28,15 +28,16 @@ def posterior(
     sounds_of: Callable[[list[Sample], int, int], list[Sound]],
     test: HammerTest | None,
     progress: Progress,
-) -> tuple[Bank, xr.Dataset]:
+) -> tuple[PriorEnsemble, xr.Dataset]:
     """Weight as many samples as a study wants to be effective.
 
     Parameters
     ----------
     evidence : published data and measurements
-    sounds_of : of samples at the cases that weigh, given how many were before them and how many
+    sounds_of : sounds of samples at the cases that weigh, given how many came before and how many
         are expected in all
-    test : of the shell, where there is one; samples that do not agree with it do not go on
+    test : hammer test of the shell, where there is one; samples that do not agree with it are
+        rejected
     progress : called with the number of samples that were held against the test
 
     Returns
@@ -64,7 +65,7 @@ def posterior(
             log_weight = log_weight + np.log(test.likelihood(before, len(batch)))[:, None]
         return Weighted(sounds, machines, evidence.modelled_db(sounds), log_weight.T)
 
-    ensemble = bank_of(batches, weigh, [prior.name for prior in published.priors], wanted)
+    ensemble = prior_ensemble_of(batches, weigh, [prior.name for prior in published.priors], wanted)
     count = len(ensemble.samples)
     results = ensemble.labelled(study.ranges, published.level_dba)
     before: Array = np.ones(count)
@@ -75,7 +76,7 @@ def posterior(
     return ensemble, results.merge(_beside_data(evidence, ensemble, before))
 
 
-def _beside_data(evidence: Evidence, ensemble: Bank, before: Array) -> xr.Dataset:
+def _beside_data(evidence: Evidence, ensemble: PriorEnsemble, before: Array) -> xr.Dataset:
     """Conflict of the prior with the data, and shares of the energy; empty without data."""
     published, (sounds, machines, modelled_db, _) = evidence.published, ensemble.batch
     solved = np.flatnonzero(np.isfinite(modelled_db))

@@ -28,9 +28,9 @@ def at_medians(motion: xr.Dataset, results: xr.Dataset, names: Sequence[str]) ->
 
     Parameters
     ----------
-    motion : of the sample
+    motion : motion of the sample
     results : medians of the amplitudes by order
-    names : of orders, `force_order`, `moment_order` or `foot_force_order`
+    names : names of orders, `force_order`, `moment_order` or `foot_force_order`
     """
     scaled = {}
     for name in names:

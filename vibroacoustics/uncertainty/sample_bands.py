@@ -13,19 +13,19 @@ from ..machine.machine import Machine
 from ..machine.source import CaseKey
 from ..mechanics.received_sound import ReceivedSound
 from ..study.study import Study
-from .bank import Bank
 from .discrepancy import Discrepancy
 from .evidence import Evidence
+from .prior_ensemble import PriorEnsemble
 
 
 @dataclass(frozen=True)
 class SampleBands:
-    """What turns the sound of a machine into levels by third octave at one speed.
+    """Converter of the sound of a machine into levels by third octave at one speed.
 
     Attributes
     ----------
     study : with this speed alone, and its options
-    axes : of the levels
+    axes : axes of the levels
     discrepancy : the one of the sample
     unmodelled_pa2 : unmodelled noise where the level is published, A-weighted, shape (band,)
     """
@@ -39,7 +39,7 @@ class SampleBands:
     def of_pair(
         cls,
         evidence: Evidence,
-        ensemble: Bank,
+        ensemble: PriorEnsemble,
         pair: tuple[int, int],
         study: Study,
         axes: LevelAxes,
@@ -52,7 +52,7 @@ class SampleBands:
         ensemble : all samples
         pair : number of the sample in the ensemble, and of the pair
         study : with one speed
-        axes : of the levels
+        axes : axes of the levels
         """
         number, row = pair
         batch = ensemble.batch

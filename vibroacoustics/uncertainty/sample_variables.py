@@ -47,13 +47,13 @@ _SHARES: Final = ("limit_probability",)
 
 
 class SampleValues(NamedTuple):
-    """What a sample gives.
+    """Levels, forces and weights of a sample.
 
     Attributes
     ----------
     levels : by variable, the first axis is the pair of a discrepancy and an unmodelled level
     forces : by variable, shape (speed, option, ...)
-    weight : of the pairs, shape (prior, pair)
+    weight : weights of the pairs, shape (prior, pair)
     mutual : A-weighted mean squares of pairs of sources at the published microphone without
         discrepancy, shape (speed, option, source, source, gain band), Pa²
     """
@@ -78,7 +78,7 @@ class Weighted:
 
     Attributes
     ----------
-    weight : of sum one, shape (row,)
+    weight : weights that sum to one, shape (row,)
     """
 
     weight: Array
@@ -90,7 +90,7 @@ class Weighted:
         ----------
         name : in the vocabulary, which says whether the value is a median or a mean
         values : shape (row, ...)
-        coords : of its dimensions
+        coords : coordinates of its dimensions
         """
         is_stepped = VARIABLES[name].statistic == MEDIAN_STEP
         quantiles = stepped_quantiles if is_stepped else weighted_quantiles
@@ -120,8 +120,8 @@ def sample_variables(
     ----------
     study : options and smallest changes that could be measured
     samples : that go on
-    values : of them, each with `PAIRS` pairs
-    prior_names : of the unmodelled noise, that of the values first
+    values : values of them, each with `PAIRS` pairs
+    prior_names : names of the priors of the unmodelled noise, that of the values first
     nominal : nominal values with their coordinates
     """
     weight = np.concatenate([sample.weight for sample in values], axis=1)

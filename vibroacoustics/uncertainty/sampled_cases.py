@@ -33,7 +33,7 @@ def sampled_cases(
     nominal : with the nominal values
     study : with its machine and options
     sample : values by table and field
-    shared : what other cases of the sample have computed
+    shared : results that other cases of the sample have computed
 
     Raises
     ------
@@ -44,12 +44,12 @@ def sampled_cases(
     shared, machines = shared or Shared(), Shared()
     for _, of_speed in groupby(nominal.cases.items(), key=lambda item: item[0][0]):
         turned = Shared()  # let go with the speed: courses over crank angle are large
-        for key, given in of_speed:
+        for key, nominal_case in of_speed:
             option = study.option_of(key)
-            compute = partial(sampled_machine, given.machine, study.machine, option, sample)
-            machine = machines(id(given.machine), compute)
-            case = replace(given, machine=machine, shared=shared)
-            if moves_otherwise(machine, given.machine, study):
+            compute = partial(sampled_machine, nominal_case.machine, study.machine, option, sample)
+            machine = machines(id(nominal_case.machine), compute)
+            case = replace(nominal_case, machine=machine, shared=shared)
+            if moves_otherwise(machine, nominal_case.machine, study):
                 case = _turned(case, study, key, turned)
             loads = loads_of(study, case)
             if case.revolution.wrenches:
@@ -66,7 +66,7 @@ def sampled_machine(machine: Machine, nominal: Machine, option: Option, sample: 
 
     Parameters
     ----------
-    machine : as the option leaves it
+    machine : machine with the option
     nominal : machine of the study
     option : option of the case
     sample : values by table and field
@@ -80,13 +80,13 @@ def sampled_machine(machine: Machine, nominal: Machine, option: Option, sample: 
     return with_values.carrying(option.attached(with_values))
 
 
-def moves_otherwise(machine: Machine, given: Machine, study: Study) -> bool:
+def moves_otherwise(machine: Machine, nominal: Machine, study: Study) -> bool:
     """Whether two machines differ in more than the shell and what sources alone read."""
     fields = type(machine).model_fields
     of_sources = {name for source in study.sources.values() for name in source.tables_read(machine)}
     still = _SHELL | {name for name in of_sources & set(fields) if not fields[name].is_required()}
     return any(
-        getattr(machine, name) != getattr(given, name) for name in fields if name not in still
+        getattr(machine, name) != getattr(nominal, name) for name in fields if name not in still
     )
 
 

@@ -73,7 +73,7 @@ def force_variables(sampled: Forces, results: xr.Dataset) -> dict[str, Array]:
 
     Parameters
     ----------
-    sampled : of `sampled_forces`
+    sampled : result of `sampled_forces`
     results : nominal values, which cases without own ones have
     """
     values = {name: _of_sample(name, sampled, results) for name in (*AMPLITUDES, FIGURES)}

@@ -19,8 +19,8 @@ def sampled_tones(
     Parameters
     ----------
     study : with its baseline
-    axes : of the levels
-    names : of the lines
+    axes : axes of the levels
+    names : names of the lines
     sample : sound with its discrepancies
     levels : noise of the sources and unmodelled noise in third octaves
     """

@@ -10,29 +10,31 @@ from ..base.arrays import Array
 from ..base.vocabulary import stamped
 from ..levels.agreement import ALL_ALIKE
 from ..study.uncertainty import Range
-from .bank import Bank
+from .prior_ensemble import PriorEnsemble
 from .shares import Shares, shares_of
 
 BEFORE: Final = "before"
 """Knowledge of the ranges alone."""
 
 
-def level_shares(ranges: Sequence[Range], bank: Bank, before: Array) -> xr.Dataset:
+def level_shares(ranges: Sequence[Range], ensemble: PriorEnsemble, before: Array) -> xr.Dataset:
     """Shares of the sampled values in the modelled level, before and by prior of unmodelled noise.
 
     Parameters
     ----------
-    ranges : of the sampled values
-    bank : all samples; where they do not suffice the priors' shares are empty
+    ranges : ranges of the sampled values
+    ensemble : all samples; where they do not suffice the priors' shares are empty
     before : weights of the samples before the published level, shape (sample,)
     """
-    values = np.array([[sample[one.table, one.field] for one in ranges] for sample in bank.samples])
-    weighed = list(bank.prior_names) != [ALL_ALIKE.name]  # else after is as before
-    after = bank.weight if bank.suffices else 0.0 * bank.weight
-    weights = [before, *(after if weighed else ())]
-    shares = [shares_of(values, bank.modelled_db, weight) for weight in weights]
+    values = np.array(
+        [[sample[limits.table, limits.field] for limits in ranges] for sample in ensemble.samples]
+    )
+    is_weighted = list(ensemble.prior_names) != [ALL_ALIKE.name]  # else after is as before
+    after = ensemble.weight if ensemble.suffices else 0.0 * ensemble.weight
+    weights = [before, *(after if is_weighted else ())]
+    shares = [shares_of(values, ensemble.modelled_db, weight) for weight in weights]
     coords = {
-        "knowledge": [BEFORE, *(bank.prior_names if weighed else ())],
+        "knowledge": [BEFORE, *(ensemble.prior_names if is_weighted else ())],
         "uncertain_parameter": [limits.name for limits in ranges],
     }
     return stamped(labelled_shares("level_share", shares), coords)
@@ -43,12 +45,12 @@ def labelled_shares(name: str, shares: Sequence[Shares]) -> dict[str, list[Array
 
     Parameters
     ----------
-    name : of the variable of the shares
-    shares : of each quantity
+    name : name of the variable of the shares
+    shares : shares of each quantity
     """
     return {
-        name: [one.share for one in shares],
-        f"{name}_low": [one.low for one in shares],
-        f"{name}_high": [one.high for one in shares],
-        f"{name}_floor": [one.floor for one in shares],
+        name: [of_quantity.share for of_quantity in shares],
+        f"{name}_low": [of_quantity.low for of_quantity in shares],
+        f"{name}_high": [of_quantity.high for of_quantity in shares],
+        f"{name}_floor": [of_quantity.floor for of_quantity in shares],
     }

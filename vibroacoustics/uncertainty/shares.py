@@ -1,4 +1,4 @@
-"""What single unknowns decide, from the samples at hand.
+"""Shares of single unknowns in a quantity or a choice, from the samples at hand.
 
 Samples are sorted into bins of about equal weight of one unknown after another; means in a bin
 are those of all samples in which the unknown has such a value. Chance fills bins unequally too:
@@ -32,8 +32,8 @@ class Shares(NamedTuple):
 
     Attributes
     ----------
-    share : shape (unknown,)
-    low, high : ends of their bootstrap intervals, likewise
+    share : share of each unknown, shape (unknown,)
+    low, high : ends of their bootstrap intervals, shape (unknown,)
     floor : permutation floor
     """
 
@@ -48,8 +48,8 @@ class Information(NamedTuple):
 
     Attributes
     ----------
-    gain : of each unknown, shape (unknown,)
-    votes : number of the bootstraps in which it has the largest gain, likewise
+    gain : gain of each unknown, shape (unknown,)
+    votes : number of the bootstraps in which it has the largest gain, shape (unknown,)
     floor : permutation floor
     """
 
@@ -70,7 +70,7 @@ def shares_of(unknown: Array, value: Array, weight: Array) -> Shares:
     ----------
     unknown : shape (sample, unknown)
     value : the quantity, shape (sample,); not a number where a sample has no solution
-    weight : of the samples, shape (sample,)
+    weight : weights of the samples, shape (sample,)
 
     Returns
     -------
@@ -98,8 +98,8 @@ def information_of(unknown: Array, utility: Array, weight: Array) -> Information
     Parameters
     ----------
     unknown : shape (sample, unknown)
-    utility : of the options, shape (sample, option)
-    weight : of the samples, shape (sample,); some are above zero
+    utility : utilities of the options, shape (sample, option)
+    weight : weights of the samples, shape (sample,); some are above zero
     """
     member, order = _members(unknown, weight), _permutations(len(weight))
     resampled = bootstrap_weights(weight, np.arange(len(weight)))[:ASKED].T
@@ -130,7 +130,7 @@ def _first_order(member: sparse.csr_array, weight: Array, value: Array) -> Array
 
     Parameters
     ----------
-    member : of `_members`
+    member : memberships, see `_members`
     weight, value : shape (sample, ensemble)
     """
     weight = weight / weight.sum(axis=0)
@@ -151,7 +151,7 @@ def _gain(member: sparse.csr_array, weight: Array, utility: Array) -> Array:
 
     Parameters
     ----------
-    member : of `_members`
+    member : memberships, see `_members`
     weight : shape (sample, ensemble)
     utility : shape (sample, option, ensemble)
     """

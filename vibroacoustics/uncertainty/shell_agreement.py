@@ -1,4 +1,4 @@
-"""How well a sample's shell agrees with hammer tests: in gain, natural frequencies and loss."""
+"""Agreement of a sample's shell with hammer tests: in gain, natural frequencies and loss."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -11,7 +11,7 @@ from .shell_features import Features
 MOST_DEVIATIONS: Final = 4.0
 """A peak that lies further off counts as this many tolerances, as one that is not there."""
 LARGEST_MISFIT: Final = 1000.0
-"""So that a likelihood stays above zero, and weights without it can be told."""
+"""Bound that keeps a likelihood above zero, so that weights without it can be computed."""
 
 
 @dataclass(frozen=True)
@@ -20,9 +20,9 @@ class Tolerances:
 
     Attributes
     ----------
-    gain_db : of the mean level of mobilities in a third octave
-    frequency_ratio : of a natural frequency
-    loss_ratio : of a loss factor
+    gain_db : tolerance of the mean level of mobilities in a third octave, dB
+    frequency_ratio : tolerance of a natural frequency, as a ratio
+    loss_ratio : tolerance of a loss factor, as a ratio
     """
 
     gain_db: float
@@ -61,8 +61,8 @@ def shell_agreement(
 
     Parameters
     ----------
-    measured, sampled : of the same mobilities at the same lines
-    tolerances : of each kind
+    measured, sampled : features of the same mobilities at the same lines
+    tolerances : tolerances of each kind of feature
     """
     levels = sampled.level_db - measured.level_db
     misfit = float(np.mean((levels / tolerances.gain_db) ** 2))

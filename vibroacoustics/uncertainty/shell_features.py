@@ -16,7 +16,7 @@ from ..base.decibel import level_of_power
 from ..mechanics.added import third_octave_number
 
 CLEAR_DB: Final = 6.0
-"""What a clear peak stands out of the valleys beside it."""
+"""Height of a clear peak above the valleys beside it."""
 LEAST_LINES: Final = 3
 """Least number of lines in a band."""
 
@@ -28,8 +28,8 @@ class Features:
     Attributes
     ----------
     level_db : in third octaves re 1 m/(N s), mean over all mobilities, shape (band,)
-    peak_hz : of the clear peaks of all together, rising, shape (peak,)
-    loss_ratio : of each peak
+    peak_hz : frequencies of the clear peaks of all together, rising, shape (peak,)
+    loss_ratio : loss factor of each peak, shape (peak,)
     """
 
     level_db: Array
@@ -46,9 +46,9 @@ def features(mobility: ComplexArray, frequency_hz: Array) -> Features:
     frequency_hz : rising, above zero, shape (frequency,)
     """
     numbers = third_octave_number(frequency_hz)
-    bands = [one for one in np.unique(numbers) if np.sum(numbers == one) >= LEAST_LINES]
+    bands = [band for band in np.unique(numbers) if np.sum(numbers == band) >= LEAST_LINES]
     square = np.abs(mobility) ** 2
-    levels = [level_of_power(square[:, numbers == one].mean(axis=1)).mean() for one in bands]
+    levels = [level_of_power(square[:, numbers == band].mean(axis=1)).mean() for band in bands]
     peak_hz, loss = clear_peaks(square.sum(axis=0), frequency_hz)
     return Features(np.array(levels), peak_hz, loss)
 
@@ -80,19 +80,19 @@ def clear_peaks(power: Array, frequency_hz: Array) -> tuple[Array, Array]:
 
 def _top(level: Array, frequency_hz: Array, peak: int) -> float:
     """Return the top of the parabola through a peak and the lines beside it."""
-    before, at, after = level[peak - 1 : peak + 2]
-    bend = before - 2.0 * at + after
+    before, middle, after = level[peak - 1 : peak + 2]
+    bend = before - 2.0 * middle + after
     offset = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
     step = frequency_hz[peak + 1] - frequency_hz[peak]
     return float(frequency_hz[peak] + np.clip(offset, -0.5, 0.5) * step)
 
 
 def _half_power(power: Array, frequency_hz: Array, peak: int, step: int) -> float | None:
-    """Where the power is half that of the peak, on a straight line; none where it never is."""
-    half, at = 0.5 * power[peak], peak
-    while 0 <= at + step < power.size and power[at + step] > half:
-        at += step
-    if not 0 <= at + step < power.size:
+    """Frequency of half the peak's power, on a straight line; none where it never is."""
+    half, line = 0.5 * power[peak], peak
+    while 0 <= line + step < power.size and power[line + step] > half:
+        line += step
+    if not 0 <= line + step < power.size:
         return None
-    share = (power[at] - half) / (power[at] - power[at + step])
-    return float(frequency_hz[at] + share * (frequency_hz[at + step] - frequency_hz[at]))
+    share = (power[line] - half) / (power[line] - power[line + step])
+    return float(frequency_hz[line] + share * (frequency_hz[line + step] - frequency_hz[line]))

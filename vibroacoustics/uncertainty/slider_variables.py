@@ -35,8 +35,8 @@ def slider_variables(
 
     Parameters
     ----------
-    sliders : of parameters, to which that of a hood is added
-    seed : of the random settings
+    sliders : sliders of parameters, to which that of a hood is added
+    seed : seed of the random settings
     compute : gives the third octaves, shape (option, receiver, band)
     coords : the speed, options and microphones
     """
@@ -80,7 +80,7 @@ def tolerance_limit(error: Array) -> Array:
 
     Parameters
     ----------
-    error : of random settings, shape (setting, ...)
+    error : errors of random settings, shape (setting, ...)
     """
     number = len(error)
     factor = norm.ppf(0.5 + 0.5 * COVERED) * np.sqrt(number / chi2.ppf(1.0 - CONFIDENCE, number))

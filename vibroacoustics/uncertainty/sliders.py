@@ -69,9 +69,9 @@ def candidates(
 
     Parameters
     ----------
-    ranges : of all uncertain parameters
+    ranges : ranges of all uncertain parameters
     modelled_db : level of the samples, shape (sample,), dB; not a number without a solution
-    samples : of the prior ensemble
+    samples : samples of the prior ensemble
     """
     values = np.array(
         [[sample[limits.table, limits.field] for limits in ranges] for sample in samples]
@@ -94,7 +94,7 @@ def chosen_sliders(
 
     Parameters
     ----------
-    ranges : of the candidates, in the order of their importance
+    ranges : ranges of the candidates, in the order of their importance
     nominal : values of the representative sample
     receiver : number of the microphone at which sliders are chosen
     compute : gives the third octaves without an option, shape (1, receiver, band)

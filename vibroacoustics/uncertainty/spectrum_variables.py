@@ -11,16 +11,20 @@ from ..base.vocabulary import stamped
 from ..levels.by_source import GAIN_BANDS
 from ..levels.remainder import in_gain_bands
 from ..levels.spectrum_data import SpectrumData
-from .bank import Bank
 from .conflict import QUANTILES
 from .evidence import PAIRS, Evidence, with_gain
+from .prior_ensemble import PriorEnsemble
 
 _LEAST_WEIGHT = 1e-4
 """Relative to the largest one: samples of less weight do not change a quantile."""
 
 
 def spectrum_variables(
-    evidence: Evidence, spectrum: SpectrumData, ensemble: Bank, expected: Array, weight: Array
+    evidence: Evidence,
+    spectrum: SpectrumData,
+    ensemble: PriorEnsemble,
+    expected: Array,
+    weight: Array,
 ) -> xr.Dataset:
     """Label measured third octaves, and those of the machine before and after the data.
 
@@ -30,7 +34,7 @@ def spectrum_variables(
     spectrum : one of them
     ensemble : weighted samples
     expected : bands before the data, without discrepancy, shape (sample, band), Pa²
-    weight : of these samples, shape (sample,)
+    weight : weights of these samples, shape (sample,)
     """
     counting = np.flatnonzero(ensemble.weight[0] > _LEAST_WEIGHT)
     after = np.concatenate(
@@ -51,7 +55,9 @@ def _quantiles(bands: Array, weight: Array) -> Array:
     return weighted_quantiles(level, weight, QUANTILES)
 
 
-def _bands(evidence: Evidence, spectrum: SpectrumData, ensemble: Bank, number: int) -> Array:
+def _bands(
+    evidence: Evidence, spectrum: SpectrumData, ensemble: PriorEnsemble, number: int
+) -> Array:
     """Bands of the pairs of a sample at the point of a spectrum, shape (pair, band), Pa²."""
     sound, machine = ensemble.batch.sounds[number], ensemble.batch.machines[number]
     pairs = evidence.pairs_of(sound, machine, number)

@@ -32,7 +32,7 @@ def validation_variables(results: xr.Dataset) -> xr.Dataset:
 
     Parameters
     ----------
-    results : of a run, with the parameters of its study
+    results : variables of a run, with the parameters of its study
     """
     evidence = parameters(results).get("evidence") or {}
     every = [*_catalogue_level(results), *_forces(results, evidence.get("forces", ()))]

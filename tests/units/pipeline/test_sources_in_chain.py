@@ -59,7 +59,7 @@ from vibroacoustics.transfer.load_path import LoadPath
 from vibroacoustics.transfer.observers import Observers
 from vibroacoustics.transfer.path import pressure_per_load
 from vibroacoustics.transfer.shell_modes.modes import elastic_shell
-from vibroacoustics.uncertainty.bank import MOST_ROUNDS
+from vibroacoustics.uncertainty.prior_ensemble import MOST_ROUNDS
 
 TEXT = SOURCES_STUDY.read_text(encoding="utf-8")
 MACHINE_TEXT = (ROOT / "data" / "machines" / "copeland_zp41k3e.toml").read_text("utf-8")

@@ -20,9 +20,9 @@ from vibroacoustics.study.sampling import latin_hypercubes
 from vibroacoustics.uncertainty.alternative_sounds import ComputedSamples, modelled_energy
 from vibroacoustics.uncertainty.alternative_variables import alternative_variables
 from vibroacoustics.uncertainty.alternatives import alternatives_of
-from vibroacoustics.uncertainty.bank import Bank, Weighted
 from vibroacoustics.uncertainty.discrepancy import Discrepancy
 from vibroacoustics.uncertainty.evidence import Evidence
+from vibroacoustics.uncertainty.prior_ensemble import PriorEnsemble, Weighted
 
 SQUARE = 4e-10 * 10.0**5.6
 LOW, HIGH = (int(gain_band_number(np.array(hertz))) for hertz in (500.0, 2000.0))
@@ -72,7 +72,7 @@ class Run:
             for n, sound in enumerate(sounds)
         ]
         batch = Weighted(sounds, machines, np.zeros(len(sounds)), np.array(log_weight).T)
-        self.ensemble = Bank(self.samples, batch, len(sounds))
+        self.ensemble = PriorEnsemble(self.samples, batch, len(sounds))
 
     def alternatives(self, before=None, wanted=None):
         """Variables by reweighting the samples that go on."""

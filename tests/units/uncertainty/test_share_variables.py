@@ -8,13 +8,13 @@ from sources_study import SOURCES_STUDY
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.sampling import latin_hypercubes
-from vibroacoustics.uncertainty.bank import Bank, Weighted
 from vibroacoustics.uncertainty.choices import (
     SOUND,
     SOUND_AND_FOOT_FORCE,
     choice_information,
 )
 from vibroacoustics.uncertainty.every_sample import sampled_values
+from vibroacoustics.uncertainty.prior_ensemble import PriorEnsemble, Weighted
 from vibroacoustics.uncertainty.share_variables import level_shares
 
 SAMPLES = 400
@@ -43,7 +43,7 @@ def test_level_shares_before_and_after(study, samples):
     """The level is the gain, and the mounts' a little; without enough weight only before."""
     level = 10.0 * values(study, samples, GAIN) + 3.0 * values(study, samples, PITCH)
     alike, few = (
-        Bank(samples, Weighted([], [], level, np.full((2, SAMPLES), one)), SAMPLES)
+        PriorEnsemble(samples, Weighted([], [], level, np.full((2, SAMPLES), one)), SAMPLES)
         for one in (0.0, -np.inf)
     )
     labelled = level_shares(study.ranges, alike, np.ones(SAMPLES))

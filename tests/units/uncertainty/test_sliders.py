@@ -18,8 +18,8 @@ from vibroacoustics.study.samples import with_sample
 from vibroacoustics.study.sampling import sample_at
 from vibroacoustics.study.uncertainty import Range
 from vibroacoustics.transfer.received import Transmission
-from vibroacoustics.uncertainty.bank import Bank
 from vibroacoustics.uncertainty.evidence import Evidence
+from vibroacoustics.uncertainty.prior_ensemble import PriorEnsemble
 from vibroacoustics.uncertainty.representative import nearest_row
 from vibroacoustics.uncertainty.slider_variables import HOOD, SETTINGS, slider_variables
 from vibroacoustics.uncertainty.sliders import (
@@ -173,7 +173,7 @@ def chain_total(chain, changed):
 
     By the lines and noise of the sampled chain, not by pairs of sources.
     """
-    chosen, evidence, ensemble = chain[Representative], chain[Evidence], chain[Bank]
+    chosen, evidence, ensemble = chain[Representative], chain[Evidence], chain[PriorEnsemble]
     study, axes, full = chain.study, chain[NominalSound].axes, with_published(chain)
     sample = {**chosen.sample, **changed}
     key = study.catalogue_case

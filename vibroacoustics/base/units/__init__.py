@@ -11,13 +11,13 @@ from ..registry import Registry
 
 @dataclass(frozen=True)
 class Unit:
-    """What a key's suffix means.
+    """Unit that a key's suffix stands for.
 
     Attributes
     ----------
-    suffix : of the key, small letters, digits and underscores
+    suffix : suffix of the key, small letters, digits and underscores
     symbol : to print
-    si_suffix : of the SI key
+    si_suffix : suffix of the SI key
     factor : to SI
 
     Examples

@@ -7,7 +7,12 @@ import pytest
 
 from vibroacoustics.levels.agreement import PRIOR_NAMES
 from vibroacoustics.study.uncertainty import Range
-from vibroacoustics.uncertainty.bank import MOST_ROUNDS, MOST_SAMPLES, Weighted, bank_of
+from vibroacoustics.uncertainty.prior_ensemble import (
+    MOST_ROUNDS,
+    MOST_SAMPLES,
+    Weighted,
+    prior_ensemble_of,
+)
 
 GAIN = Range(table="variation", field="mobility_change_db", lowest=-10.0, highest=10.0)
 
@@ -38,22 +43,22 @@ def without_solution(batch, *_):
 
 
 def test_samples_are_added_until_enough_are_effective():
-    bank = bank_of(batches(), by_gain, PRIOR_NAMES, wanted=20)
-    assert 20.0 <= bank.effective < 40.0
-    assert len(bank.samples) > 20
-    assert bank.suffices
-    labelled = bank.labelled([GAIN], 56.0)
-    assert labelled["prior_sample_weight"].values == pytest.approx(bank.weight)
-    assert bank.weight.max(axis=1).tolist() == [1.0, 1.0]
-    assert labelled["prior_sample_level"].values == pytest.approx(bank.modelled_db + 56.0)
-    assert labelled["prior_sample_value"].values[:, 0] == pytest.approx(bank.modelled_db)
+    ensemble = prior_ensemble_of(batches(), by_gain, PRIOR_NAMES, wanted=20)
+    assert 20.0 <= ensemble.effective < 40.0
+    assert len(ensemble.samples) > 20
+    assert ensemble.suffices
+    labelled = ensemble.labelled([GAIN], 56.0)
+    assert labelled["prior_sample_weight"].values == pytest.approx(ensemble.weight)
+    assert ensemble.weight.max(axis=1).tolist() == [1.0, 1.0]
+    assert labelled["prior_sample_level"].values == pytest.approx(ensemble.modelled_db + 56.0)
+    assert labelled["prior_sample_value"].values[:, 0] == pytest.approx(ensemble.modelled_db)
 
 
 def test_chosen_samples_are_as_many_as_their_weights_say():
     """Systematic resampling: every sample as often as its weight says, but for a rounding."""
-    bank = bank_of(batches(), by_gain, PRIOR_NAMES, wanted=400)
-    index, count = bank.chosen(seed=6)
-    share = bank.weight[0] / bank.weight[0].sum()
+    ensemble = prior_ensemble_of(batches(), by_gain, PRIOR_NAMES, wanted=400)
+    index, count = ensemble.chosen(seed=6)
+    share = ensemble.weight[0] / ensemble.weight[0].sum()
     assert count.sum() == 400
     assert np.all(np.abs(count - 400 * share[index]) <= 1.0 + 1e-9)
 
@@ -65,14 +70,16 @@ def test_weights_far_from_the_data_count_relative_to_one_another():
         near = by_gain(batch, before, expected)
         return near._replace(log_weight=near.log_weight - 1250.0)
 
-    near, away = (bank_of(batches(), one, PRIOR_NAMES, wanted=20) for one in (by_gain, far))
+    near, away = (
+        prior_ensemble_of(batches(), one, PRIOR_NAMES, wanted=20) for one in (by_gain, far)
+    )
     assert away.weight == pytest.approx(near.weight)
 
 
 def test_a_model_without_solutions_does_not_suffice():
-    bank = bank_of(batches(), without_solution, PRIOR_NAMES, wanted=20)
-    assert len(bank.samples) == 20 * MOST_ROUNDS
-    assert bank.effective == 0.0
-    assert not bank.suffices
-    more = bank_of(batches_of(2000), without_solution, PRIOR_NAMES, 2000)
+    ensemble = prior_ensemble_of(batches(), without_solution, PRIOR_NAMES, wanted=20)
+    assert len(ensemble.samples) == 20 * MOST_ROUNDS
+    assert ensemble.effective == 0.0
+    assert not ensemble.suffices
+    more = prior_ensemble_of(batches_of(2000), without_solution, PRIOR_NAMES, 2000)
     assert len(more.samples) == MOST_SAMPLES

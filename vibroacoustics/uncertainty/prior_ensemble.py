@@ -29,7 +29,7 @@ class Weighted(NamedTuple):
 
     Attributes
     ----------
-    sounds, machines : of each sample, sounds at the cases that weigh
+    sounds, machines : sound at the cases that weigh, and machine, of each sample
     modelled_db : modelled level relative to the published one, shape (sample,); not a number
         without a solution
     log_weight : by prior of the unmodelled noise, shape (prior, sample)
@@ -42,7 +42,7 @@ class Weighted(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Bank:
+class PriorEnsemble:
     """Prior ensemble at the point of the published level, and its weights.
 
     Attributes
@@ -50,7 +50,7 @@ class Bank:
     samples : all samples
     batch : their sounds, levels and weights
     wanted : number of samples that shall be effective
-    prior_names : of the unmodelled noise
+    prior_names : names of the priors of the unmodelled noise
     """
 
     samples: list[Sample]
@@ -96,7 +96,7 @@ class Bank:
             "prior_sample_weight": self.weight,
             "prior_sample_level": self.modelled_db + published_dba,
             "prior_sample_value": [
-                [sample[one.table, one.field] for one in ranges] for sample in self.samples
+                [sample[limits.table, limits.field] for limits in ranges] for sample in self.samples
             ],
         }
         coords = {
@@ -107,37 +107,37 @@ class Bank:
         return stamped(values, coords)
 
 
-def bank_of(
+def prior_ensemble_of(
     batches: Iterable[list[Sample]],
     weigh: Callable[[list[Sample], int, int], Weighted],
     prior_names: Sequence[str],
     wanted: int,
-) -> Bank:
+) -> PriorEnsemble:
     """Return samples until as many as are wanted are effective.
 
     At most `MOST_ROUNDS` batches or `MOST_SAMPLES` samples.
 
     Parameters
     ----------
-    batches : of samples
+    batches : batches of samples
     weigh : weighs samples, given how many were before them and how many are expected in all
-    prior_names : of the unmodelled noise, that of the intervals first
+    prior_names : names of the priors of the unmodelled noise, that of the intervals first
     wanted : number of samples that shall be effective
     """
     empty = Weighted([], [], np.zeros(0), np.zeros((len(prior_names), 0)))
-    bank = Bank([], empty, wanted, prior_names)
+    ensemble = PriorEnsemble([], empty, wanted, prior_names)
     for hypercube in islice(batches, MOST_ROUNDS):
-        before = len(bank.samples)
+        before = len(ensemble.samples)
         batch = hypercube[: MOST_SAMPLES - before]
-        expected = before * wanted / max(bank.effective, 1.0) if before else 2.0 * wanted
+        expected = before * wanted / max(ensemble.effective, 1.0) if before else 2.0 * wanted
         further = weigh(batch, before, max(round(expected), before + len(batch) + 1))
         joined = Weighted(
-            bank.batch.sounds + further.sounds,
-            bank.batch.machines + further.machines,
-            np.concatenate([bank.modelled_db, further.modelled_db]),
-            np.concatenate([bank.batch.log_weight, further.log_weight], axis=1),
+            ensemble.batch.sounds + further.sounds,
+            ensemble.batch.machines + further.machines,
+            np.concatenate([ensemble.modelled_db, further.modelled_db]),
+            np.concatenate([ensemble.batch.log_weight, further.log_weight], axis=1),
         )
-        bank = Bank(bank.samples + batch, joined, wanted, prior_names)
-        if bank.effective >= wanted or len(bank.samples) >= MOST_SAMPLES:
+        ensemble = PriorEnsemble(ensemble.samples + batch, joined, wanted, prior_names)
+        if ensemble.effective >= wanted or len(ensemble.samples) >= MOST_SAMPLES:
             break
-    return bank
+    return ensemble
