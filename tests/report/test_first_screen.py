@@ -357,7 +357,10 @@ def test_the_word_on_a_change_follows_interval_and_probabilities(
     ("change", "words"),
     [
         (changed(1.3, 0.6, 2.0, 0.9, 0.0), "Option twin raises the level: +1.3 dB (+0.6 to +2.0)."),
-        (changed(1.0, 0.0, 2.0, 0.6, 0.0), "Option twin may raise the level: +1.0 dB (0.0 to +2.0)."),
+        (
+            changed(1.0, 0.0, 2.0, 0.6, 0.0),
+            "Option twin may raise the level: +1.0 dB (0.0 to +2.0).",
+        ),
         (
             changed(-2.0, -9.0, 9.0, 0.6, 0.6),
             "Option twin may raise or lower the level: −2.0 dB (−9.0 to +9.0).",
