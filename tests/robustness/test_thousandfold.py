@@ -77,8 +77,8 @@ def test_forces_of_a_table_are_judged_by_mass_and_speed(
 ) -> None:
     """As given they move 260 kg by 1.3 mm at 1200 rpm; a thousand times that is a mistake."""
     machine = next(file for file in files if file.name == "reciprocating_table.toml")
-    given = Forces.at
-    monkeypatch.setattr(Forces, "at", lambda forces, speed: 1e3 * given(forces, speed))
+    given = Forces.orders_at
+    monkeypatch.setattr(Forces, "orders_at", lambda forces, speed: 1e3 * given(forces, speed))
     with pytest.warns(UserWarning, match="order 1 of .* would move 260 kg") as warned:
         load_study_or_machine(machine)
     found = re.search(r"of (\S+) N would .* by (\S+) mm; usual is", str(warned[0].message))
