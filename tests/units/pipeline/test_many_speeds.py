@@ -254,8 +254,8 @@ def test_time_series_of_many_speeds_only_on_request(folder, tmp_path, many):
     page = outputs.write_report(dropped, tmp_path).read_text()
     assert "operation.keep_time_series" in page
     assert not (tmp_path / "figures" / "force_over_revolution.svg").exists()
-    again = outputs.write_report_again(tmp_path / "results.nc", tmp_path / "again")
-    assert again.read_text() == page
+    _, again = outputs.write_report_again(tmp_path / "results.nc", tmp_path / "again")
+    assert again["report"].read_text() == page
 
 
 @pytest.mark.filterwarnings("ignore:.*usual is")

@@ -82,7 +82,7 @@ def test_the_report_says_so(rigid, sampled):
         assert "What is not modelled" in text
         assert "whole machine is assumed" not in text
     assert "(no published level)" in plain
-    assert "Shares of the sound energy (means with their 80 % interval" in of_samples
+    assert "Share of the energy, mean (80 % interval)" in of_samples
     assert "weighted equally, as no level of the machine is published" in of_samples
     assert "0 dB(A) and taken as sure" not in of_samples
     assert validations(rigid) == []
