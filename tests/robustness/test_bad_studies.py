@@ -535,6 +535,7 @@ UNSHRUNK = (Phase.explicit, Phase.reuse, Phase.generate)
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:.*usual is")  # an unusual value loads, with a warning
 @settings(max_examples=20, deadline=None, phases=UNSHRUNK)
 @given(place=st.sampled_from(PATHS), value=anything, rename=st.booleans())
 def test_any_value_anywhere_loads_or_is_refused_in_lines(module_tree, place, value, rename):

@@ -65,8 +65,9 @@ def leading_sentence(results: xr.Dataset, receiver: str) -> str:
     against, less = int(np.argmin(share)), ""
     if share[against] <= -LEAST:
         less = f" Most negative: {with_share(results, against, share)}."
+    whose = ", representative sample" if "representative_value" in results else ""
     return (
-        f"Dominant paths to {receiver} at {path_speed(results):g} rpm without a balancer: "
+        f"Dominant paths to {receiver} at {path_speed(results):g} rpm without a balancer{whose}: "
         f"{first} of the modelled energy.{less}"
     )
 
@@ -222,8 +223,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
         Text(leading_sentence(results, receiver), "strong"),
         Text(
             "A path is a source, the part it acts on and a direction. Lines of one frequency add "
-            "as phasors, so shares can be negative and add up to 100 %. With samples, paths are "
-            "those of the representative sample.",
+            "as phasors, so shares can be negative and add up to 100 %.",
             "note",
         ),
         paths_table(results, receiver),

@@ -234,7 +234,10 @@ def _claim(
         does = f"may {verb}" if word(shifts[first]) == "uncertain" else f"{verb}s"
     too = f"{len(others)} others" if len(others) > 1 else "".join(others)
     too = f"; also {too}" if too else ""
-    return f"Option {first} {does} the level: {_largest_change(results, shifts[first], 'dB')}{too}."
+    others_given = "rating_level" in results or "room_level" in results
+    where = f" at {catalogue_receiver(results)}" if others_given else ""
+    change = _largest_change(results, shifts[first], "dB")
+    return f"Option {first} {does} the level{where}: {change}{too}."
 
 
 def _vibration(results: xr.Dataset) -> str:
