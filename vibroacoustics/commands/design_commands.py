@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ..design.evaluation import Stream
     from ..design.problem import Problem
     from ..report.analysis import Analysis
+    from .workers import Opener
 
 SWEEP_NAME: Final = "sweep.nc"
 TABLE_NAME: Final = "sweep.csv"
@@ -57,11 +58,12 @@ def sweep_command(
     from . import outputs
 
     prints = printing.printer()
-    workers.opener(plugin)  # refuses before anything is computed
-    problem, folder = _problem(study_file, out, plugin)
+    load_plugins(plugin)
+    opened, is_far = workers.opener(plugin), workers.scheduler is not None
+    problem, folder = _problem(study_file, out)
     prepared = prepare(problem, 3600.0 * longest, max(workers.workers, 1))
     messages.inform(f"plan: {prepared.plan.text}")
-    with _evaluating(problem, study_file, folder / SWEEP_PIECES, workers, plugin) as stream:
+    with _evaluating(problem, study_file, folder / SWEEP_PIECES, opened, plugin, is_far) as stream:
         values = swept(prepared, progress, stream)
         search, searched = None, values.searched(problem.design.search.best)
         if searched.any_allowed:
@@ -99,17 +101,16 @@ def optimise_command(
     from . import outputs
 
     prints = printing.printer()
-    workers.opener(plugin)  # refuses before anything is computed
-    problem, folder = _problem(study_file, out, plugin)
-    with _evaluating(problem, study_file, folder / SEARCH_PIECES, workers, plugin) as stream:
+    load_plugins(plugin)
+    opened, is_far = workers.opener(plugin), workers.scheduler is not None
+    problem, folder = _problem(study_file, out)
+    with _evaluating(problem, study_file, folder / SEARCH_PIECES, opened, plugin, is_far) as stream:
         search = searched_designs(problem, in_pieces(problem, stream), progress)
     analysis = _analysis(problem, search, study_file, folder)
     return outputs.Target(folder, prints).outcome(analysis, search, DESIGNS_NAME)
 
 
-def _problem(
-    study_file: Path, out: Path | None, plugin: list[Path] | None
-) -> "tuple[Problem, Path]":
+def _problem(study_file: Path, out: Path | None) -> "tuple[Problem, Path]":
     """Return the problem of the study, and the folder of its results, which can be written."""
     from ..design.problem import Problem
     from ..design.store.pieces import PLAN_NAME
@@ -117,11 +118,10 @@ def _problem(
     from ..study import loading
     from . import outputs
 
-    load_plugins(plugin)
     folder = out or Path("reports") / study_file.stem
     study = loading.load_study(study_file)
-    chunks = [f"{name}/{PLAN_NAME}" for name in (SWEEP_PIECES, SEARCH_PIECES)]
-    outputs.check_folder(folder, (SWEEP_NAME, DESIGNS_NAME, *chunks))
+    plans = [f"{name}/{PLAN_NAME}" for name in (SWEEP_PIECES, SEARCH_PIECES)]
+    outputs.check_folder(folder, (SWEEP_NAME, DESIGNS_NAME, *plans))
     return Problem(study, KeptRadiation()), folder
 
 
@@ -144,8 +144,9 @@ def _evaluating(
     problem: "Problem",
     study_file: Path,
     store_folder: Path,
-    workers: Workers,
+    opened: "Opener | None",
     plugins: list[Path] | None,
+    is_far: bool,
 ) -> "Iterator[Stream]":
     """Evaluate pieces of designs: from the store, else here or by workers."""
     from ..design.evaluation import one_by_one
@@ -153,7 +154,7 @@ def _evaluating(
     from ..design.workers.spread import spread
     from ..design.workers.study_task import evaluate_task, study_plan, study_task
 
-    plugin_files, opened = plugins or [], workers.opener(plugins)
+    plugin_files = plugins or []
     with opened_store(store_folder, study_plan(problem.study, plugin_files)) as store:
         if opened is None:
             yield stored(one_by_one(problem), store)
@@ -162,6 +163,6 @@ def _evaluating(
         task = study_task(study_file, problem.study, plugin_files)
         # Local workers have the cache on disk; others get the transfer vectors with their work.
         far = partial(evaluate_task, radiation=problem.radiation)
-        builder = evaluate_task if workers.scheduler is None else far
+        builder = far if is_far else evaluate_task
         with opened() as parallel_map:
             yield stored(spread(parallel_map, builder, task, counts), store)

@@ -8,17 +8,19 @@ import xarray as xr
 from scipy.stats import norm, qmc, t
 
 from ..base.arrays import Array
+from ..base.errors import ParameterError, SolverError
 from ..base.progress import Progress
 from .coding import Coding
-from .evaluation import Evaluate, Evaluation
-from .problem import CHANGE_OF_TOTAL, CONFIDENCE, TOTALS, Problem
+from .evaluation import Evaluate
+from .explaining import SPREAD_DESIGNS
+from .problem import Problem
 from .promise import Promise
-from .search.active import ActiveSearch, Models, search_active
+from .search.active import ActiveSearch, search_active
+from .search.gaussian_process import Process
 from .search.problem import SearchProblem
 from .search_dataset import searched_dataset, with_best, with_shares, with_total_change
+from .wanted import CHANGE_OF_TOTAL, CONFIDENCE
 
-SPREAD_DESIGNS: Final = 1024
-"""Designs that fill the space, whose expected values show what decides."""
 MEAN_CONFIDENCE: Final = 0.95
 """Confidence of the interval of the mean of the last runs."""
 
@@ -34,18 +36,17 @@ def actively_searched(problem: Problem, evaluate: Evaluate, progress: Progress) 
 
     Raises
     ------
+    ParameterError
+        A statistic over samples is wanted of a nominal machine.
     SolverError
         Fewer than two designs have a solution, or none is expected to meet the constraints.
     """
     settings = problem.design.search
+    _check_statistics(problem)
     coding = Coding(problem.space.variables)
     coded = coding.problem(evaluate)
-
-    def of_runs(codes: Array) -> Evaluation:
-        return evaluate(np.column_stack([coding.designs(codes[:, :-1]), codes[:, -1]]))
-
     search = search_active(
-        replace(coded, evaluate=of_runs),
+        coded,
         settings.runs,
         settings.repeats,
         settings.least_gain,
@@ -59,11 +60,30 @@ def actively_searched(problem: Problem, evaluate: Evaluate, progress: Progress) 
     spread = spread_designs(coded)
     expected = search.models.expected(coded.shares(spread), len(problem.design.constraints))
     allowed = search.searched.designs[dataset["meets_constraints"].values == 1, :-1]
-    changes = _changes(problem, dataset, search.models, coded.shares(allowed))
+    changes = _changes(problem, search.models.objective, coded.shares(allowed))
     dataset = with_total_change(dataset, problem, coding.designs(allowed), changes)
     dataset = with_best(dataset, rows, [promised])
     dataset = with_shares(dataset, problem, coding.designs(spread), expected)
     return dataset.assign_attrs(dataset.attrs, method=_method(problem, search))
+
+
+def _check_statistics(problem: Problem) -> None:
+    """Refuse statistics over samples where a run has one: a nominal machine.
+
+    Raises
+    ------
+    ParameterError
+        An objective or constraint names one.
+    """
+    design = problem.design
+    for table, some in (("objectives", design.objectives), ("constraints", design.constraints)):
+        for name, wanted in some.items():
+            if wanted.samples is not None and not problem.is_sampled:
+                raise ParameterError(
+                    f"{problem.study.source_file}: design.{table}.{name}.samples = "
+                    f"{wanted.samples}: a run of an active search of a nominal machine is one "
+                    "piece; remove it"
+                )
 
 
 def promise_of_runs(values: Array) -> Promise:
@@ -71,9 +91,18 @@ def promise_of_runs(values: Array) -> Promise:
 
     Parameters
     ----------
-    values : wanted values in their units, shape (run, wanted); the first run has no scatter
+    values : wanted values in their units, shape (run, wanted); the first run has no scatter;
+        failed runs are not a number
+
+    Raises
+    ------
+    SolverError
+        Fewer than two runs have a solution.
     """
     nominal, repeated = values[0], values[1:]
+    repeated = repeated[np.isfinite(repeated).all(axis=1)]
+    if len(repeated) < 2:
+        raise SolverError("design: runs of the best design failed when they were repeated")
     count = len(repeated)
     mean = repeated.mean(axis=0)
     half = (
@@ -90,16 +119,16 @@ def spread_designs(coded: SearchProblem) -> Array:
     return coded.at_shares(share)
 
 
-def _changes(problem: Problem, dataset: xr.Dataset, models: Models, shares: Array) -> Array | None:
-    """Estimate how designs change the total, dB; see `total_changes`."""
+def _changes(problem: Problem, process: Process, shares: Array) -> Array | None:
+    """Estimate how designs change the total of a nominal piece, dB; see `total_changes`.
+
+    A run of samples of the machine is a statistic of them: its scatter is not theirs.
+    """
     (wanted,) = problem.design.objectives.values()
-    if wanted.figure not in TOTALS or not len(shares):
+    if wanted.figure != CHANGE_OF_TOTAL or problem.is_sampled or not len(shares):
         return None
-    process = models.objective
     mean, deviation = process.posterior(shares)
     mean = -mean if wanted.goal == "greatest" else mean
-    if wanted.figure != CHANGE_OF_TOTAL:
-        mean = mean - dataset["wanted_reference"].values[0]
     scatter = norm.ppf(CONFIDENCE) * np.sqrt(process.noise + deviation**2)
     return np.stack([mean, mean + scatter], axis=-1)[None]
 

@@ -33,9 +33,9 @@ class Coding:
         return SearchProblem(lower, upper, integer, lambda codes: evaluate(self.designs(codes)))
 
     def designs(self, codes: Array) -> Array:
-        """Designs in SI, shape (design, variable)."""
+        """Designs in SI, shape (design, variable); a further column, of numbered runs, stays."""
         columns = [
             column if variable.values is None else variable.values[column.astype(int)]
-            for variable, column in zip(self.variables, codes.T, strict=True)
+            for variable, column in zip(self.variables, codes.T, strict=False)
         ]
-        return np.stack(columns, axis=1)
+        return np.column_stack([*columns, codes[:, len(columns) :]])

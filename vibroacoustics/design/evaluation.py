@@ -11,7 +11,7 @@ from ..base.arrays import Array, IndexArray
 from ..base.linear_algebra import one_thread_of_linear_algebra
 
 if TYPE_CHECKING:
-    from .problem import Judged, Problem
+    from .problem import Problem
 
 
 @dataclass(frozen=True)
@@ -64,19 +64,18 @@ def evaluating(problem: "Problem") -> Evaluate:
     """
     columns = len(problem.space.variables)
 
-    def evaluate(designs: Array) -> Evaluation:
-        if designs.shape[1] > columns:
-            return joined([evaluate_run(row[:-1], round(row[-1])) for row in designs])
-        with one_thread_of_linear_algebra():
-            return evaluation(problem.evaluate(designs), len(designs))
-
-    def evaluate_run(design: Array, run: int) -> Evaluation:
-        with one_thread_of_linear_algebra():
-            return evaluation(problem.evaluate(design[None], problem.samples_of_run(run)), 1)
-
-    def evaluation(judged: "Judged", count: int) -> Evaluation:
-        reasons = tuple(judged.failed.get(row, "") for row in range(count))
+    def of_samples(designs: Array, samples: Array | None) -> Evaluation:
+        judged = problem.evaluate(designs, samples)
+        reasons = tuple(judged.failed.get(row, "") for row in range(len(designs)))
         return Evaluation(judged.objectives, judged.constraints, reasons)
+
+    def evaluate(designs: Array) -> Evaluation:
+        with one_thread_of_linear_algebra():
+            if designs.shape[1] == columns:
+                return of_samples(designs, None)
+            runs = np.rint(designs[:, columns]).astype(int).tolist()
+            each = zip(designs[:, None, :columns], runs, strict=True)
+            return joined([of_samples(row, problem.samples_of_run(run)) for row, run in each])
 
     return evaluate
 
@@ -88,4 +87,4 @@ def one_by_one(problem: "Problem") -> Stream:
 
 def in_pieces(problem: "Problem", stream: Stream) -> Evaluate:
     """Return the evaluation of designs in SI by what evaluates pieces."""
-    return lambda designs: joined(list(stream(problem.split(designs))))
+    return lambda designs: joined(list(stream(problem.splitting.pieces(designs))))

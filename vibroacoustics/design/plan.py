@@ -213,7 +213,8 @@ def _tried(problem: Problem, listing: Listing) -> _Tried:
     """
     evaluate, blocks = evaluating(problem), list(listing.blocks())
     some = [blocks[n] for n in sorted({0, len(blocks) // 2, len(blocks) - 1})]
-    pieces = [p for block in some for p in problem.split(listing.designs(listing.ordered(block)))]
+    blocks_of_designs = (listing.designs(listing.ordered(block)) for block in some)
+    pieces = [piece for each in blocks_of_designs for piece in problem.splitting.pieces(each)]
     evaluate(pieces[0][:1])
     parts, seconds, before = [], 0.0, _memory_bytes()
     for numbers in np.array_split(np.arange(len(pieces)), min(_STARTS, len(pieces))):

@@ -1,6 +1,6 @@
 """Designs and what is wanted of them: one call from rows of numbers to objectives."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -9,33 +9,33 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ..base.arrays import Array
-from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..radiation.given import Radiation
 from ..stages.radiation import transfer_vectors
-from ..study.criterion import CRITERIA
-from ..study.design import Constraint, Design, Objective, Statistic, Wanted
+from ..study.design import Design, Objective, Statistic, Wanted
 from ..study.study import Study
 from .engine.engine import Engine
-from .engine.option_engine import ON_PATH
 from .engine.recognition import Route
-from .engine.seen import PAIRED, Need, Seen
+from .engine.seen import PAIRED, Seen
 from .ensemble import ComparedMachine, compared_machines
-from .figure import FIGURES, DesignFigure, OfCriterion, Setting
+from .figure import FIGURES, DesignFigure, Setting
 from .space import Space
+from .splitting import Splitting
 from .statistics import by_speed, of_each, statistic_of, weighted_statistic
 from .tolerances import Pieces
+from .wanted import (
+    CHANGE_OF_TOTAL,
+    CONFIDENCE,
+    MEDIAN,
+    MOST_PIECES_KEEP,
+    TOTALS,
+    figure_of,
+    more_is_better,
+    needs_of,
+)  # fmt: skip
 
 MOST_ROWS: Final = 16_384
 """Designs times samples that are computed side by side."""
-MEDIAN: Final = 0.5
-CONFIDENCE: Final = 0.9
-"""Share of the samples that a change is stated for."""
-CHANGE_OF_TOTAL: Final = "total_change_db"
-TOTALS: Final = ("level_total_dba", CHANGE_OF_TOTAL)
-"""Figures of the level of the machine with unmodelled noise."""
-MOST_PIECES_KEEP: Final = 0.9
-"""Share of nominal pieces that reach a value or better."""
 
 
 @dataclass(frozen=True)
@@ -106,9 +106,9 @@ class Problem:
         self.design: Design = study.design  # type: ignore[assignment]
         self.pieces = Pieces.of(study, self.space)
         self.wanted: dict[str, Wanted] = {**self.design.objectives, **self.design.constraints}
-        self.figures = [_figure(study, self.design, name, w) for name, w in self.wanted.items()]
+        self.figures = [figure_of(study, self.design, name, w) for name, w in self.wanted.items()]
         each = zip(self.figures, self.wanted.items(), strict=True)
-        needs = [_needs(study, self.design, figure, *item) for figure, item in each]
+        needs = [needs_of(study, self.design, figure, *item) for figure, item in each]
         self.radiation = radiation
         self._references: dict[tuple[int, bytes], Compared] = {}
         self._needs = tuple(dict.fromkeys(need for some in needs for need in some))
@@ -118,60 +118,36 @@ class Problem:
         """Names of objectives and constraints, in the order of the values."""
         return list(self.wanted)
 
-    @cached_property
+    @property
     def is_linear(self) -> bool:
         """Whether all goes by linear algebra, so that a design costs next to nothing."""
-        routes = [self.engine.routes(option).values() for option in self.space.options]
-        return all(route.linear for each in routes for route in each)
-
-    @cached_property
-    def path_columns(self) -> list[int]:
-        """Numbers of the variables that change the path from the loads to the microphones."""
-        return [
-            n
-            for n, routes in enumerate(self._routes)
-            if any(route.reason == ON_PATH for route in routes)
-        ]
+        return not self.run_columns
 
     @cached_property
     def run_columns(self) -> list[int]:
-        """Numbers of the variables of which every value takes runs; those of the path first."""
-        runs = [
-            n for n, routes in enumerate(self._routes) if not all(route.linear for route in routes)
-        ]
-        return self.path_columns + [n for n in runs if n not in self.path_columns]
+        """Numbers of the variables and values that scatter alone that take runs."""
+        return Splitting.of(self._routes, 1).slow
+
+    @cached_property
+    def splitting(self) -> Splitting:
+        """Pieces of designs that are computed together."""
+        routes = self._routes[: len(self.space.variables)]
+        return Splitting.of(routes, self.most_designs(self.samples()))
 
     @property
     def _routes(self) -> list[tuple[Route, ...]]:
-        """Routes of each variable, by option."""
+        """Routes of each variable, and of each value that scatters alone, by option."""
         each = [self.engine.routes(name).values() for name in self.space.options]
         return list(zip(*each, strict=True))
 
-    @cached_property
-    def piece(self) -> int:
-        """Most designs of a piece."""
-        return max(MOST_ROWS // self.weight(self.samples()).size, 1)
-
-    def split(self, designs: Array) -> Iterator[Array]:
-        """Split designs into pieces that are computed together, here and by workers alike.
-
-        Designs of a piece have the same path, and at most one load that is new: a piece takes one
-        run at most.
+    def most_designs(self, samples: Array) -> int:
+        """Return the number of designs that are computed side by side.
 
         Parameters
         ----------
-        designs : shape (design, variable), SI
+        samples : samples of the tolerances, shape (sample, scatter)
         """
-        paths = designs[:, self.path_columns]
-        loads = designs[:, [n for n in self.run_columns if n not in self.path_columns]]
-        is_first = np.zeros(len(designs), dtype=bool)
-        if loads.size:
-            is_first[np.unique(loads, axis=0, return_index=True)[1]] = True
-        is_first[1:] |= (np.diff(paths, axis=0) != 0.0).any(axis=1)
-        for part in np.split(designs, np.flatnonzero(is_first[1:]) + 1):
-            yield from (
-                part[first : first + self.piece] for first in range(0, len(part), self.piece)
-            )
+        return max(MOST_ROWS // self.weight(samples).size, 1)
 
     @cached_property
     def machines(self) -> list[ComparedMachine]:
@@ -205,10 +181,9 @@ class Problem:
         ----------
         run : its number; -1 is the run without scatter
         """
-        count = len(self.machines)
         if run < 0:
-            return np.full((1, len(self.pieces.scatters)), 0.5)
-        return self.pieces.of_run(self.design.search.seed, run, count)
+            return self.pieces.as_meant
+        return self.pieces.of_run(self.design.search.seed, run, len(self.machines))
 
     def evaluate(self, designs: Array, samples: Array | None = None) -> Judged:
         """Evaluate the objectives and constraints of designs.
@@ -219,7 +194,7 @@ class Problem:
         samples : samples of the tolerances, shape (sample, scatter); default: those of `samples()`
         """
         samples = self.samples() if samples is None else samples
-        size = max(MOST_ROWS // self.weight(samples).size, 1)
+        size = self.most_designs(samples)
         parts = [
             self._judged(designs[first : first + size], samples, first)
             for first in range(0, len(designs), size)
@@ -272,8 +247,8 @@ class Problem:
                 for (figure, wanted), before in zip(self._each, reference, strict=True)
             ]
             rows.append(np.stack(columns, axis=1))
-        meant = np.full((1, len(self.pieces.scatters)), 0.5)
-        return np.asarray(self.over_samples(np.concatenate(rows)[None], self.weight(meant))[0])
+        weight = self.weight(self.pieces.as_meant)
+        return np.asarray(self.over_samples(np.concatenate(rows)[None], weight)[0])
 
     def total_changes(self) -> list["Problem"]:
         """Return the same designs with changes of the total level instead of each total.
@@ -367,7 +342,7 @@ class Problem:
         if not outcome.results:
             shape = (len(designs), len(shares) * pairs, len(self.wanted))
             return np.full(shape, np.nan), failed
-        responses = by_row(outcome.results, pairs)
+        responses = _by_row(outcome.results, pairs)
         reference: list[Array | None] = [None] * len(self.figures)
         if any(figure.is_change for figure in self.figures):
             _, _, reference = self._reference(compared, shares)
@@ -403,7 +378,9 @@ class Problem:
         compared : the machine
         pieces : values that scatter but no design chooses, shape (piece, value), SI
         """
-        responses = by_row(compared.reference.outcome(pieces).results, compared.machine.weight.size)
+        responses = _by_row(
+            compared.reference.outcome(pieces).results, compared.machine.weight.size
+        )
 
         def setting(wanted: Wanted) -> Setting:
             def unmodelled() -> Array:
@@ -439,7 +416,7 @@ class Problem:
         return np.array(sign), side, limit
 
 
-def by_row(responses: Seen, pairs: int) -> Seen:
+def _by_row(responses: Seen, pairs: int) -> Seen:
     """Return the responses with a row for each pair of each design.
 
     Parameters
@@ -456,38 +433,3 @@ def by_row(responses: Seen, pairs: int) -> Seen:
 def _rows(values: Array) -> Array:
     """The first two axes as one."""
     return values.reshape(-1, *values.shape[2:])
-
-
-def more_is_better(wanted: Wanted) -> bool:
-    """Whether the smallest value is the worst."""
-    if isinstance(wanted, Objective):
-        return wanted.goal == "greatest"
-    return isinstance(wanted, Constraint) and wanted.at_least is not None
-
-
-def _where(study: Study, design: Design, name: str) -> str:
-    table = "objectives" if name in design.objectives else "constraints"
-    return f"{study.source_file}: design.{table}.{name}"
-
-
-def _figure(study: Study, design: Design, name: str, wanted: Wanted) -> DesignFigure:
-    if name in design.objectives and name in design.constraints:
-        raise ParameterError(
-            f"{study.source_file}: design.constraints.{name}: is an objective's name too"
-        )
-    takes_run = wanted.figure in CRITERIA and study.baseline is not None  # measured noise
-    if wanted.figure in FIGURES and not takes_run:
-        return FIGURES[wanted.figure]()
-    if wanted.figure in CRITERIA:
-        return OfCriterion(wanted.figure)
-    where = f"{_where(study, design, name)}.figure = {wanted.figure}"
-    raise ParameterError(f"{where}: {FIGURES.unknown(wanted.figure, CRITERIA)}")
-
-
-def _needs(
-    study: Study, design: Design, figure: DesignFigure, name: str, wanted: Wanted
-) -> tuple[Need, ...]:
-    try:
-        return figure.needs(wanted)
-    except ParameterError as error:
-        raise ParameterError(f"{_where(study, design, name)}.{error}") from None

@@ -8,7 +8,8 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.quantiles import weighted_quantiles
 from ..results.estimates import QUANTILES
-from .problem import Problem, more_is_better
+from .problem import Problem
+from .wanted import more_is_better
 
 _SET: Final = 1
 """Number of the set of samples from which the promise is computed; the search uses set 0."""
@@ -47,7 +48,7 @@ def promise(problem: Problem, design: Array, count: int) -> Promise:
     count : number of samples
     """
     samples = problem.samples(count, _SET)
-    as_meant = problem.evaluate(design[None], np.full((1, samples.shape[1]), 0.5)).values[0]
+    as_meant = problem.evaluate(design[None], problem.pieces.as_meant).values[0]
     by_sample = problem.by_sample(design[None], samples)
     promised = problem.over_samples(by_sample, problem.weight(samples))[0]
     if problem.is_sampled:

@@ -18,12 +18,13 @@ from ..uncertainty.shares import shares_of
 from .evaluation import Evaluation
 from .figure import DesignFigure
 from .keys import acts_on
-from .problem import MEDIAN, TOTALS, Problem
+from .problem import Problem
 from .promise import Promise
 from .search.front import nondominated
 from .search.problem import Searched
 from .space import OPTION
 from .total_change import lowering_words, no_change_words
+from .wanted import MEDIAN, TOTALS
 
 _MOST_REASONS: Final = 20
 

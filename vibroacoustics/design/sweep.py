@@ -142,7 +142,7 @@ def _pieces(problem: Problem, listing: Listing, waiting: deque[IndexArray]) -> I
     for positions in listing.blocks():
         numbers = listing.ordered(positions)
         first = 0
-        for piece in problem.split(listing.designs(numbers)):
+        for piece in problem.splitting.pieces(listing.designs(numbers)):
             waiting.append(numbers[first : first + len(piece)])
             first += len(piece)
             yield piece
@@ -172,7 +172,7 @@ def sampling_words(problem: Problem) -> str:
 
 def listing_of(problem: Problem) -> Listing:
     """List the designs that the study asks for; what takes runs varies slowest."""
-    design, slow = problem.design, problem.run_columns
+    design, slow = problem.design, problem.splitting.slow
     if design.sampling == "grid":
         return listed_grid(problem.space.axes(), slow)
     return listed_sample(problem.space.sample(design.sampling, design.samples), slow)

@@ -46,6 +46,19 @@ class Scatter:
         unit = 2.0 * share - 1.0
         return np.asarray(meant * (1.0 + self.ratio * unit) + self.distance * unit)
 
+    def meant_share(self, present: Array, first: int) -> float:
+        """Return the share that gives the value as meant; it may be outside of 0 to 1.
+
+        Parameters
+        ----------
+        present : values that scatter alone as meant, shape (further variable,), SI
+        first : column of the first of them
+        """
+        if self.limits is None or self.column < first:
+            return 0.5
+        low, high = self.limits
+        return float((present[self.column - first] - low) / (high - low))
+
 
 @dataclass(frozen=True)
 class Pieces:
@@ -119,6 +132,16 @@ class Pieces:
     def limits_without_designs(self) -> Array:
         """Lowest and highest values of these, shape (variable, 2), SI."""
         return self.limits[len(self.limits) - self.present.size :]
+
+    @property
+    def as_meant(self) -> Array:
+        """Shares of the ranges that give the piece as meant, shape (1, scatter).
+
+        A value that scatters in a range of its own, such as a start, is that of the file.
+        """
+        first = len(self.wide.variables) - self.present.size
+        shares = [scatter.meant_share(self.present, first) for scatter in self.scatters]
+        return np.array(shares).reshape(1, -1)
 
     def samples(self, count: int, number: int = 0) -> Array:
         """Shares of the ranges, shape (sample, scatter), the same at every call.

@@ -19,7 +19,6 @@ LONGEST_REASON: Final = 200
 def check_run(results: xr.Dataset) -> None:
     """Refuse what is no complete run.
 
-
     Raises
     ------
     SchemaError

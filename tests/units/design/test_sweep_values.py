@@ -1,5 +1,7 @@
 """Designs of sweeps by number, and the few of very many that a report shows."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from design_studies import WEIGHT, design_table, study_with
@@ -13,6 +15,7 @@ from vibroacoustics.design.listing import listed_grid, listed_sample
 from vibroacoustics.design.plan import Plan
 from vibroacoustics.design.problem import Problem
 from vibroacoustics.design.search.front import nondominated
+from vibroacoustics.design.splitting import Splitting
 from vibroacoustics.design.sweep import Prepared, as_dataset, listing_of, swept
 
 TWO = """
@@ -85,11 +88,23 @@ def all_of(values: sweep_values.SweepValues, problem: Problem) -> tuple[Array, E
     return listing_of(problem).designs(numbers), values.evaluation(numbers)
 
 
-def test_pieces_have_equal_values_of_what_takes_runs() -> None:
-    problem = problem_of()
-    problem.__dict__["run_columns"] = [0]
-    designs = np.array([[1.0, 3.0], [1.0, 4.0], [2.0, 4.0], [3.0, 4.0], [3.0, 5.0]])
-    assert [len(piece) for piece in problem.split(designs)] == [2, 1, 2]
-    problem.__dict__["piece"] = 1
-    assert np.concatenate(list(problem.split(designs))).tolist() == designs.tolist()
-    assert len(list(problem.split(designs))) == 5
+def test_pieces_have_one_path_and_one_new_load() -> None:
+    splitting = Splitting((1,), (0,), 2, 9)
+    assert splitting.slow == [1, 0]
+    designs = np.array([[1.0, 3.0], [2.0, 3.0], [1.0, 3.0], [1.0, 4.0], [2.0, 4.0], [5.0, 4.0]])
+    assert [len(piece) for piece in splitting.pieces(designs)] == [1, 2, 2, 1]
+    assert np.concatenate(list(splitting.pieces(designs))).tolist() == designs.tolist()
+    small = replace(splitting, most=1)
+    assert [len(piece) for piece in small.pieces(designs)] == [1] * 6
+    numbered = np.column_stack([designs[[0, 0, 0]], [-1.0, 7.0, 8.0]])
+    assert [len(piece) for piece in splitting.pieces(numbered)] == [1, 1, 1]
+
+
+def test_values_that_scatter_alone_may_take_runs() -> None:
+    """They belong to no design, but each run of a design takes them."""
+    wall = '[design.tolerances]\n"machine.structure.thickness_mm" = { ratio = 0.1 }\n'
+    problem = problem_of(wall)
+    assert problem.run_columns == [2]
+    assert problem.splitting.slow == []
+    first = listing_of(problem).designs(np.arange(3))
+    assert [len(piece) for piece in problem.splitting.pieces(first)] == [3]

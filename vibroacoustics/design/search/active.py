@@ -99,6 +99,16 @@ class Models:
             probability *= norm.cdf(-mean / np.maximum(deviation, CERTAIN))
         return probability
 
+    def excess(self, designs: Array) -> Array:
+        """Expected sum of what exceeds the constraints, shape (design,).
+
+        Parameters
+        ----------
+        designs : shares of the ranges, shape (design, variable)
+        """
+        each = [np.maximum(process.posterior(designs)[0], 0.0) for process in self.limited]
+        return np.asarray(np.sum(each, axis=0))
+
     def expected(self, designs: Array, constraints: int) -> Evaluation:
         """Return expected values of designs.
 
@@ -195,6 +205,7 @@ def search_active(
             gains.append(gain)
         search.run(chosen[None])
         models = search.models(models)
+    _, gain_of_more = search.maximum(models.gain, models)
     best, promise = search.maximum(models.promise, models)
     if not np.isfinite(promise):
         raise SolverError(
@@ -203,7 +214,7 @@ def search_active(
         )
     promised = slice(search.count, search.count + repeats + 1)
     search.finish(best, repeats)
-    return ActiveSearch(search.searched(), problem.at_shares(best), promised, models, gains[-1])
+    return ActiveSearch(search.searched(), problem.at_shares(best), promised, models, gain_of_more)
 
 
 class _Search:
@@ -250,9 +261,15 @@ class _Search:
         return self._shares[np.argsort(comparable(self.searched().evaluation))[:count]]
 
     def best_run(self, models: Models) -> Array:
-        """Design of the runs that is expected to be best, shape (variable,)."""
+        """Design of the runs that is expected to be best, shape (variable,).
+
+        Where none is expected to meet the constraints, that which exceeds them least.
+        """
         designs = models.objective.runs.designs
-        return np.asarray(designs[int(np.argmax(models.promise(designs)))])
+        promise = models.promise(designs)
+        if not np.isfinite(promise).any():
+            promise = -models.excess(designs)
+        return np.asarray(designs[int(np.argmax(promise))])
 
     def models(self, before: Models | None = None) -> Models:
         """Fit processes to all runs, from the parameters of those before.

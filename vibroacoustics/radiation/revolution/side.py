@@ -81,6 +81,10 @@ class RevolutionSide:
         self._middle_z_m = float(heights.min() + heights.max()) / 2.0
         self._solved: dict[float, list[WallPressure]] = {}
 
+    def __getstate__(self) -> dict[str, object]:
+        """Return what goes to other processes: nothing that is solved."""
+        return {**self.__dict__, "_solved": {}}
+
     @cached_property
     def radiators(self) -> list[Radiator]:
         """Radiators on the finer mesh and on the coarser one."""
