@@ -63,6 +63,19 @@ def design_key(study: va.Study) -> dict:
     return _material(study, "none", (), SimpleNamespace(key="", content=""))
 
 
+def test_key_of_a_design_has_all_that_a_criterion_may_read() -> None:
+    """Such as the rules of a rating, or which microphone is the published one."""
+    study = va.load_study(ROOT / "pipelines" / "neighbour.toml")
+    key = design_key(study)
+    for change in (
+        {"rating.windows.bedroom.operating_min": 30.0},
+        {"receivers.window.x_mm": 9000.0},
+        {"catalogue_receiver": "left_1m"},
+    ):
+        assert design_key(study.replace(change)) != key
+    assert design_key(study.replace({"title": "another"})) == key
+
+
 def peak_n(study: va.Study) -> float:
     return max(study.sources["bench"].measured.force_n)
 

@@ -11,8 +11,8 @@ from pydantic import BaseModel
 
 Table = TypeVar("Table", bound=BaseModel)
 
-_RECORDS: Final[list[set[Hashable]]] = []
-"""Sets of labels that are being recorded, in any thread."""
+_RECORDS: Final[dict[int, set[Hashable]]] = {}
+"""Sets of labels that are being recorded, in any thread, by their identity."""
 _IS_PAUSED: Final[ContextVar[bool]] = ContextVar("_IS_PAUSED", default=False)
 _ALL_FIELDS: Final = "__dict__"
 """Attribute through which a table is compared, hashed, dumped and iterated over."""
@@ -22,11 +22,11 @@ _ALL_FIELDS: Final = "__dict__"
 def recorded_reads() -> Iterator[set[Hashable]]:
     """Record the labels of the watched values that are read in the context."""
     reads: set[Hashable] = set()
-    _RECORDS.append(reads)
+    _RECORDS[id(reads)] = reads
     try:
         yield reads
     finally:
-        _RECORDS[:] = [record for record in _RECORDS if record is not reads]
+        del _RECORDS[id(reads)]
 
 
 @contextmanager
@@ -43,6 +43,8 @@ def watched(table: Table, labels: Mapping[tuple[str, ...], Hashable]) -> Table:
     """Copy a table so that `recorded_reads` sees which of some values are read.
 
     Copies of the copy are watched too. What reads all fields, such as a hash, reads all of them.
+    A value that a table keeps of its fields, in a private attribute, is not seen to be read.
+    Watched tables cannot be pickled.
 
     Parameters
     ----------
@@ -87,7 +89,7 @@ def _watched_class(
     def read(self: BaseModel, name: str) -> Any:
         if _RECORDS and (name in by_field or name == _ALL_FIELDS) and not _IS_PAUSED.get():
             labels_read = by_field.values() if name == _ALL_FIELDS else (by_field[name],)
-            for record in _RECORDS:
+            for record in list(_RECORDS.values()):
                 record.update(labels_read)
         return object.__getattribute__(self, name)
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from .problem import Problem
+from .wanted import CONFIDENCE
 
 LOWERING_DB: Final = 3.0
 """Change of the total that an engineer looks for."""
@@ -60,7 +61,8 @@ def lowering_words(problem: Problem, designs: Array, changes: Array | None) -> s
     """
     if changes is None:
         return ""
-    sure = "with 90 % confidence" if problem.is_sampled else "in 90 % of nominal pieces"
+    share = f"{100.0 * CONFIDENCE:g} %"
+    sure = f"with {share} confidence" if problem.is_sampled else f"in {share} of nominal pieces"
     with_nan = np.where(np.isfinite(changes[0]), changes[0], np.inf)
     enough = np.flatnonzero(with_nan[:, 1] <= -LOWERING_DB)
     if enough.size:

@@ -81,17 +81,18 @@ class ScrollGasForces(Source):
         """Orders of the gas forces on the scrolls, and the torque that the shaft needs."""
         cycle = gas_cycle(case.machine, case.shared, case.speed_rpm)
         of_frame, highest = _of_frame(case.machine), case.maximum_order
-        return case.shared(
-            ("gas loads", id(cycle), of_frame, highest),
-            lambda: Loads(
-                lines={
-                    port: order_spectrum(load, highest)
-                    for port, load in gas_loads(cycle, *of_frame).items()
-                }
-                | _flows(case, cycle, highest),
-                shaft_torque_n_m=order_spectrum(cycle.torque_n_m, highest),
-            ),
-        )
+
+        def compute() -> tuple[ScrollGasCycle, Loads]:
+            lines = {
+                port: order_spectrum(load, highest)
+                for port, load in gas_loads(cycle, *of_frame).items()
+            }
+            torque = order_spectrum(cycle.torque_n_m, highest)
+            flows = _flows(case, cycle, highest)
+            return cycle, Loads(lines=lines | flows, shaft_torque_n_m=torque)
+
+        key = "gas loads", id(cycle), of_frame, highest
+        return case.shared(key, compute)[1]  # the cycle is held, as its id is the key
 
     def curves(self, case: Case) -> Iterable[Curve]:
         """Pressures of pockets, flows, forces and torque; see `scroll_gas_curves`."""

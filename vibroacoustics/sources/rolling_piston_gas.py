@@ -98,11 +98,13 @@ def histories_of(case: Case) -> RollingHistories:
     case : with a rolling piston
     """
     samples = SAMPLES_PER_ORDER * (case.maximum_order + 1)
-    piston = case.machine.require(RollingPiston)
-    return case.shared(
-        ("rolling piston", id(case.machine), case.speed_rpm, samples),
-        lambda: piston.histories(case.speed_rpm, samples),
+    machine = case.machine
+    piston = machine.require(RollingPiston)
+    _, histories = case.shared(
+        ("rolling piston", id(machine), case.speed_rpm, samples),
+        lambda: (machine, piston.histories(case.speed_rpm, samples)),  # held, as its id is the key
     )
+    return histories
 
 
 def spectrum(histories: RollingHistories, history: Array, highest: int) -> ComplexArray:

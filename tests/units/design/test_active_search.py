@@ -2,6 +2,7 @@
 
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,8 +10,11 @@ from noisy_functions import FUNCTIONS, NOISE_DB, Figures, regrets, search_proble
 
 from vibroacoustics.base.arrays import Array
 from vibroacoustics.base.errors import SolverError, StorageError
+from vibroacoustics.base.progress import no_progress
+from vibroacoustics.design.active import _changes, promise_of_runs
 from vibroacoustics.design.evaluation import Evaluate, Evaluation
-from vibroacoustics.design.search.active import ActiveSearch, search_active
+from vibroacoustics.design.search.active import ActiveSearch, _Search, search_active
+from vibroacoustics.design.search.gaussian_process import Process, Runs
 from vibroacoustics.design.search.problem import SearchProblem
 from vibroacoustics.design.store.pieces import PieceStore, opened_store, stored
 
@@ -154,3 +158,40 @@ def test_all_runs_fail() -> None:
 
     with pytest.raises(SolverError, match="16 of 16 runs failed: no gas"):
         bowl_search(evaluate)
+
+
+def test_failed_repeats_count_for_nothing() -> None:
+    values = np.array([[1.0], [2.0], [np.nan], [4.0]])
+    promise = promise_of_runs(values)
+    assert (promise.promised, promise.samples) == ([3.0], 2)
+    with pytest.raises(SolverError, match="failed when they were repeated"):
+        promise_of_runs(values[:3])
+
+
+@pytest.mark.parametrize(("goal", "sign"), [("least", 1.0), ("greatest", -1.0)])
+def test_changes_of_the_total_are_those_that_nine_of_ten_pieces_stay_below(
+    goal: str, sign: float
+) -> None:
+    """At designs with many runs: the mean of these, and 1.28 standard deviations of one run."""
+    shares = np.array([[0.1], [0.9]])
+    runs = Runs(shares, sign * np.array([-5.0, 2.0]), np.full(2, 10_000), 100.0)
+    process = Process(runs, 10.0, np.array([0.1]), 0.25)
+    wanted = SimpleNamespace(figure="total_change_db", goal=goal)
+    problem = SimpleNamespace(design=SimpleNamespace(objectives={"a": wanted}), is_sampled=False)
+    changes = _changes(problem, process, shares)
+    expected = np.array([-5.0, 2.0])[:, None] + [0.0, 1.2816 * 0.5]
+    np.testing.assert_allclose(changes[0], expected, atol=0.01)  # 0.5 dB over a hundred
+    problem.is_sampled = True
+    assert _changes(problem, process, shares) is None
+
+
+def test_where_nothing_is_allowed_the_least_excess_is_run_again() -> None:
+    """The constraint falls along the only variable and is never met."""
+
+    def evaluate(designs: Array) -> Evaluation:
+        return Evaluation(designs[:, :1], 2.0 - designs[:, :1], ("",) * len(designs))
+
+    problem = SearchProblem(np.zeros(1), np.ones(1), np.array([False]), evaluate)
+    searching = _Search(problem, 0, no_progress, 30)
+    searching.run(np.linspace(0.0, 1.0, 8)[:, None])
+    assert searching.best_run(searching.models()).tolist() == [1.0]

@@ -5,17 +5,25 @@ from itertools import product
 import numpy as np
 import pytest
 from design_studies import NEEDS, design_table, engine_of, study_with
+from pydantic import PrivateAttr
 from sources_study import SOURCES_STUDY, made_up_modes
 
+import vibroacoustics as va
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.decibel import mean_square_level
+from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.design.engine.contraction import keeps_values
 from vibroacoustics.design.engine.memo import Budget, Memo
+from vibroacoustics.design.engine.on_mounts import random_squares
 from vibroacoustics.design.engine.seen import Need
+from vibroacoustics.design.engine.sound_way import RandomResponse
 from vibroacoustics.design.listing import listed_grid
+from vibroacoustics.levels.by_source import GAIN_BANDS
 from vibroacoustics.levels.nominal import NominalSound
 from vibroacoustics.pipeline.study import chain_with
 
 CLOSE_DB = 1e-9
+"""Products and runs sum in other orders: some hundred terms of 1e-16, with cancellation."""
 SOUND = Need("sound")
 GAS = "machine.gas.equalisation_angle_deg"
 SHELL = {
@@ -119,7 +127,6 @@ def test_fifty_random_designs_are_those_of_runs():
 
 
 def test_a_memo_computes_once_per_values_read_and_keeps_errors(monkeypatch):
-    from vibroacoustics.base.errors import ParameterError
     from vibroacoustics.base.field_reads import watched
     from vibroacoustics.machine.mounts import Mounts
 
@@ -152,6 +159,81 @@ def test_a_memo_computes_once_per_values_read_and_keeps_errors(monkeypatch):
     with pytest.raises(ParameterError, match="too wide"):
         memo(designs[4])
     assert len(calls) == 4
+
+
+def test_unwatched_values_count_as_read_and_a_refused_design_fails_alone():
+    memo = Memo(["word"], lambda design: design[0], np.float64, unwatched=frozenset({0}))
+    assert [memo(np.array([word])) for word in (1.0, 2.0)] == [1.0, 2.0]
+
+    def refuses(design):
+        if design[0] > 1.0:
+            raise ParameterError("too large")
+        return design[0]
+
+    memo = Memo(["value"], refuses, lambda _: np.float64(0.0))
+    results, of_row = memo.of_each(np.array([[2.0], [0.5]]))
+    assert isinstance(results[of_row[0]], ParameterError)
+    assert results[of_row[1]] == 0.0
+
+
+def test_a_table_that_keeps_values_is_not_watched():
+    """What it keeps may be used again without a read of the fields."""
+
+    class Kept(va.Parameters):
+        mass_kg: float
+        _double: float = PrivateAttr(0.0)
+
+        def model_post_init(self, _):
+            self._double = 2.0 * self.mass_kg
+
+    assert keeps_values(Kept(mass_kg=1.0))
+    machine = va.load_study(SOURCES_STUDY).machine
+    assert not keeps_values(machine)
+    assert not keeps_values(machine.mounts)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("key", "values"),
+    [
+        ("machine.shell.outer_diameter_mm", [165.1, 180.0]),
+        ("machine.variation.frequency_factor_ratio", [1.0, 1.2]),
+    ],
+)
+def test_designs_of_one_engine_have_paths_of_their_own(key, values):
+    engine, study, _ = engine_with({key: f"list = {values}"})
+    designs = np.array([[value] for value in engine.space.variables[-1].values])
+    outcome = engine.outcome(designs)
+    assert not outcome.failed
+    assert np.ptp(outcome.results[SOUND], axis=0).max() > 0.0
+    assert largest_difference_db(engine, study, designs, outcome.results) < CLOSE_DB
+
+
+def test_random_loads_add_by_source():
+    """Against a loop, with two loads of other sizes and densities."""
+    rng = np.random.default_rng(1)
+    bands = len(GAIN_BANDS)
+    loads = [
+        RandomResponse(
+            source, rng.random((lines, pairs, 3)) + 0j, rng.random((lines, bands)),
+            rng.random((lines, bands)),
+        )
+        for source, lines, pairs in ((1, 4, 2), (0, 5, 1), (1, 2, 3))
+    ]  # fmt: skip
+    densities = rng.random((2, 4 * 2 + 5 + 2 * 3)) + 0j
+    weighted, unweighted = random_squares(loads, densities, 2, 3)
+    expected = np.zeros((2, 2, 2, 3, bands))
+    first = 0
+    for load in loads:
+        lines, pairs, receivers = load.per_density.shape
+        for design, line, pair, receiver in np.ndindex(2, lines, pairs, receivers):
+            density = densities[design, first + line * pairs + pair].real
+            square = density * load.per_density[line, pair, receiver].real
+            for kind, band in enumerate((load.a_weight, load.member)):
+                expected[kind, design, load.source, receiver] += square * band[line]
+        first += lines * pairs
+    np.testing.assert_allclose(weighted, expected[0], rtol=1e-12)
+    np.testing.assert_allclose(unweighted, expected[1], rtol=1e-12)
 
 
 def test_results_beyond_the_memory_are_let_go_oldest_first():

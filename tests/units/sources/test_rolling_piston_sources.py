@@ -1,5 +1,6 @@
 """Gas and vane impacts of a rolling piston as sources in an elastic shell."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -10,11 +11,11 @@ import vibroacoustics as va
 from vibroacoustics.base.curves import Curve
 from vibroacoustics.commands.starter import STUDIES, WITH_SOURCES
 from vibroacoustics.machine.frame import BEARING_HOUSING, STATOR
-from vibroacoustics.machine.source import Case
+from vibroacoustics.machine.source import Case, Shared
 from vibroacoustics.mechanics.added import Added
 from vibroacoustics.mechanisms.rolling_piston.cycle import steady_cycle
 from vibroacoustics.mechanisms.rolling_piston.machine import RollingPistonMachine
-from vibroacoustics.sources.rolling_piston_gas import RollingPistonGas, VaneImpacts
+from vibroacoustics.sources.rolling_piston_gas import RollingPistonGas, VaneImpacts, histories_of
 
 SPEED = 3000.0
 
@@ -55,6 +56,16 @@ def test_flow_into_the_shell_is_what_the_cylinder_delivers() -> None:
     density = machine().gas.discharge_density_kg_per_m3
     assert flow[0, 0].real * density == pytest.approx(delivered, rel=1e-3)
     assert abs(flow[0, 1]) > flow[0, 0].real
+
+
+def test_shared_histories_hold_the_machine_whose_identity_they_are_kept_by() -> None:
+    """Else the next machine at the same address would get those of another."""
+    case = case_of(machine().model_copy())
+    shared = Shared()
+    histories = histories_of(replace(case, shared=shared))
+    (kept,) = [value for key, value in shared._known.items() if id(case.machine) in key]
+    assert kept[0] is case.machine
+    assert histories_of(replace(case, shared=shared)) is histories
 
 
 def test_vane_impacts_are_silent_until_the_tip_leaves() -> None:

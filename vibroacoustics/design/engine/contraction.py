@@ -1,13 +1,17 @@
 """Loads, paths and bodies of the designs with one option, each computed once and joined."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
+from typing import Any
+
+from pydantic import BaseModel
 
 from ...base.arrays import Array
 from ...base.field_reads import watched
 from ...base.units import si_key
 from ...machine.combination import Combination, members_by_name
+from ...machine.machine import Machine
 from ...machine.option import Option
 from ...mechanics.ports import BodyPort
 from ...study.sampling import Sample
@@ -116,9 +120,24 @@ class Contraction:
         for name in self._acting:
             first, *tables, last = name.split(".")
             is_option = first == "options" and len(tables) == 1
-            if (is_option or (first == "machine" and not redesigned)) and is_plain(study, [name]):
-                paths[name] = (first, *tables, si_key(last)[0])
+            if not (is_option or (first == "machine" and not redesigned)):
+                continue
+            path = (first, *tables, si_key(last)[0])
+            if is_plain(study, [name]) and not any(map(keeps_values, self._owners(path))):
+                paths[name] = path
         return paths
+
+    def _owners(self, path: tuple[str, ...]) -> Iterator[BaseModel]:
+        """Give the tables through which a value is read."""
+        first, *tables, _ = path
+        owner: Any = self.space.study.machine
+        if first == "options":
+            members = members_by_name(self.option, self.space.study.options[self.option])
+            owner, tables = members[tables[0]], tables[1:]
+        yield owner
+        for name in tables:
+            owner = getattr(owner, name)
+            yield owner
 
     def _study_of(self, design: Array) -> Study:
         """Study of a design that shows which of the values are read."""
@@ -136,6 +155,14 @@ class Contraction:
             option_watched = _watched_option(self.option, option, inner["options"])
             update["options"] = {**study.options, self.option: option_watched}
         return study.model_copy(update=update)
+
+
+def keeps_values(table: BaseModel) -> bool:
+    """Whether a table may keep values of its fields where no reading of these is seen.
+
+    The private attribute of every machine, its attached bodies, is set by options.
+    """
+    return bool(set(type(table).__private_attributes__) - set(Machine.__private_attributes__))
 
 
 def _watched_option(name: str, option: Option, labels: Mapping[tuple[str, ...], str]) -> Option:

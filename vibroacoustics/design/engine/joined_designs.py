@@ -43,9 +43,13 @@ def joined_designs(
         on_stack, layout = np.searchsorted(alike, on_loads[rows]), first.layout
         paths, on_path = contraction.paths(layout).of_each(designs[rows])
         stands, on_stand = contraction.stands(layout).of_each(designs[rows])
-        for some, _ in _by_kind(paths, on_path, id):
+        for some, (number, *_) in _by_kind(paths, on_path, id):
+            path = paths[number]
+            if isinstance(path, Exception):
+                yield rows[some], path, []
+                continue
             try:
-                lines = lines_of(layout, contraction.paths(layout)(designs[rows[some[0]]]))
+                lines = lines_of(layout, path)
             except (ParameterError, SolverError) as error:
                 yield rows[some], error, []
                 continue

@@ -125,7 +125,7 @@ class Memo(Generic[Result]):
                 finally:
                     numbers |= {n for n, name in enumerate(self.names) if name in labels}
         except (ParameterError, SolverError) as error:
-            result = error
+            result = error.with_traceback(None)  # a frame would keep its arrays
         self.computed += 1
         reads = tuple(sorted(numbers))
         results = self._known.setdefault(reads, {})

@@ -1,6 +1,6 @@
 """All designs with one option: by linear algebra, or run by run."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -14,7 +14,7 @@ from .contraction import Contraction, Layouts
 from .deviating import Gains
 from .expansion import Expansion
 from .hearing import Hearing
-from .joined_designs import joined_designs
+from .joined_designs import Joined, joined_designs
 from .linear_designs import LinearDesigns
 from .on_mounts import Lines, lines_of
 from .probe import Probe
@@ -30,6 +30,8 @@ ARRAYS: Final = frozenset({
 """Arrays on which any figure may depend; reported figures matter where they are requested."""
 FILLING: Final = 64
 """Designs that show which bands vary over the space."""
+MOST_JOINED: Final = 2048
+"""Designs whose loads and paths are joined at a time; 0.6 GB with loads of 0.15 MB, twice held."""
 MOST_GROUPS: Final = 256
 """Sets of values that take runs, of which linear designs are kept."""
 ON_PATH: Final = "changes the path from the loads to the microphones"
@@ -97,7 +99,7 @@ class OptionEngine:
     gains: tuple[Gains | None, ...]
     unmodelled: tuple[Array | None, ...]
     template: "OptionEngine | None" = None
-    _expansions: dict[bytes, tuple[Probe, list[Expansion]] | None] = field(
+    _expansions: dict[Hashable, tuple[Probe, list[Expansion]] | None] = field(
         default_factory=dict, repr=False
     )
     _groups: dict[bytes, LinearDesigns | None] = field(default_factory=dict, repr=False)
@@ -220,8 +222,10 @@ class OptionEngine:
         except (ParameterError, SolverError):
             return None
         reads = {*self.contraction.loads.reads, *self.contraction.stands(probe.layout).reads}
-        key = base[sorted(reads)].tobytes()
+        key = probe.layout, tuple(sorted(reads)), base[sorted(reads)].tobytes()
         if key not in self._expansions:
+            if len(self._expansions) >= MOST_GROUPS:
+                self._expansions.clear()
             try:
                 expansions = self.explorer.expansions(base, terms)
                 self._expansions[key] = probe, expansions
@@ -239,8 +243,7 @@ class OptionEngine:
         different, same = np.unique(values[rows], axis=0, return_inverse=True)
         outcome = Outcome()
         failed, hearing = outcome.failed, outcome.hearing(self.needs, len(different))
-        designs = joined_designs(self.contraction, different, self._lines, self.needs)
-        for some, part, spectra in designs:
+        for some, part, spectra in self._joined(different):
             outcome.take_or_fail(some, part, len(different))
             if spectra:
                 hearing.add(some, spectra)
@@ -253,6 +256,13 @@ class OptionEngine:
             result.take(rows, every, len(values))
         each = zip(rows.tolist(), of_row.tolist(), strict=True)
         result.failed |= {row: failed[number] for row, number in each if number in failed}
+
+    def _joined(self, designs: Array) -> Joined:
+        """Join loads and paths of some designs at a time: their arrays are all in memory."""
+        for first in range(0, len(designs), MOST_JOINED):
+            block = designs[first : first + MOST_JOINED]
+            joined = joined_designs(self.contraction, block, self._lines, self.needs)
+            yield from ((first + some, part, spectra) for some, part, spectra in joined)
 
     def _score(self, designs: Array, outcome: Outcome, failed: dict[int, str]) -> None:
         """Take in the criteria of designs that have not failed."""

@@ -87,13 +87,12 @@ def _scored(
 
 def _material(study: Study, option: str, needs: Sequence[Need], path: SoundPath) -> dict[str, Any]:
     """Return everything on which the criteria of a design depend, as JSON values."""
-    settings = study.parameters()
-    kept = ("machine", "operation", "options", "sources")
+    unread = {"design", "title", "titles", "source_file"}
     return {
-        **{name: settings[name] for name in kept},
+        **{name: value for name, value in study.parameters().items() if name not in unread},
         "option": option,
         "needs": [list(need) for need in needs],
-        "way": [canonical_json(settings["radiation"]), path.content],
+        "content": path.content,
         "plugins": plugins(),
         "source": _source_hash(),
     }

@@ -181,7 +181,7 @@ class PathOfDesign:
 
 @dataclass
 class SoundPaths:
-    """SoundPaths of the designs, each made once for all designs that share it.
+    """Paths of the designs, each made once for all designs that share it.
 
     Attributes
     ----------
