@@ -39,7 +39,11 @@ from vibroacoustics.transfer.shell_modes.harmonic import Harmonic
 from vibroacoustics.transfer.shell_modes.loads import JointLoads, joint_forces
 from vibroacoustics.transfer.shell_modes.meridian import Meridian, bending_wavelength_m
 from vibroacoustics.transfer.shell_modes.mobility import modal_forces, patch_forces
-from vibroacoustics.transfer.shell_modes.modes import ElasticShell, elastic_shell
+from vibroacoustics.transfer.shell_modes.modes import (
+    ElasticShell,
+    _largest_displacement,
+    elastic_shell,
+)
 from vibroacoustics.transfer.shell_modes.sampled import SampledMode
 
 PRINTED = ROOT / "data" / "validation" / "shell_modes.csv"
@@ -413,6 +417,20 @@ def test_radiating_body_takes_a_mode_as_its_pattern(flat):
         outwards[np.abs(points[:, 2] - end) < 1e-9] = [0.0, 0.0, side]
     middle = area @ normal_velocity(drum, points, outwards)
     assert volume[1] == pytest.approx(middle, rel=2.0 * 3.2e-3 / RADIUS)
+
+
+def test_sign_of_a_mode_does_not_depend_on_rounding(flat):
+    """Both caps of a symmetric shell move alike: noise and sign of the solver change no shape."""
+    frequencies, shapes = Harmonic(flat.meridian, flat.structure, 0).modes(3000.0)
+    size = _largest_displacement(flat.meridian, shapes)
+    parts = np.sort(np.abs(shapes / size), axis=0)
+    assert np.any(parts[-2] > 1.0 - 1e-9)  # of two that move most the solver's noise chooses one
+    generator = np.random.default_rng(2)
+    for _ in range(8):
+        noise = 1.0 + 1e-10 * generator.standard_normal(shapes.shape)
+        turned = shapes * noise * generator.choice([-1.0, 1.0], frequencies.size)
+        again = turned / _largest_displacement(flat.meridian, turned)
+        np.testing.assert_allclose(again, shapes / size, atol=1e-8)
 
 
 def test_orders_that_are_left_out_have_no_mode(flat):

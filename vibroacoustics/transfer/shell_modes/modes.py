@@ -24,6 +24,8 @@ MAXIMUM_ORDER: Final = 64
 """Most waves around the circumference that are looked for."""
 _FOUR_POSITIONS: Final = np.linspace(-1.0, 1.0, 4)
 """Positions along an element; they fix a cubic."""
+_ALIKE: Final = 1e-6
+"""Relative difference of displacements below which they are equal: solvers leave 1e-11."""
 
 
 class Around(NamedTuple):
@@ -185,13 +187,18 @@ class ElasticShell:
 
 
 def _largest_displacement(meridian: Meridian, shapes: Array) -> Array:
-    """Largest displacement over the nodes, with the sign of its largest part, shape (mode,)."""
+    """Largest displacement over the nodes, with the sign of its largest part, shape (mode,).
+
+    Of parts that differ by rounding noise the first has the sign: it is that of every processor.
+    """
     count, modes = meridian.elements + 1, shapes.shape[1]
     nodes = shapes[: NODE_DOFS * count].reshape(count, NODE_DOFS, modes)[:, :ROTATION]
     in_plane = np.linalg.norm(nodes[:, :CIRCUMFERENTIAL], axis=1)
     size = np.maximum(in_plane, np.abs(nodes[:, CIRCUMFERENTIAL])).max(axis=0)
     parts = nodes.reshape(ROTATION * count, modes)
-    largest = parts[np.argmax(np.abs(parts), axis=0), np.arange(modes)]
+    sizes = np.abs(parts)
+    first = np.argmax(sizes >= (1.0 - _ALIKE) * sizes.max(axis=0), axis=0)
+    largest = parts[first, np.arange(modes)]
     return np.asarray(np.sign(largest) * size)
 
 
