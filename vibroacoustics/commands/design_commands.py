@@ -61,7 +61,7 @@ def sweep_command(
     load_plugins(plugin)
     opened, is_far = workers.opener(plugin), workers.scheduler is not None
     problem, folder = _problem(study_file, out)
-    prepared = prepare(problem, 3600.0 * longest, max(workers.workers, 1))
+    prepared = prepare(problem, 3600.0 * longest, workers.workers)
     messages.inform(f"plan: {prepared.plan.text}")
     with _evaluating(problem, study_file, folder / SWEEP_PIECES, opened, plugin, is_far) as stream:
         values = swept(prepared, progress, stream)

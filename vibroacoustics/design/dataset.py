@@ -69,8 +69,7 @@ def short_names(keys: list[str]) -> list[str]:
 def _coordinate(dim: str, variable: Variable, values: Array) -> tuple[str, Array, dict[str, str]]:
     """Values in the unit of the file."""
     attrs = {"long_name": variable.key, "units": variable.unit or "1"}
-    written = [variable.written(value) for value in values.tolist()]
-    return dim, np.array(written), attrs
+    return dim, variable.in_file(values), attrs
 
 
 def _of_wanted(problem: Problem, name: str) -> dict[str, Any]:
@@ -105,14 +104,14 @@ def table_csv(results: xr.Dataset) -> Iterator[bytes]:
             indices = dict(zip(failure.dims, np.unravel_index(numbers, failure.shape), strict=True))
         else:
             indices = dict.fromkeys(failure.dims, numbers)
-        columns = [_cells(results[name].values[indices[results[name].dims[0]]]) for name in axes]
-        columns += [_cells(flat[name][numbers]) for name in names]
+        columns = [cells(results[name].values[indices[results[name].dims[0]]]) for name in axes]
+        columns += [cells(flat[name][numbers]) for name in names]
         columns.append(reasons[flat["failure"][numbers]].tolist())
         yield ("\n".join(map(",".join, zip(*columns, strict=True))) + "\n").encode()
 
 
-def _cells(values: Array) -> list[str]:
-    """Cells of a column; words are written once each."""
+def cells(values: Array) -> list[str]:
+    """Return the cells of a column of the table, shape (design,); words are made once each."""
     if values.dtype.kind != "U":
         return list(map(DIGITS.format, values.tolist()))
     words = {word: _cell(word) for word in np.unique(values).tolist()}

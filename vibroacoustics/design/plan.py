@@ -2,7 +2,6 @@
 
 import time
 import zlib
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
@@ -12,21 +11,17 @@ import psutil
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..results.size import MOST_BYTES
-from .dataset import DIGITS
-from .engine.machine_sample import KEPT
-from .evaluation import Evaluation, evaluating, joined
+from .dataset import cells
+from .engine.memo import MOST_BYTES as MOST_KEPT_BYTES
 from .explaining import SPREAD_DESIGNS
 from .listing import BLOCK, Listing
 from .problem import Problem
 from .space import OPTION
 from .sweep_values import MOST_SHOWN
+from .trial import Trial, process_bytes, tried
 
 LONGEST_S: Final = 12 * 3600.0
 """Longest time of a sweep unless more is allowed."""
-_STARTS, _CONSECUTIVE = 3, 4
-"""Numbers of pieces from which some are timed, and how many that follow each other."""
-_TRIED_S: Final = 2.0
-"""Processor time after which no further piece is timed there."""
 _WRITTEN: Final = 2_000
 """Designs that are written to see how large they are."""
 _FURTHER_BYTES: Final = 5.0
@@ -35,7 +30,7 @@ _REPORT_S, _SHOWN_S = 0.3, 5e-6
 """Processor time of a report, and of each design that it shows."""
 _SELECTED_S, _SORTED_S = 1.0, 3e-7
 """Processor time of the selection of designs for a report, and of each of very many designs."""
-_LABELLED_S: Final = 3e-7
+_LABELLED_S: Final = 5e-8
 """Processor time of the value of a variable in a sample."""
 _REPORT_BYTES: Final = 230_000
 _REPORT_ROW: Final = 1.1
@@ -78,27 +73,6 @@ class Plan:
         )
 
 
-class _Tried(NamedTuple):
-    """Pieces that were timed.
-
-    Attributes
-    ----------
-    designs : shape (design, variable), SI
-    evaluation : evaluation of the designs
-    pieces : number of them
-    seconds : processor time of all of them
-    share : share of the work of the sweep
-    kept_bytes : memory that results of runs keep of each
-    """
-
-    designs: Array
-    evaluation: Evaluation
-    pieces: int
-    seconds: float
-    share: float
-    kept_bytes: float
-
-
 class _Written(NamedTuple):
     """Size of a design in files: time, s, and bytes of the table and of compressed values."""
 
@@ -115,18 +89,19 @@ def check_size(problem: Problem, count: int) -> None:
     ParameterError
         Its result takes more than 2 GiB, or all copies more than the available memory.
     """
-    result, needed = _result_bytes(problem, count), memory_bytes(problem, count)
+    needed = memory_bytes(problem, count) - process_bytes()
     available = psutil.virtual_memory().available
-    for what, size, limit in (
-        ("result", result, MOST_BYTES),
-        ("evaluation", needed - _memory_bytes(), available),
-    ):
-        if size > limit:
-            raise ParameterError(
-                f"{problem.study.source_file}: design: the {what} of {count} designs takes "
-                f"{size / 2**30:.1f} GiB; allowed {limit / 2**30:.3g} GiB: take fewer points, "
-                "samples or objectives"
-            )
+    _refuse_above(problem, count, "result", _result_bytes(problem, count), MOST_BYTES)
+    _refuse_above(problem, count, "evaluation", needed, available)
+
+
+def _refuse_above(problem: Problem, count: int, what: str, size: float, limit: float) -> None:
+    if size > limit:
+        raise ParameterError(
+            f"{problem.study.source_file}: design: the {what} of {count} designs takes "
+            f"{size / 2**30:.1f} GiB; allowed {limit / 2**30:.3g} GiB: take fewer points, "
+            "samples, objectives or workers"
+        )
 
 
 def _result_bytes(problem: Problem, count: int) -> int:
@@ -142,7 +117,7 @@ def memory_bytes(problem: Problem, count: int) -> float:
     """
     variables = 0 if problem.design.sampling == "grid" else len(problem.space.variables)
     copies = 8 * count * variables
-    return _memory_bytes() + _work_bytes(count) + _result_bytes(problem, count) + copies
+    return process_bytes() + _work_bytes(count) + _result_bytes(problem, count) + copies
 
 
 def _work_bytes(count: int) -> float:
@@ -151,7 +126,7 @@ def _work_bytes(count: int) -> float:
 
 
 def planned(
-    problem: Problem, listing: Listing, longest_s: float = LONGEST_S, workers: int = 1
+    problem: Problem, listing: Listing, longest_s: float = LONGEST_S, workers: int = 0
 ) -> Plan:
     """Plan a sweep from some of its pieces.
 
@@ -160,35 +135,37 @@ def planned(
     problem : problem of the study
     listing : its designs
     longest_s : longest time that it may take
-    workers : processes that evaluate
+    workers : further processes that evaluate; with none this one does
 
     Raises
     ------
     ParameterError
-        It takes longer.
+        It takes longer, or all processes together take more memory than is available.
     """
     count, samples = listing.count, problem.samples()
     routes = [problem.engine.routes(option) for option in problem.space.options]
     runs = {key: r.reason for each in routes for key, r in each.items() if not r.linear}
     runs.pop(OPTION, None)
-    tried = _tried(problem, listing)
-    written = _written(problem, tried)
-    of_all, pieces = tried.seconds / tried.share, tried.pieces / tried.share
-    repeated = tried.share if runs and workers == 1 else 0.0  # results of runs are kept
-    seconds = of_all * ((1.0 - repeated) / workers + _further_share(problem, count))
+    trial = tried(problem, listing)
+    written = _written(problem, trial)
+    of_all = trial.seconds / workers if workers else max(trial.seconds - trial.spent_s, 0.0)
+    seconds = of_all + trial.seconds * _further_share(problem, count)
     seconds += count * written.seconds + _report_s(problem, count)
     rows = count + _REPORT_ROW * min(count, MOST_SHOWN)
     disk = rows * written.row_bytes + count * written.value_bytes + _REPORT_BYTES
-    growth = tried.kept_bytes * max(min(pieces, KEPT) - tried.pieces, 0.0)
+    growth = min(trial.kept_bytes, MOST_KEPT_BYTES)
+    here = memory_bytes(problem, count) + (0.0 if workers else growth)
     plan = Plan(
         count,
         count * problem.weight(samples).size,
         len(problem.study.operation.speed_rpm),
         seconds,
-        memory_bytes(problem, count) + growth,
+        here,
         disk,
         runs,
     )
+    further = here - process_bytes() + workers * (process_bytes() + growth)
+    _refuse_above(problem, count, "evaluation", further, psutil.virtual_memory().available)
     if seconds > longest_s:
         raise ParameterError(
             f"{problem.study.source_file}: design: {plan.text}; allowed {duration(longest_s)}"
@@ -206,58 +183,27 @@ def _report_s(problem: Problem, count: int) -> float:
     return seconds
 
 
-def _tried(problem: Problem, listing: Listing) -> _Tried:
-    """Evaluate some pieces that follow each other at the begin, in the middle and at the end.
-
-    Pieces that follow each other share results. What is made once is not timed.
-    """
-    evaluate, blocks = evaluating(problem), list(listing.blocks())
-    some = [blocks[n] for n in sorted({0, len(blocks) // 2, len(blocks) - 1})]
-    blocks_of_designs = (listing.designs(listing.ordered(block)) for block in some)
-    pieces = [piece for each in blocks_of_designs for piece in problem.splitting.pieces(each)]
-    evaluate(pieces[0][:1])
-    parts, seconds, before = [], 0.0, _memory_bytes()
-    for numbers in np.array_split(np.arange(len(pieces)), min(_STARTS, len(pieces))):
-        begin = time.process_time()
-        for number in numbers[:_CONSECUTIVE].tolist():
-            parts.append((pieces[number], evaluate(pieces[number])))
-            if time.process_time() - begin > _TRIED_S:
-                break
-        seconds += time.process_time() - begin
-    designs = np.concatenate([piece for piece, _ in parts])
-    share, kept = len(designs) / listing.count, 0.0
-    if problem.run_columns:
-        kept = (_memory_bytes() - before) / len(parts)
-        share = len(parts) / len(pieces) * sum(block.size for block in some) / listing.count
-    evaluation = joined([evaluation for _, evaluation in parts])
-    return _Tried(designs, evaluation, len(parts), seconds, share, kept)
-
-
-def _memory_bytes() -> int:
-    """Memory of this process."""
-    return int(psutil.Process().memory_info().rss)
-
-
-def _written(problem: Problem, tried: _Tried) -> _Written:
+def _written(problem: Problem, trial: Trial) -> _Written:
     """Write a few designs to memory as a sweep writes them: once as text, twice compressed."""
-    rows = slice(min(len(tried.designs), _WRITTEN))
-    variables = problem.space.variables
-    cells = [[v.written(x) for v, x in zip(variables, design, strict=True)]
-             for design in tried.designs[rows].tolist()]  # fmt: skip
-    values = np.concatenate([tried.evaluation.objectives, tried.evaluation.constraints], axis=1)
+    rows = slice(min(len(trial.designs), _WRITTEN))
+    values = np.concatenate([trial.evaluation.objectives, trial.evaluation.constraints], axis=1)
     begin = time.process_time()
-    columns = [*zip(*cells, strict=True), *values[rows].T.tolist()]
-    text = "\n".join(map(",".join, zip(*map(_text, columns), strict=True)))
-    shuffled = values[rows].T.reshape(-1, 1).view(np.uint8).T.tobytes()
-    packed = [zlib.compress(shuffled, 4) for _ in range(2)]
-    seconds, count = time.process_time() - begin, len(cells)
+    each = zip(problem.space.variables, trial.designs[rows].T, strict=True)
+    columns = [variable.in_file(column) for variable, column in each]
+    text = "\n".join(map(",".join, zip(*map(cells, [*columns, *values[rows].T]), strict=True)))
+    in_files = [values[rows]] * 2
+    if problem.design.sampling != "grid":
+        in_files.append(trial.designs[rows])
+    packed = [_compressed(each) for each in in_files]
+    seconds, count = time.process_time() - begin, len(values[rows])
     return _Written(
         seconds / count, len(text) / count + _FURTHER_BYTES, sum(map(len, packed)) / count
     )
 
 
-def _text(column: Sequence[str | float]) -> Iterator[str]:
-    return map(str if isinstance(column[0], str) else DIGITS.format, column)
+def _compressed(values: Array) -> bytes:
+    """Compress values as a file of results does: byte by byte of the numbers."""
+    return zlib.compress(values.T.reshape(-1, 1).view(np.uint8).T.tobytes(), 4)
 
 
 def _further_share(problem: Problem, count: int) -> float:

@@ -94,14 +94,14 @@ class Prepared(NamedTuple):
     plan: Plan
 
 
-def prepare(problem: Problem, longest_s: float = LONGEST_S, workers: int = 1) -> Prepared:
+def prepare(problem: Problem, longest_s: float = LONGEST_S, workers: int = 0) -> Prepared:
     """List the designs that the study asks for and plan their evaluation.
 
     Parameters
     ----------
     problem : problem of the study
     longest_s : longest time that the sweep may take
-    workers : processes that evaluate
+    workers : further processes that evaluate; with none this one does
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """A value in which designs differ."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -9,6 +9,9 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.units import split_key
 from ..study.design import DesignVariable
+
+_DIGITS: Final = 14
+"""Digits of a value in a file: those that no change of its unit alters."""
 
 
 @dataclass(frozen=True)
@@ -71,12 +74,28 @@ class Variable:
             return np.asarray(low + share * (high - low))
         return np.asarray(values[np.minimum((share * values.size).astype(int), values.size - 1)])
 
+    def in_file(self, values: Array) -> Array:
+        """Values as a study's file writes them, with 14 digits, shape (value,).
+
+        Parameters
+        ----------
+        values : values in SI, or numbers of words, shape (value,)
+        """
+        if self.choices is not None and self.takes_words:
+            return np.asarray(np.array(self.choices)[np.rint(values).astype(int)])
+        in_unit = np.asarray(values, dtype=float) / self.factor
+        size = np.abs(np.where(in_unit == 0.0, 1.0, in_unit))
+        power = _DIGITS - 1 - np.floor(np.log10(size))
+        up, down = 10.0 ** np.clip(power, 0.0, 22.0), 10.0 ** np.clip(-power, 0.0, 22.0)
+        rounded = np.rint(in_unit * up / down) / up * down
+        inexact = np.abs(power) > 22.0  # powers of ten up to here are exact
+        rounded[inexact] = [float(f"{value:.{_DIGITS}g}") for value in in_unit[inexact]]
+        is_whole = self.integer and bool(np.all(rounded == np.rint(rounded)))
+        return np.asarray(rounded, dtype=int if is_whole else float)
+
     def written(self, value: float) -> Any:
         """A value as a study's file writes it."""
-        if self.choices is not None and self.takes_words:
-            return self.choices[round(value)]
-        in_file = float(f"{float(value) / self.factor:.14g}")
-        return int(in_file) if self.integer and in_file.is_integer() else in_file
+        return self.in_file(np.array([value]))[0].item()
 
 
 def variable_of(key: str, entry: DesignVariable) -> Variable:

@@ -3,13 +3,15 @@
 import json
 
 import numpy as np
+import psutil
 import pytest
 from design_studies import WEIGHT, design_table, study_with
 from support import TINY, assert_refused, command_here, made_up_radiation
 
 from vibroacoustics import sweep
+from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.design.dataset import short_names, table_csv
-from vibroacoustics.design.plan import Plan
+from vibroacoustics.design.plan import Plan, planned
 from vibroacoustics.design.problem import Problem
 from vibroacoustics.design.space import Space
 from vibroacoustics.design.statistics import statistic_of
@@ -235,6 +237,22 @@ def test_too_many_designs_are_refused_before_they_start(tmp_path):
     )
     assert_refused(_sweep(tmp_path, table), "90000000 designs", "allowed 2 GiB")
     assert list(tmp_path.iterdir()) == [tmp_path / "study.toml"]
+
+
+def test_memory_of_all_workers_counts(study, monkeypatch):
+    """Memory for two processes is available: this one with one worker, not with two."""
+    problem = Problem(study, made_up_radiation)
+    plan = planned(problem, listing_of(problem))
+    further = plan.memory_bytes - psutil.Process().memory_info().rss
+    one_worker = further + psutil.Process().memory_info().rss
+
+    class Memory:
+        available = 1.5 * one_worker
+
+    monkeypatch.setattr(psutil, "virtual_memory", Memory)
+    planned(problem, listing_of(problem), workers=1)
+    with pytest.raises(ParameterError, match=r"evaluation of 6 designs takes .* or workers"):
+        planned(problem, listing_of(problem), workers=2)
 
 
 def test_plan_tells_designs_time_and_size():
