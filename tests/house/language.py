@@ -68,6 +68,10 @@ def openings(tree: ast.AST) -> Iterator[tuple[int, str]]:
                     yield statement.lineno, word[1] if word else ""
 
 
+SHAPE = re.compile(r"\bshape\b|\((\.\.\.|[\w .]+,[^()]*|\d\))|see `")
+"""A shape, the names of axes in brackets, or another place that has it."""
+
+
 def shapeless(tree: ast.AST) -> Iterator[tuple[int, str]]:
     """Line and name of every documented array whose docstring states no shape."""
     for node in ast.walk(tree):
@@ -79,7 +83,7 @@ def shapeless(tree: ast.AST) -> Iterator[tuple[int, str]]:
             continue
         arrays = {name for name, kind in annotations(node) if kind in ARRAYS}
         for names, text in ENTRY.findall(body):
-            if not any(word in text for word in ("(", "shape", "see `")):
+            if not SHAPE.search(text):
                 yield from ((node.lineno, name) for name in names.split(", ") if name in arrays)
 
 

@@ -255,9 +255,17 @@ def side_by_side(
     items: Iterable[Item],
     otherwise: Callable[[Callable[[Item], Result], Iterable[Item]], Iterable[Result]] = map,
 ) -> Iterator[Result]:
-    """Apply a function in copies of this process, or see `distributed`; results are in order.
+    """Apply a function in copies of this process, or by the workers of `distributing`.
 
-    What the function changes in a copy is lost; results are what pickle takes.
+    Parameters
+    ----------
+    function : function of any kind; what it changes in a copy is lost
+    items : arguments, of any kind
+    otherwise : applies the function where copies or several processors are not available
+
+    Returns
+    -------
+    results in the order of the items; pickle must take them
     """
 
     def here(function: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[Result]:

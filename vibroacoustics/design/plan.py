@@ -17,8 +17,9 @@ from .explaining import SPREAD_DESIGNS
 from .listing import BLOCK, Listing
 from .problem import Problem
 from .space import OPTION
+from .store.pieces import BATCH_S
 from .sweep_values import MOST_SHOWN
-from .trial import Trial, process_bytes, tried
+from .trial import Trial, tried
 
 LONGEST_S: Final = 12 * 3600.0
 """Longest time of a sweep unless more is allowed."""
@@ -32,7 +33,10 @@ _SELECTED_S, _SORTED_S = 1.0, 3e-7
 """Processor time of the selection of designs for a report, and of each of very many designs."""
 _LABELLED_S: Final = 5e-8
 """Processor time of the value of a variable in a sample."""
-_REPORT_BYTES: Final = 230_000
+_REPORT_BYTES: Final = 150_000
+"""Files of a sweep without designs: the study in the dataset, the report, its pictures."""
+_PIECES_BYTES: Final = 12_000
+"""A file of pieces without designs."""
 _REPORT_ROW: Final = 1.1
 """Row of the report's table of designs over that of the sweep's table."""
 _REPORT_MEMORY_BYTES: Final = 60e6
@@ -153,6 +157,7 @@ def planned(
     seconds += count * written.seconds + _report_s(problem, count)
     rows = count + _REPORT_ROW * min(count, MOST_SHOWN)
     disk = rows * written.row_bytes + count * written.value_bytes + _REPORT_BYTES
+    disk += _PIECES_BYTES * np.ceil(of_all / BATCH_S)
     growth = min(trial.kept_bytes, MOST_KEPT_BYTES)
     here = memory_bytes(problem, count) + (0.0 if workers else growth)
     plan = Plan(
@@ -216,6 +221,11 @@ def _further_share(problem: Problem, count: int) -> float:
         spread = SPREAD_DESIGNS * (1.0 + len(problem.total_changes()))
         return (fresh / samples + spread) / count
     return search.best * (search.fresh_samples if runs & scattered else 1.0) / count
+
+
+def process_bytes() -> int:
+    """Return the memory of this process."""
+    return int(psutil.Process().memory_info().rss)
 
 
 def duration(seconds: float) -> str:

@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
-import psutil
 from scipy.optimize import nnls
 
 from ..base.arrays import Array, IndexArray
@@ -49,21 +48,21 @@ class _Work:
     def __init__(self, problem: Problem) -> None:
         paths, loads = problem.splitting.paths, problem.splitting.loads
         self._columns = (list(loads), list(paths), [*paths, *loads])
-        self._known: tuple[set[bytes], ...] = (set(), set(), set())
+        self._present: tuple[set[bytes], ...] = (set(), set(), set())
 
     def new(self, designs: Array) -> list[int]:
         """Return the numbers of new loads, new paths and new pairs of both, and of designs."""
         counts = []
-        for columns, known in zip(self._columns, self._known, strict=True):
+        for columns, present in zip(self._columns, self._present, strict=True):
             rows = set(_rows(designs[:, columns])) if columns else set()
-            counts.append(len(rows - known))
-            known.update(rows)
+            counts.append(len(rows - present))
+            present.update(rows)
         return [*counts, len(designs)]
 
     def few(self, designs: Array) -> Array:
         """Return the designs of a piece with known loads, and the first one with a new load."""
-        known = [row in self._known[0] for row in _rows(designs[:, self._columns[0]])]
-        chosen = np.array(known)
+        present = [row in self._present[0] for row in _rows(designs[:, self._columns[0]])]
+        chosen = np.array(present)
         chosen[chosen.argmin()] = True
         return np.asarray(designs[chosen])
 
@@ -86,9 +85,10 @@ def tried(problem: Problem, listing: Listing) -> Trial:
         designs, evaluation = _joined(timed)
         seconds = sum(spent for _, _, spent in timed) * listing.count / len(designs)
         return Trial(designs, evaluation, seconds, 0.0, 0.0)
-    here, work, memory_bytes = _Work(problem), _work(problem, listing), process_bytes()
+    here, work, budget = _Work(problem), _work(problem, listing), problem.engine.sound_paths.budget
     here.new(pieces[0][:1])
     new: list[list[int]] = []
+    kept_before = budget.kept_bytes
 
     def counted(piece: Array) -> Array:
         designs = here.few(piece)
@@ -100,7 +100,7 @@ def tried(problem: Problem, listing: Listing) -> Trial:
     counts = np.array(new)
     by_kind, _ = nnls(counts / seconds_of[:, None], np.ones(len(timed)))  # relative errors
     made, all_made = counts[:, :2].sum(), work[:2].sum()
-    kept = max(process_bytes() - memory_bytes, 0) / max(made, 1)
+    kept = (budget.kept_bytes - kept_before) / max(made, 1)
     return Trial(
         *_joined(timed),
         float(by_kind @ work),
@@ -144,8 +144,3 @@ def _timed(
             yield designs, evaluation, time.process_time() - before
             if time.process_time() - begin > _TRIED_S:
                 break
-
-
-def process_bytes() -> int:
-    """Return the memory of this process."""
-    return int(psutil.Process().memory_info().rss)

@@ -86,7 +86,7 @@ class Variable:
         in_unit = np.asarray(values, dtype=float) / self.factor
         size = np.abs(np.where(in_unit == 0.0, 1.0, in_unit))
         power = _DIGITS - 1 - np.floor(np.log10(size))
-        up, down = 10.0 ** np.clip(power, 0.0, 22.0), 10.0 ** np.clip(-power, 0.0, 22.0)
+        up, down = (np.power(10.0, np.clip(n, 0.0, 22.0)) for n in (power, -power))
         rounded = np.rint(in_unit * up / down) / up * down
         inexact = np.abs(power) > 22.0  # powers of ten up to here are exact
         rounded[inexact] = [float(f"{value:.{_DIGITS}g}") for value in in_unit[inexact]]

@@ -94,8 +94,8 @@ def room_sound(received: ReceivedSound, paths: RoomPaths) -> RoomSound:
 
     Parameters
     ----------
-    received : at the listeners by waves, then at the positions
-    paths : to the listeners
+    received : sound of the case at the listeners by waves, then at the positions
+    paths : paths to the listeners
     """
     hertz = received.lines.frequency_hz
     audible = hertz > 0.0
@@ -156,7 +156,7 @@ def wave_gains(
     ----------
     pressure_per_velocity : function of frequencies to the response at listeners and positions,
         (place, motion, frequency)
-    paths : to the listeners
+    paths : paths to the listeners
     highest_hz : highest frequency of the waves
     """
     gains = np.zeros((paths.listeners, len(BASELINE_BANDS)))
@@ -185,11 +185,11 @@ def blended_gains(waves: Array, paths: RoomPaths) -> tuple[Array, Array]:
     Parameters
     ----------
     waves : result of `wave_gains`, shape (listener, band)
-    paths : to the listeners
+    paths : paths to the listeners
 
     Returns
     -------
-    each of shape (listener, band)
+    gains by both methods, and by the power alone, each of shape (listener, band)
     """
     hertz = np.array([frequencies_of(band) for band in BASELINE_BANDS])
     share = paths.wave_share(hertz.ravel()).reshape(hertz.shape).mean(axis=1)

@@ -20,8 +20,8 @@ from ..base.weighting import WEIGHTING
 from .time_weighting import FAST_TIME_CONSTANT_S, SLOW_TIME_CONSTANT_S
 
 RUN_IN_S: Final = 0.1
-"""Left out at either end of A- and C-weighted signals: the slowest part of the weightings,
-exp(-2π 20.6 Hz t), has then fallen to 2e-6."""
+"""Time that is omitted at either end of A- and C-weighted signals, s: the slowest part of the
+weightings, exp(-2π 20.6 Hz t), has then fallen to 2e-6."""
 _BLOCK_S: Final = 2.5
 """Length of a transform: its lines lie 0.4 Hz apart, a fifteenth of the third octave at 25 Hz."""
 _FILTERED: Final = ("A", "C")

@@ -26,12 +26,12 @@ def crossover_variables(
 
     Parameters
     ----------
-    listeners : their names
+    listeners : names of the listeners
     shown : numbers of the bands, shape (shown band,)
     waves : mean square per power, shape (listener, shown band), Pa²/W
     diffuse : gain by direct sound, same shape, and diffuse field, relative to the power in the open
-    gains_db : gain of the diffuse field, shape (shown band + 1,), of the bands and of all above; no
-        part of the curves, whose mean difference over the listeners they are
+    gains_db : mean difference of both methods over the listeners, dB, shape (shown band + 1,): of
+        the bands, and of all bands above; not part of the curves
     """
     bands = [BASELINE_BANDS[number].nominal_hz for number in shown]
     by_waves, by_power = (

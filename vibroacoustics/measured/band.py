@@ -23,7 +23,7 @@ def amplitude_band(estimate: ComplexArray, sampled: ComplexArray) -> tuple[Array
     The error of a response is, to first order in errors of measured complex values, complex
     normal and circular, so that the squared amplitude over half the variance is noncentral χ² of
     two degrees of freedom: its limits are those noncentralities that put the estimate at 95 % and
-    at 5 % of the distribution. Quantiles of the drawn amplitudes themselves lie too high where
+    at 5 % of the distribution. Quantiles of the sampled amplitudes themselves are too high where
     noise exceeds the response. The variance is that of the samples' median, |e|² / ln 2, which a
     few near-singular samples do not move. The estimate itself is always within.
 
@@ -76,8 +76,8 @@ def truncation_errors(
 
     Parameters
     ----------
-    of_measured : predicted without truncation, shape (...)
-    of_samples : each predicts from measurements drawn again, with a truncation
+    of_measured : pressures predicted without truncation, Pa, shape (...)
+    of_samples : functions that predict from sampled measurements, with a truncation
     """
     level = sound_pressure_level(of_measured)
     return np.array(

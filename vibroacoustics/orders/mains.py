@@ -8,9 +8,9 @@ from scipy import fft
 from ..base.arrays import Array
 
 _DEVIATION: Final = 0.004
-"""Largest of the mains frequency from its nominal value, relative: 0.2 Hz in 50 Hz."""
+"""Largest relative deviation of the mains frequency from its nominal value: 0.2 Hz in 50 Hz."""
 _NOMINAL_HZ: Final = (50.0, 60.0, 100.0, 120.0)
-"""Lowest lines of hum: of the mains themselves, and of what hums twice in a period."""
+"""Lowest frequencies of hum: those of the mains, and twice these (magnetic forces)."""
 _AS_EVEN: Final = 0.002
 """Deviation of the mains from their nominal frequency, relative."""
 _TRIALS: Final = 401

@@ -43,8 +43,8 @@ class Unrolled:
 
     Parameters
     ----------
-    search : with the signal
-    profile : whose speed is above zero
+    search : search with the signal
+    profile : speed profile, above zero everywhere
     """
 
     def __init__(self, search: Search, profile: SpeedProfile) -> None:
@@ -95,7 +95,9 @@ class Unrolled:
         return levels, when, 2 * revolutions
 
     def followed(self, scale: float = 1.0) -> float:
-        """Share of the frames in which the orders stand out as they mostly do.
+        """Return the share of the frames in which the orders stand out.
+
+        They do where the score of a frame exceeds a share of the median score.
 
         Parameters
         ----------
@@ -108,9 +110,9 @@ class Unrolled:
         return float(np.mean(score > _STANDS_OUT * np.median(score)))
 
     def low_lines(self, scale: float = 1.0) -> NDArray[np.bool_]:
-        """Whether the lowest orders that have a clear line stand out, shape (order, frame).
+        """Return whether low orders with a clear line stand out, shape (order, frame).
 
-        Two of the three lowest that stand out most often: a weak one may be lost in noise.
+        The orders are the two that stand out most often among the three lowest: noise may hide one.
 
         Parameters
         ----------

@@ -40,16 +40,16 @@ def rows_of(part: Part) -> slice:
 
 @dataclass(frozen=True)
 class BendingShell:
-    """The elastic shell with one set of values; responses are kept.
+    """Elastic shell with one set of values; its responses are kept.
 
     Attributes
     ----------
     path : modes and joints
     loss_factor_ratio : loss factor of the shell
-    variation : how the real shell differs
-    frame : forces of the parts on the shell; none where they hand their loads on unchanged
-    gas : spaces of gas in the shell, by the name of their table
-    yoke : the stator's, as a ring in the shell; none where the machine has none
+    variation : difference of the real shell from the model
+    frame : forces of the parts on the shell; none where the loads act on it unchanged
+    gas : gas spaces in the shell, by the name of their table
+    yoke : yoke of the stator as a ring in the shell; none where the machine has none
     """
 
     path: ShellPath

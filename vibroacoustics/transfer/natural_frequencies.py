@@ -91,13 +91,13 @@ def framed_hz(frame: FrameOnShell) -> Array:
 
 
 def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str, float]) -> Named:
-    """Frequencies of the gas in rigid walls that a source feeds, by name, Hz, rising.
+    """Compute natural frequencies of the gas that sources feed, in rigid walls, Hz, rising.
 
     Parameters
     ----------
-    machine : its tables of spaces
-    path : modes of the nominal wall
-    sound_speed : by the name of a space's table, m/s
+    machine : machine with tables of gas spaces
+    path : path with the modes of the nominal wall
+    sound_speed : speed of sound by the name of a space's table, m/s
     """
     named = {}
     for name, space in spaces_of(machine, path).items():

@@ -115,7 +115,7 @@ def test_folder_of_another_plan_is_refused(tmp_path: Path) -> None:
 def test_damaged_file_is_evaluated_again(
     tmp_path: Path, damage: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(pieces, "_BATCH_S", 0.0)  # a file a generation
+    monkeypatch.setattr(pieces, "BATCH_S", 0.0)  # a file a generation
     whole = searched_in(tmp_path)
     path = sorted(tmp_path.glob("pieces_*.nc"))[7]
     content = bytearray(path.read_bytes())
@@ -152,7 +152,7 @@ def killed_and_gone_on(folder: Path, seed: int) -> None:
         f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
         "from pathlib import Path\n"
         "from test_store import pieces, searched_in\n"
-        "pieces._BATCH_S = 0.1\n"
+        "pieces.BATCH_S = 0.1\n"
         f"print('begun', flush=True); searched_in(Path({str(folder / 'killed')!r}), 0.02)"
     )
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)

@@ -34,22 +34,23 @@ class Budget:
 
     Attributes
     ----------
-    most_bytes : memory of all results together, bytes
+    most_bytes : largest memory of all results together, bytes
+    kept_bytes : memory of the results that are kept now, bytes
     """
 
     most_bytes: int = MOST_BYTES
-    _bytes: int = 0
+    kept_bytes: int = 0
     _entries: deque[tuple[dict[bytes, Any], bytes, int]] = field(default_factory=deque, repr=False)
 
     def keep(self, results: dict[bytes, Any], key: bytes, result: Any) -> None:
         """Keep a result by its key among others."""
         results[key], size = result, getattr(result, "nbytes", 0)
         self._entries.append((results, key, size))
-        self._bytes += size
-        while self._bytes > self.most_bytes and len(self._entries) > 1:
+        self.kept_bytes += size
+        while self.kept_bytes > self.most_bytes and len(self._entries) > 1:
             others, oldest, freed = self._entries.popleft()
             others.pop(oldest, None)
-            self._bytes -= freed
+            self.kept_bytes -= freed
 
 
 @dataclass

@@ -28,7 +28,7 @@ from ..evaluation import Evaluation, Stream, joined
 
 PLAN_NAME: Final = "plan.json"
 _MAXIMUM_PLAN_BYTES: Final = 10_000_000
-_BATCH_S: Final = 10.0
+BATCH_S: Final = 10.0
 """Longest time between two files, but for the piece that is in work."""
 _BATCH_BYTES: Final = 32_000_000
 """Most values of a file."""
@@ -83,7 +83,7 @@ class PieceStore:
         """
         self._batch[_key(designs)] = evaluation
         self._batch_bytes += evaluation.objectives.nbytes + evaluation.constraints.nbytes
-        due_s = self._written_s + _BATCH_S
+        due_s = self._written_s + BATCH_S
         if self._clock() >= due_s or self._batch_bytes >= _BATCH_BYTES:
             self.write()
 

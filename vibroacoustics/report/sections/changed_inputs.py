@@ -38,6 +38,7 @@ SOURCE: Final = "dominant source"
 LEVEL: Final = "level"
 OPTIONS: Final = "options"
 VIBRATION: Final = "vibration"
+HOLDS: Final = "No input or law below flips it."
 _NONE: Final = "none"
 _EMPTY: Final = {_NONE, rounding.NOTHING}
 """Cells of columns that are not shown where all are such."""
@@ -98,7 +99,9 @@ def _row(results: xr.Dataset, name: str, sizes: tuple[float, float]) -> Row:
         share = estimate(results, "source_share", **point, sound_source=source)
         words = source_name(results, source)
         claims[SOURCE] = (
-            f"{words} make most of it" if makes_most else f"not settled, {words} largest"
+            f"the dominant source is {words}"
+            if makes_most
+            else f"the dominant source is not settled, the largest is {words}"
         )
     if of_changes and balancers(results):
         changes = _extremes(results)
@@ -158,9 +161,9 @@ def alternative_words(results: xr.Dataset, name: str) -> str:
     priors = prior_words(results)
     other = f"unmodelled noise {priors[1]}" if len(priors) > 1 else name
     return {
-        "level alone": "published level alone" if measured else "published spectral share left out",
-        "without the level": "published level left out",
-        "without the spectrum": "measured spectrum left out",
+        "level alone": "published level alone" if measured else "without published spectral share",
+        "without the level": "without published level",
+        "without the spectrum": "without measured spectrum",
         "no discrepancy": "model discrepancy of zero",
         "other prior": other,
     }.get(name, name)
@@ -178,9 +181,9 @@ def flip_list(results: xr.Dataset, rows: Sequence[Row]) -> Definitions:
             if name in flips(reported, row):
                 inputs = changed.setdefault(row.claims[name], [])
                 inputs.append(alternative_words(results, row.name))
-        said = [f"{' or '.join(inputs)}: {claim}" for claim, inputs in changed.items()]
-        words = f"With {'; with '.join(said)}." if said else "No input or law below flips it."
-        entries.append(Definition(term, "flips" if said else "holds", words))
+        said = [f"{' or '.join(inputs)}: {claim}." for claim, inputs in changed.items()]
+        words = " ".join(each[0].upper() + each[1:] for each in said)
+        entries.append(Definition(term, "flips" if said else "holds", words or HOLDS))
     return Definitions(tuple(entries))
 
 

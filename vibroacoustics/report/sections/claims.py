@@ -1,4 +1,4 @@
-"""Claims of the software that a study leans on: computed values beside references."""
+"""Verified claims of the software on which a study depends: computed values beside references."""
 
 from typing import Final
 

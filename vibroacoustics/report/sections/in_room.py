@@ -90,11 +90,11 @@ def room_sentence(results: xr.Dataset) -> str:
         f"{_TIMES.get(time, time)}"
         for time, limit in _limits(results).items()
     ]
-    beside = f", {' and '.join(limits)}" if limits else ""
+    beside = f" This is {' and '.join(limits)}." if limits else ""
     return (
-        f"In the room the machine without a balancer is {rounding.level(level)} dB(A) at "
-        f"{name}, the loudest place of those asked for, at {nearest_speed(results):g} rpm"
-        f"{beside}: {_carrier_words(results, name)}{_best(results, name)}"
+        f"In the room the machine without a balancer has {rounding.level(level)} dB(A) at "
+        f"{nearest_speed(results):g} rpm at {name}, the loudest listener.{beside} "
+        f"{_carrier_words(results, name)} {_best(results, name)}"
     )
 
 
@@ -145,14 +145,15 @@ def crossover_sentence(results: xr.Dataset) -> str:
         for third_octave in _large_differences(values)
     ]
     above = rounding.signed(float(results["room_place_gain_above"]))
-    none = "no third octave"
+    none = "none"
     return (
-        "Waves and the diffuse field of the power in the open differ by more than "
-        f"{CROSSOVER_DB:g} dB, in the mean over {len(listeners(results))} listeners, at "
-        f"{', '.join(_large_differences(gain)) or none}. The mean is taken for what the place does "
-        f"to the machine's power and given to the diffuse field; above the waves {above} dB, "
-        "where single third octaves may be 5 dB off (assumed). "
-        f"From that mean single listeners differ by more at {', '.join(at_one) or none}."
+        f"Third octaves with a level by waves more than {CROSSOVER_DB:g} dB off that of the "
+        f"diffuse field of the power in the open (mean over {len(listeners(results))} listeners): "
+        f"{', '.join(_large_differences(gain)) or none}. This mean is the gain of the power by the "
+        "machine's position, and is added to the diffuse field. Above the crossover frequency the "
+        f"gain is {above} dB; single third octaves may be 5 dB off (assumed). "
+        f"Single listeners more than {CROSSOVER_DB:g} dB off the mean: "
+        f"{', '.join(at_one) or none}."
     )
 
 
@@ -190,15 +191,15 @@ def power_sentence(results: xr.Dataset) -> str:
     name = loudest_listener(results)
     published = overall_noise(results)
     noise = (
-        "no level is published"
+        "No level is published"
         if published is None
-        else f"its noise is published as {published['level_dba']:g} dB(A) at "
+        else f"The published level is {published['level_dba']:g} dB(A) at "
         f"{published['distance_m']:g} m and {published['speed_rpm']:g} rpm"
     )
     return (
-        f"On a hard floor in the open the machine has a sound power level of "
-        f"{_level(results, 'room_sound_power_level', name)} dB(A) re 1 pW, nominal; {noise}. "
-        f"Airborne it is {_level(results, 'room_level', name)} dB(A) at {name}."
+        f"On a hard floor in the open the nominal sound power level is "
+        f"{_level(results, 'room_sound_power_level', name)} dB(A) re 1 pW. {noise}. "
+        f"The airborne level in the room is {_level(results, 'room_level', name)} dB(A) at {name}."
     )
 
 
@@ -224,22 +225,22 @@ def _carrier(results: xr.Dataset, listener: str, option: str = REFERENCE_OPTION)
 def _carrier_words(results: xr.Dataset, listener: str) -> str:
     level = _level(results, "room_level", listener)
     if "room_plate_level" not in results:
-        return f"all of it is airborne, {level} dB(A)"
+        return f"All of it is airborne, {level} dB(A)."
     which = _carrier(results, listener)
     verdict = "it is uncertain which dominates" if which == UNCERTAIN else f"{which} dominates"
     plate = _plate(results, listener)
-    return f"airborne {level} dB(A), structure-borne {plate} dB(A); {verdict}"
+    return f"Airborne {level} dB(A), structure-borne {plate} dB(A): {verdict}."
 
 
 def _best(results: xr.Dataset, listener: str) -> str:
     each = {option: _both(results, listener, option) for option in balancers(results)}
     if not each:
-        return "."
+        return ""
     least = min(each, key=lambda option: each[option])
     change = each[least] - _both(results, listener)
     if change > -_LEAST_DB:
-        return "; no option changes that."
-    return f"; {least} lowers it most, {rounding.signed(change)} dB."
+        return "No option changes that."
+    return f"Option {least} lowers it most, {rounding.signed(change)} dB."
 
 
 def _limits(results: xr.Dataset) -> dict[str, float]:

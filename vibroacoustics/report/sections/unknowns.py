@@ -130,9 +130,9 @@ def resolved_sentence(results: xr.Dataset) -> str:
         for name, count in zip(shares["knowledge"].values, counts, strict=True)
     ]
     return (
-        "Resolved shares in the variance are of the modelled level at "
-        f"{catalogue_receiver(results)}. Their numbers, of {shares.sizes['uncertain_parameter']} "
-        f"parameters: {', '.join(words)}."
+        "Resolved shares of the variance of the modelled level at "
+        f"{catalogue_receiver(results)}, of {shares.sizes['uncertain_parameter']} parameters: "
+        f"{', '.join(words)}."
     )
 
 

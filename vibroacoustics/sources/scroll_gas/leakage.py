@@ -93,11 +93,11 @@ class LeakingPockets:
 
     @property
     def _until_open(self) -> Array:
-        """Crank angles since a closing at half steps, of pockets; those of contacts go further."""
+        """Crank angles of a pocket since it closed, at half steps, up to its opening."""
         return self._angle[: -2 * STEPS]
 
     def _mass(self, opens_with: float) -> float:
-        """Mass of a pair without leakage, kg: that the gas of one that opens is the opening's."""
+        """Return the mass of a pair of pockets without leakage, kg, from the gas at the opening."""
         c = self._opening
         pressure = self._built_in * opens_with**self._index
         density = c.density * (pressure / c.pressure) ** (1.0 / c.stiffness_exponent)

@@ -64,16 +64,16 @@ class FrameOnShell:
     def sound(
         self, modes: ComplexArray, rigid: ComplexArray, frequency_hz: Array, gain: float = 1.0
     ) -> SoundPerForce:
-        """Pressure per load on the parts and per force on the shell's modes.
+        """Compute pressure per load on the parts and per force on the shell's modes.
 
-        None at frequency zero; without that of the machine as one rigid body.
+        It is zero at frequency zero, and lacks that of the machine as one rigid body.
 
         Parameters
         ----------
         modes : pressure per velocity of the shell's modes, shape (receiver, mode, frequency),
             Pa s/m
-        rigid : pressure of its six rigid motions about the centre of mass, shape (receiver, 6,
-        frequency), Pa s/m and Pa s/rad
+        rigid : pressure per velocity of the six rigid motions about the centre of mass, shape
+            (receiver, 6, frequency), Pa s/m and Pa s/rad
         frequency_hz : shape (frequency,)
         gain : gain of the modes' pressure
         """
