@@ -7,11 +7,16 @@ from typing import Final
 
 import numpy as np
 
+from .arrays import Array
+
 LEVEL_FLOOR_DB: Final = -40.0
 """Levels below are far under any hearing and next to rounding errors: shown as `< −40`."""
 
 FORCE_FLOOR: Final = 1e-6
 """Forces (N) and moments (N m) below are rounding errors: shown as 0."""
+
+_EXACT: Final = 22.0
+"""Powers of ten up to this one are exact."""
 
 NOTHING: Final = "–"
 _SMALL: Final = 1e-3
@@ -28,6 +33,23 @@ def significant(value: float, digits: int = 3) -> str:
         return "0"
     decimals = digits - 1 - int(np.floor(np.log10(abs(value))))
     return _minus(f"{value:.{max(decimals, 0)}f}")
+
+
+def to_digits(values: Array, digits: int) -> Array:
+    """Round values to significant digits, as their text would be read.
+
+    Parameters
+    ----------
+    values : any values, shape (...)
+    digits : number of digits
+    """
+    size = np.abs(np.where(values == 0.0, 1.0, values))
+    power = digits - 1 - np.floor(np.log10(size))
+    up, down = (10.0 ** np.clip(exponent, 0.0, _EXACT) for exponent in (power, -power))
+    rounded = np.rint(values * up / down) / up * down
+    inexact = np.abs(power) > _EXACT
+    rounded[inexact] = [float(f"{value:.{digits}g}") for value in values[inexact]]
+    return np.asarray(rounded)
 
 
 def three_digits(value: float) -> str:

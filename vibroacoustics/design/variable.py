@@ -7,6 +7,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..base.rounding import to_digits
 from ..base.units import split_key
 from ..study.design import DesignVariable
 
@@ -83,13 +84,7 @@ class Variable:
         """
         if self.choices is not None and self.takes_words:
             return np.asarray(np.array(self.choices)[np.rint(values).astype(int)])
-        in_unit = np.asarray(values, dtype=float) / self.factor
-        size = np.abs(np.where(in_unit == 0.0, 1.0, in_unit))
-        power = _DIGITS - 1 - np.floor(np.log10(size))
-        up, down = (np.power(10.0, np.clip(n, 0.0, 22.0)) for n in (power, -power))
-        rounded = np.rint(in_unit * up / down) / up * down
-        inexact = np.abs(power) > 22.0  # powers of ten up to here are exact
-        rounded[inexact] = [float(f"{value:.{_DIGITS}g}") for value in in_unit[inexact]]
+        rounded = to_digits(np.asarray(values, dtype=float) / self.factor, _DIGITS)
         is_whole = self.integer and bool(np.all(rounded == np.rint(rounded)))
         return np.asarray(rounded, dtype=int if is_whole else float)
 
