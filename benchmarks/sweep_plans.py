@@ -12,6 +12,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -89,8 +90,8 @@ machine.keys.clearance_um = {{ range = [8.0, 40.0], points = 40 }}
 [design]
 option = "damping"
 [design.variables]
-machine.keys.clearance_um = {{ range = [8.0, 40.0], points = 8 }}
-machine.opening.port_diameter_mm = {{ range = [8.0, 16.0], points = 5 }}
+machine.keys.clearance_um = {{ range = [8.0, 40.0], points = 6 }}
+machine.opening.port_diameter_mm = {{ range = [8.0, 16.0], points = 4 }}
 [design.objectives.moment]
 figure = "residual_moment_nm"
 {LEVEL_AND_FOOT}"""),
@@ -98,8 +99,8 @@ figure = "residual_moment_nm"
 [design]
 option = "damping"
 [design.variables]
-machine.keys.clearance_um = {{ range = [8.0, 40.0], points = 10 }}
-machine.opening.port_diameter_mm = {{ range = [8.0, 16.0], points = 8 }}
+machine.keys.clearance_um = {{ range = [8.0, 40.0], points = 16 }}
+machine.opening.port_diameter_mm = {{ range = [8.0, 16.0], points = 6 }}
 [design.objectives.moment]
 figure = "residual_moment_nm"
 {LEVEL_AND_FOOT}""", 2),
@@ -129,6 +130,7 @@ def taken(words: list[str], folder: Path) -> tuple[Taken, Taken]:
     for line in lines:
         if plan := PLAN.search(line):
             before_s = sum(psutil.Process(process.pid).cpu_times()[:4])
+            begin = time.perf_counter()
             print(line.strip())
             break
     others = list(lines)
@@ -138,6 +140,7 @@ def taken(words: list[str], folder: Path) -> tuple[Taken, Taken]:
     planned = Taken(
         float(plan["time"]) * SECONDS[plan["unit"]], float(plan["memory"]), float(plan["disk"])
     )
+    print(f"  by the clock {time.perf_counter() - begin:.1f} s, load {os.getloadavg()[0]:.1f}")
     disk = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
     seconds = usage.ru_utime + usage.ru_stime - before_s
     return planned, Taken(seconds, usage.ru_maxrss * MEMORY_UNIT_BYTES / 1e6, disk / 1e6)

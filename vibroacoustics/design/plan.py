@@ -27,15 +27,15 @@ _WRITTEN: Final = 2_000
 """Designs that are written to see how large they are."""
 _FURTHER_BYTES: Final = 5.0
 """Bytes of a row of the table: whether a design is allowed, and ends of cells."""
-_REPORT_S, _SHOWN_S = 0.3, 5e-6
+_REPORT_S, _SHOWN_S = 0.5, 1.1e-5
 """Processor time of a report, and of each design that it shows."""
-_SELECTED_S, _SORTED_S = 1.0, 3e-7
+_SELECTED_S, _SORTED_S = 1.0, 1.6e-6
 """Processor time of the selection of designs for a report, and of each of very many designs."""
 _LABELLED_S: Final = 5e-8
 """Processor time of the value of a variable in a sample."""
 _REPORT_BYTES: Final = 150_000
 """Files of a sweep without designs: the study in the dataset, the report, its pictures."""
-_PIECES_BYTES: Final = 12_000
+_PIECES_BYTES: Final = 6_000
 """A file of pieces without designs."""
 _REPORT_ROW: Final = 1.1
 """Row of the report's table of designs over that of the sweep's table."""

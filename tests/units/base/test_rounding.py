@@ -6,7 +6,7 @@ from vibroacoustics.base import rounding
 
 
 def test_digits_of_many_values_are_those_of_their_text():
-    """At halves of the last digit rounding of the product may decide: by one unit there, no more."""
+    """At a half of the last digit rounding of the product may decide, by one unit."""
     generator = np.random.default_rng(1)
     values = generator.uniform(-1.0, 1.0, 20_000) * 10.0 ** generator.uniform(-40.0, 30.0, 20_000)
     values[:2] = 0.0, 1e-30
