@@ -31,6 +31,18 @@ def rosenbrock(designs: Array) -> Evaluation:
     return evaluating(((1.0 - x) ** 2 + 100.0 * (y - x**2) ** 2)[:, None])
 
 
+def test_integers_have_equal_parts_of_the_shares() -> None:
+    """Words and whole numbers at the ends are found as often as others."""
+    none = Evaluation(np.empty((0, 1)), np.empty((0, 0)), ())
+    lower, upper, integer = np.array([2.0, -1.0]), np.array([5.0, 1.0]), np.array([True, False])
+    problem = SearchProblem(lower, upper, integer, lambda _: none)
+    shares = np.column_stack([(np.arange(4000) + 0.5) / 4000.0] * 2)
+    designs = problem.at_shares(shares)
+    assert [np.sum(designs[:, 0] == whole) for whole in (2.0, 3.0, 4.0, 5.0)] == [1000] * 4
+    np.testing.assert_array_equal(problem.at_shares(problem.shares(designs)), designs)
+    assert problem.at_shares(np.ones((1, 2))).tolist() == [[5.0, 1.0]]
+
+
 def test_best_of_rosenbrock_and_its_seed() -> None:
     """The polish ends within 1e-4 of (1, 1); the same seed asks for the same designs."""
     first = search_best(

@@ -27,14 +27,22 @@ class SearchProblem:
     evaluate: Evaluate
 
     def at_shares(self, shares: Array) -> Array:
-        """Return designs at shares of the ranges, integers rounded, shape (..., variable)."""
-        designs = self.lower + shares * (self.upper - self.lower)
-        return np.where(self.integer, np.round(designs), designs)
+        """Return designs at shares of the ranges, shape (..., variable).
+
+        Each integer has an equal part of its range.
+        """
+        span = self.upper - self.lower
+        whole = self.lower + np.minimum(np.floor(shares * (span + 1.0)), span)
+        return np.where(self.integer, whole, self.lower + shares * span)
 
     def shares(self, designs: Array) -> Array:
-        """Return designs as shares of the ranges, shape (..., variable)."""
+        """Return designs as shares of the ranges, shape (..., variable).
+
+        An integer is in the middle of its part.
+        """
         span = np.maximum(self.upper - self.lower, np.finfo(float).tiny)
-        return np.asarray((designs - self.lower) / span)
+        away = designs - self.lower
+        return np.where(self.integer, (away + 0.5) / (span + 1.0), away / span)
 
 
 @dataclass(frozen=True)
