@@ -7,7 +7,7 @@ from pydantic import Field
 
 from ..base.parameters import Contradictions, Held, Parameters
 
-AS_GIVEN: Final = Held("act on stops, which are computed with nominal values")
+AS_GIVEN: Final = Held("act on stops only, which are computed for one sample")
 
 
 class TurningBack(Parameters):

@@ -25,8 +25,8 @@ MOST_ROWS: Final = 20
 MOST_NAMED: Final = 5
 RECORDED_RULE: Final = (
     "Speeds to avoid are maxima of the A-weighted level over the speed, in energy means over "
-    f"{BINS} equal steps of it, that stand at least {STANDS_OUT_DB:g} dB above the higher of the "
-    f"two valleys beside them, with all speeds around them within {WITHIN_DB:g} dB of the maximum."
+    f"{BINS} equal steps of speed. A maximum is at least {STANDS_OUT_DB:g} dB above the higher of "
+    f"its two valleys. Its range has all speeds around it within {WITHIN_DB:g} dB of the maximum."
 )
 _HEAD: Final = ("option", "quantity", "from_rpm", "to_rpm", "peak_rpm", "above_db", "line",
                 "line_hz", "mode", "mode_hz")  # fmt: skip
@@ -97,13 +97,13 @@ def rule_words(results: xr.Dataset) -> str:
     speed = np.sort(results["speed"].values)
     step = float(np.diff(speed).max())
     return (
-        "Speeds to avoid are maxima over the speed, of the modelled A-weighted level or of the "
-        "force into a foot (root of the sum of squares of the orders), that stand at least "
-        f"{STANDS_OUT_DB:g} dB above the higher of the two valleys beside them, with all speeds "
-        f"around them within {WITHIN_DB:g} dB of the maximum. Strongest line: the loudest order or "
-        "tone there; natural frequency: the nearest, where it lies within "
-        f"{100.0 * NEAR_RATIO:g} % of that line. Natural frequencies are nominal. Speeds lie up to "
-        f"{step:g} rpm apart: a narrower maximum between them is not seen, nor one at an end."
+        "Speeds to avoid are maxima over the speed of the modelled A-weighted level or of the "
+        "force into a foot. That force is the root of the sum of squares of its orders. "
+        f"A maximum is at least {STANDS_OUT_DB:g} dB above the higher of its two valleys. "
+        f"Its range has all speeds around it within {WITHIN_DB:g} dB of the maximum. "
+        "Strongest line: the loudest order or tone there. Natural frequency: the nearest, if "
+        f"within {100.0 * NEAR_RATIO:g} % of that line. Natural frequencies are nominal. "
+        f"Speeds are up to {step:g} rpm apart: narrower maxima and those at an end are not found."
     )
 
 

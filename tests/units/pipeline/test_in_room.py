@@ -269,7 +269,7 @@ def test_report_says_how_loud_by_which_path_and_what_changes_it(kitchen):
     assert sentence.startswith("In the room the machine without a balancer is ")
     assert "dB over the limit by night" in sentence
     assert "dominates" in sentence
-    assert "option" in sentence or "lowers it most" in sentence
+    assert sentence.endswith(("dB or more.", " dB."))
     table = room_table(kitchen, "table")
     assert [row[0] for row in table.rows] == ["none", "counterweight-half"]
     assert len(table.head) == len(table.rows[0]) == 8
@@ -277,7 +277,7 @@ def test_report_says_how_loud_by_which_path_and_what_changes_it(kitchen):
     assert "differ by more than 2 dB, in the mean over 2 listeners, at 250 Hz (" in (
         crossover_sentence(kitchen)
     )
-    assert "mean, for the gain of the place" in {row[0] for row in crossover_table(kitchen).rows}
+    assert "mean, gain of the position" in {row[0] for row in crossover_table(kitchen).rows}
     section = SECTIONS["in-room"]
     assert section.applies(kitchen)
     page = page_of(Part("s", section.title, tuple(section.blocks(kitchen))))

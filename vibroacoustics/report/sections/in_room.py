@@ -90,11 +90,11 @@ def room_sentence(results: xr.Dataset) -> str:
         f"{_TIMES.get(time, time)}"
         for time, limit in _limits(results).items()
     ]
-    beside = f", {' and '.join(limits)}" if limits else ""
+    beside = f" That is {' and '.join(limits)}." if limits else ""
     return (
         f"In the room the machine without a balancer is {rounding.level(level)} dB(A) at "
-        f"{name}, the loudest place of those asked for, at {nearest_speed(results):g} rpm"
-        f"{beside}: {_carrier_words(results, name)}{_best(results, name)}"
+        f"{name}, the loudest listener, at {nearest_speed(results):g} rpm.{beside} "
+        f"{_carrier_words(results, name)}{_best(results, name)}"
     )
 
 
@@ -129,14 +129,14 @@ def crossover_table(results: xr.Dataset) -> Table:
     """Waves less diffuse field of the power in the open at every listener, in third octaves."""
     difference = results["room_gain_difference"].transpose("listener", "seam_band").values
     named = dict(zip(listeners(results), difference, strict=True))
-    named["mean, for the gain of the place"] = results["room_place_gain"].values
+    named["mean, gain of the position"] = results["room_place_gain"].values
     rows = tuple((name, *map(rounding.signed, row.tolist())) for name, row in named.items())
     head = ("Listener", *(f"{band:g} Hz" for band in results["seam_band"].values))
     return Table("Waves less diffuse field of the power in the open, dB", head, rows)
 
 
 def crossover_sentence(results: xr.Dataset) -> str:
-    """Say where the two methods differ by more than is to be passed over, and what follows."""
+    """Say in which third octaves the two methods differ, and how the difference is used."""
     gain = results["room_place_gain"]
     alone = (results["room_gain_difference"] - gain).transpose("listener", "seam_band")
     at_one = [
@@ -149,10 +149,11 @@ def crossover_sentence(results: xr.Dataset) -> str:
     return (
         "Waves and the diffuse field of the power in the open differ by more than "
         f"{CROSSOVER_DB:g} dB, in the mean over {len(listeners(results))} listeners, at "
-        f"{', '.join(_large_differences(gain)) or none}. The mean is taken for what the place does "
-        f"to the machine's power and given to the diffuse field; above the waves {above} dB, "
-        "where single third octaves may be 5 dB off (assumed). "
-        f"From that mean single listeners differ by more at {', '.join(at_one) or none}."
+        f"{', '.join(_large_differences(gain)) or none}. This mean is the gain of the machine's "
+        "position and corrects the diffuse field. "
+        f"Above the waves the gain is {above} dB; single third octaves may be 5 dB off (assumed). "
+        "Single listeners differ from the mean by more than "
+        f"{CROSSOVER_DB:g} dB at {', '.join(at_one) or none}."
     )
 
 
@@ -190,15 +191,15 @@ def power_sentence(results: xr.Dataset) -> str:
     name = loudest_listener(results)
     published = overall_noise(results)
     noise = (
-        "no level is published"
+        "No level is published"
         if published is None
-        else f"its noise is published as {published['level_dba']:g} dB(A) at "
+        else f"The published level is {published['level_dba']:g} dB(A) at "
         f"{published['distance_m']:g} m and {published['speed_rpm']:g} rpm"
     )
     return (
-        f"On a hard floor in the open the machine has a sound power level of "
-        f"{_level(results, 'room_sound_power_level', name)} dB(A) re 1 pW, nominal; {noise}. "
-        f"Airborne it is {_level(results, 'room_level', name)} dB(A) at {name}."
+        "On a hard floor in the open the machine has a sound power level of "
+        f"{_level(results, 'room_sound_power_level', name)} dB(A) re 1 pW, nominal. {noise}. "
+        f"Airborne sound in the room is {_level(results, 'room_level', name)} dB(A) at {name}."
     )
 
 
@@ -224,22 +225,22 @@ def _carrier(results: xr.Dataset, listener: str, option: str = REFERENCE_OPTION)
 def _carrier_words(results: xr.Dataset, listener: str) -> str:
     level = _level(results, "room_level", listener)
     if "room_plate_level" not in results:
-        return f"all of it is airborne, {level} dB(A)"
+        return f"All of it is airborne, {level} dB(A)."
     which = _carrier(results, listener)
     verdict = "it is uncertain which dominates" if which == UNCERTAIN else f"{which} dominates"
     plate = _plate(results, listener)
-    return f"airborne {level} dB(A), structure-borne {plate} dB(A); {verdict}"
+    return f"Airborne {level} dB(A), structure-borne {plate} dB(A): {verdict}."
 
 
 def _best(results: xr.Dataset, listener: str) -> str:
     each = {option: _both(results, listener, option) for option in balancers(results)}
     if not each:
-        return "."
+        return ""
     least = min(each, key=lambda option: each[option])
     change = each[least] - _both(results, listener)
     if change > -_LEAST_DB:
-        return "; no option changes that."
-    return f"; {least} lowers it most, {rounding.signed(change)} dB."
+        return f" No option lowers it by {_LEAST_DB:g} dB or more."
+    return f" Option {least} lowers it most, {rounding.signed(change)} dB."
 
 
 def _limits(results: xr.Dataset) -> dict[str, float]:

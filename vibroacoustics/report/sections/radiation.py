@@ -43,9 +43,9 @@ def line_difference_sentence(results: xr.Dataset) -> str:
     line = results["order_level"].sel(order=1, weighting="Z")
     gap = abs(results["line_difference"]).where(line > rounding.LEVEL_FLOOR_DB)
     return (
-        "The level of the 1× line differs between the two by at most "
-        f"{rounding.fixed(float(gap.max().fillna(0.0)), 3)} dB at all audible options, speeds and "
-        "microphones."
+        "The 1× line differs between the methods by at most "
+        f"{rounding.fixed(float(gap.max().fillna(0.0)), 3)} dB, over all options, speeds and "
+        "microphones at which it has a level."
     )
 
 
