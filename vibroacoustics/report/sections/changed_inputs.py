@@ -98,12 +98,14 @@ def _row(results: xr.Dataset, name: str, sizes: tuple[float, float]) -> Row:
         share = estimate(results, "source_share", **point, sound_source=source)
         words = source_name(results, source)
         claims[SOURCE] = (
-            f"{words} make most of it" if makes_most else f"not settled, {words} largest"
+            f"the dominant source is {words}"
+            if makes_most
+            else f"the dominant source is not settled; {words} is the largest"
         )
     if of_changes and balancers(results):
         changes = _extremes(results)
         lower, higher = by_effect(results)
-        claims[OPTIONS] = f"{_names(lower)} lowers it, {_names(higher)} raises it"
+        claims[OPTIONS] = f"{_names(lower)} lowers the level, {_names(higher)} raises it"
         best, _ = best_for_feet(results)
         claims[VIBRATION] = f"{best or 'no option'} reduces the foot force most"
     return Row(name, sizes, level, source, share, changes, claims)
@@ -158,9 +160,9 @@ def alternative_words(results: xr.Dataset, name: str) -> str:
     priors = prior_words(results)
     other = f"unmodelled noise {priors[1]}" if len(priors) > 1 else name
     return {
-        "level alone": "published level alone" if measured else "published spectral share left out",
-        "without the level": "published level left out",
-        "without the spectrum": "measured spectrum left out",
+        "level alone": "published level alone" if measured else "without published spectral share",
+        "without the level": "without published level",
+        "without the spectrum": "without measured spectrum",
         "no discrepancy": "model discrepancy of zero",
         "other prior": other,
     }.get(name, name)
@@ -179,7 +181,7 @@ def flip_list(results: xr.Dataset, rows: Sequence[Row]) -> Definitions:
                 inputs = changed.setdefault(row.claims[name], [])
                 inputs.append(alternative_words(results, row.name))
         said = [f"{' or '.join(inputs)}: {claim}" for claim, inputs in changed.items()]
-        words = f"With {'; with '.join(said)}." if said else "No input or law below flips it."
+        words = f"{_capital('; '.join(said))}." if said else "No input or law below flips it."
         entries.append(Definition(term, "flips" if said else "holds", words))
     return Definitions(tuple(entries))
 
@@ -230,8 +232,14 @@ def _verdict(reported: Row, row: Row) -> str:
     few = [size for size in row.sizes if size < LEAST_EFFECTIVE]
     if not few:
         return flipped or "no"
-    what = "" if len(few) == len(row.sizes) else f"{flipped or 'no'}; changes: "
-    return f"{what}too few samples ({few[-1]:.0f} effective)"
+    effective = f"too few samples ({few[-1]:.0f} effective)"
+    if len(few) == len(row.sizes):
+        return _capital(effective)
+    return f"{flipped or 'no'}; changes: {effective}"
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
