@@ -76,7 +76,11 @@ def contributions(results: xr.Dataset) -> Intervals:
     where = f"{catalogue_receiver(results)}, {speed:g} rpm"
     of = ", median and 80 % interval" if has_samples(results) else ""
     caption = f"Contributions to the level at {where}"
-    note = "Each source alone; minor ones are omitted, and medians do not add up to a median."
+    medians = ", nor do medians" if has_samples(results) else ""
+    note = (
+        f"Each source alone: the largest, and those within {_QUIETEST_DB:g} dB of the machine. "
+        f"Levels in dB do not add up{medians}."
+    )
     return Intervals(caption, ("", f"dB(A){of}"), tuple(rows), scale, None, note)
 
 
