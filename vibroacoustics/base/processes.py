@@ -255,9 +255,15 @@ def side_by_side(
     items: Iterable[Item],
     otherwise: Callable[[Callable[[Item], Result], Iterable[Item]], Iterable[Result]] = map,
 ) -> Iterator[Result]:
-    """Apply a function in copies of this process, or see `distributed`; results are in order.
+    """Apply a function to items in parallel; the results are in the order of the items.
 
-    What the function changes in a copy is lost; results are what pickle takes.
+    Workers of `distributing` apply it, else copies of this process.
+
+    Parameters
+    ----------
+    function : function of any kind; what it changes in a copy is lost
+    items : arguments; pickle must take the results
+    otherwise : applies the function with one processor, or where processes cannot be copied
     """
 
     def here(function: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[Result]:

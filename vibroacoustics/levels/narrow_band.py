@@ -23,9 +23,10 @@ class TakenApart:
 
     Attributes
     ----------
-    order : shape (order,); not a number where lines are too close to separate it from its
-    neighbours
-    band : without these orders, shape (band,); not a number where the spectrum does not cover one
+    order : mean square of each tone, shape (order,); not a number where lines are too close to
+        separate it from its neighbours
+    band : mean square of each band without the tones, shape (band,); not a number where the
+        spectrum does not cover a band
     """
 
     order: Array

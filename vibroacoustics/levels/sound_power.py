@@ -2,7 +2,7 @@
 
 LW = mean Lp - K1 - K2 + 10 lg(S/S0). The method takes the intensity as p²/(rho c), straight out of
 the surface: near a small source at a low frequency, and where the sound passes a flat side at an
-angle, the result is too high (docs/radiation.md shows by how much).
+angle, the result is too high (docs/sound_power.md shows by how much).
 """
 
 from typing import Final

@@ -43,8 +43,8 @@ class Unrolled:
 
     Parameters
     ----------
-    search : with the signal
-    profile : whose speed is above zero
+    search : signal and limits of the speed
+    profile : speed profile, above zero at all times
     """
 
     def __init__(self, search: Search, profile: SpeedProfile) -> None:
@@ -84,7 +84,11 @@ class Unrolled:
         return self._frames_of(_FRAME_REVOLUTIONS)
 
     def _frames_of(self, wanted: int) -> tuple[Array, Array, int]:
-        """Levels of frames of so many revolutions, their times, and bins to an order."""
+        """Levels of frames, times of their centres, s, and number of bins per order.
+
+        Levels have the shape (frame, bin). Frames have the wanted number of revolutions, at most a
+        third of the signal.
+        """
         revolutions = max(int(min(wanted, self._turned[-1] / 3.0)), 1)
         length = revolutions * self._per_revolution
         starts = np.arange(0, self._signal.size - length + 1, length / 4)
@@ -95,11 +99,11 @@ class Unrolled:
         return levels, when, 2 * revolutions
 
     def followed(self, scale: float = 1.0) -> float:
-        """Share of the frames in which the orders stand out as they mostly do.
+        """Share of the frames in which the score of the orders is above half its median.
 
         Parameters
         ----------
-        scale : scale of the speed, relative to that of the time history
+        scale : factor on the speed of the profile
         """
         levels, _, bins = self._frames
         score = comb_scores(
@@ -110,11 +114,11 @@ class Unrolled:
     def low_lines(self, scale: float = 1.0) -> NDArray[np.bool_]:
         """Whether the lowest orders that have a clear line stand out, shape (order, frame).
 
-        Two of the three lowest that stand out most often: a weak one may be lost in noise.
+        Of the three lowest, the two that stand out in most frames: a weak one may be lost in noise.
 
         Parameters
         ----------
-        scale : scale of the speed, relative to that of the time history
+        scale : factor on the speed of the profile
         """
         levels, _, bins = self._frames
         order = scale * self.search.orders

@@ -219,7 +219,7 @@ def closing_force_n(valve: CheckValve, time_s: Array) -> Array:
     ----------
     valve : disc
     time_s : time from where it starts, uniform, shape (times,); an impact shorter than a step keeps
-    its impulse
+        its impulse
     """
     flight, length = flight_s(valve), impact_s(valve)
     step = float(time_s[1] - time_s[0])

@@ -91,13 +91,13 @@ def framed_hz(frame: FrameOnShell) -> Array:
 
 
 def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str, float]) -> Named:
-    """Frequencies of the gas in rigid walls that a source feeds, by name, Hz, rising.
+    """Natural frequencies of the gas that sources feed, in rigid walls, by name, Hz, rising.
 
     Parameters
     ----------
-    machine : its tables of spaces
+    machine : machine with the tables of its gas spaces
     path : modes of the nominal wall
-    sound_speed : by the name of a space's table, m/s
+    sound_speed : speed of sound by the name of the table of a space that a source feeds, m/s
     """
     named = {}
     for name, space in spaces_of(machine, path).items():

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from vibroacoustics.base.decibel import mean_square_level
 from vibroacoustics.levels.beats import (
     MachineLine,
     beats,
@@ -51,11 +50,9 @@ def test_extremes_are_those_over_all_relative_phases():
     assert envelope_maximum(PA[:2]) == pytest.approx(sums.max(), rel=1e-5)
     assert envelope_minimum(PA[:2]) == pytest.approx(sums.min(), rel=1e-4)
     assert envelope_minimum(np.array([0.2, 0.1, 0.15])) == 0.0
-    mean = 20.0 * np.log10(np.sqrt((sums[:-1] ** 2).mean() / 2.0) / 20e-6)
-    energies = 0.5 * np.sum(np.abs(PA[:2]) ** 2)
-    assert mean_square_level(energies, 20e-6) == pytest.approx(mean, abs=1e-9)
 
 
 def test_axes():
     table = np.array([PA, 2.0 * PA])
-    assert envelope_maximum(table, axis=-1) == pytest.approx(np.abs(table).sum(axis=1))
+    for extreme in (envelope_maximum, envelope_minimum):
+        assert extreme(table, axis=-1) == pytest.approx(np.array([extreme(row) for row in table]))

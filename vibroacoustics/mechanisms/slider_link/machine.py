@@ -49,8 +49,8 @@ class SliderLinkMachine(SliderLinkTables):
     axes: ClassVar[str] = "along the cylinder (x), across (y) and along the shaft (z)"
     orders: ClassVar[str] = (
         "Link and slider move the piston by a pure cosine of the crank angle. Orders above the "
-        "first are due to the variation of the shaft's speed under the gas load. Orders are multiples "
-        "of the mean shaft frequency in time."
+        "first are due to the variation of the shaft's speed under the gas load. Orders are "
+        "multiples of the mean shaft frequency in time."
     )
     limits: ClassVar[tuple[Limit, ...]] = (*Machine.limits, *SIZES)
 

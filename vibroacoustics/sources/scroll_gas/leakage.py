@@ -97,7 +97,14 @@ class LeakingPockets:
         return self._angle[: -2 * STEPS]
 
     def _mass(self, opens_with: float) -> float:
-        """Mass of a pair without leakage, kg: that the gas of one that opens is the opening's."""
+        """Return the mass of a pair without leakage, kg.
+
+        At its opening a pair has the density of the opening's gas at the pair's pressure.
+
+        Parameters
+        ----------
+        opens_with : mass of a pair at its opening, over that without leakage
+        """
         c = self._opening
         pressure = self._built_in * opens_with**self._index
         density = c.density * (pressure / c.pressure) ** (1.0 / c.stiffness_exponent)

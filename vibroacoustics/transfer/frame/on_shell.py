@@ -66,14 +66,14 @@ class FrameOnShell:
     ) -> SoundPerForce:
         """Pressure per load on the parts and per force on the shell's modes.
 
-        None at frequency zero; without that of the machine as one rigid body.
+        Zero at frequency zero; that of the machine as one rigid body is not included.
 
         Parameters
         ----------
         modes : pressure per velocity of the shell's modes, shape (receiver, mode, frequency),
             Pa s/m
         rigid : pressure of its six rigid motions about the centre of mass, shape (receiver, 6,
-        frequency), Pa s/m and Pa s/rad
+            frequency), Pa s/m and Pa s/rad
         frequency_hz : shape (frequency,)
         gain : gain of the modes' pressure
         """
@@ -101,7 +101,7 @@ class FrameOnShell:
     ) -> ComplexArray:
         """Velocities of the shell's modes and then of its six rigid motions, (motion, frequency).
 
-        None at frequency zero; without that of the machine as one rigid body.
+        Zero at frequency zero; that of the machine as one rigid body is not included.
 
         Parameters
         ----------
