@@ -35,6 +35,8 @@ QUOTED: Final = re.compile(r'"[^"]*"|#.*')
 ARRAYS: Final = ("Array", "ComplexArray", "IndexArray", "Samples")
 ENTRY: Final = re.compile(r"^([\w*, ]+?) : (.*?)(?=^\S|\Z)", re.DOTALL | re.MULTILINE)
 """Names and text of an entry of a section of a docstring."""
+SHAPE: Final = re.compile(r"\bshape\b|\bsee `")
+"""A shape in an entry, or where it is."""
 
 
 class Fault(NamedTuple):
@@ -79,7 +81,7 @@ def shapeless(tree: ast.AST) -> Iterator[tuple[int, str]]:
             continue
         arrays = {name for name, kind in annotations(node) if kind in ARRAYS}
         for names, text in ENTRY.findall(body):
-            if not any(word in text for word in ("(", "shape", "see `")):
+            if not SHAPE.search(text):
                 yield from ((node.lineno, name) for name in names.split(", ") if name in arrays)
 
 

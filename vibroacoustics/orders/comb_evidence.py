@@ -49,7 +49,8 @@ class Lines:
     width : at half of the power, in lines of a block, shape (line,)
     resolution : frequency between lines of a block
     highest : frequency up to which there may be lines
-    spectrum : mean over the blocks of ln(1 + power over floor), at frequencies `step` apart
+    spectrum : mean over the blocks of ln(1 + power over floor), at frequencies `step` apart, shape
+        (frequency,)
     step : frequency
     """
 
