@@ -35,7 +35,7 @@ QUOTED: Final = re.compile(r'"[^"]*"|#.*')
 ARRAYS: Final = ("Array", "ComplexArray", "IndexArray", "Samples")
 ENTRY: Final = re.compile(r"^([\w*, ]+?) : (.*?)(?=^\S|\Z)", re.DOTALL | re.MULTILINE)
 """Names and text of an entry of a section of a docstring."""
-SHAPE: Final = re.compile(r"\bshape\b|\bsee `")
+SHAPE: Final = re.compile(r"\bshapes?\b|\bsee `")
 """A shape in an entry, or where it is."""
 
 

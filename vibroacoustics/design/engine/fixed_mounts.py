@@ -10,8 +10,8 @@ from ...base.arrays import Array, ComplexArray, IndexArray
 from .deviating import WeightedLines, varied_bands
 from .expansion import Expansion, summed
 from .hearing import HEARING, Spectrum
+from .needs import PAIRED, Need
 from .on_mounts import Arrays, Lines, heard_spectrum, noise_of, pressure_by_source, seen_of
-from .seen import PAIRED, Need
 
 RANK: Final = 1e-13
 """Part of the largest singular value below which others are rounding."""
