@@ -32,7 +32,7 @@ from .commands.several_machines import open_machines as open_machines
 from .declaration.sheet import data_sheet as data_sheet
 from .design.balance import Balanced as Balanced
 from .design.balance import balance as balance
-from .design.engine.seen import Need as Need
+from .design.engine.needs import Need as Need
 from .design.figure import DesignFigure as DesignFigure
 from .design.optimising import optimise as optimise
 from .design.problem import Problem as Problem

@@ -1,6 +1,6 @@
 """Follows the tutorials `docs/add_a_*.md`: their Python files, their TOML, a run; prints JSON.
 
-In a process of its own, as the strangers' things are registered for good.
+In a process of its own, as the plug-ins are registered for good.
 """
 
 import json

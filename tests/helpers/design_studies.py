@@ -13,8 +13,8 @@ from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.decibel import mean_square_level
 from vibroacoustics.design.engine.engine import Engine
 from vibroacoustics.design.engine.machine_sample import MachineSample, Unmodelled
-from vibroacoustics.design.engine.seen import Need
-from vibroacoustics.design.engine.sound_way import SoundPaths
+from vibroacoustics.design.engine.needs import Need
+from vibroacoustics.design.engine.sound_path import SoundPaths
 from vibroacoustics.design.space import Space
 from vibroacoustics.radiation.given import Radiation
 from vibroacoustics.results.estimates import nominal_values

@@ -35,6 +35,8 @@ QUOTED: Final = re.compile(r'"[^"]*"|#.*')
 ARRAYS: Final = ("Array", "ComplexArray", "IndexArray", "Samples")
 ENTRY: Final = re.compile(r"^([\w*, ]+?) : (.*?)(?=^\S|\Z)", re.DOTALL | re.MULTILINE)
 """Names and text of an entry of a section of a docstring."""
+SHAPE: Final = re.compile(r"\bshapes?\b|\bsee `")
+"""A shape in an entry, or where it is."""
 
 
 class Fault(NamedTuple):
@@ -66,10 +68,6 @@ def openings(tree: ast.AST) -> Iterator[tuple[int, str]]:
                 case ast.Expr(value=ast.Constant(value=str() as text)):
                     word = re.match(r"\s*([A-Za-z]+)", text)
                     yield statement.lineno, word[1] if word else ""
-
-
-SHAPE = re.compile(r"\bshape\b|\((\.\.\.|[\w .]+,[^()]*|\d\))|see `")
-"""A shape, the names of axes in brackets, or another place that has it."""
 
 
 def shapeless(tree: ast.AST) -> Iterator[tuple[int, str]]:

@@ -161,7 +161,7 @@ PAGES = [
 ]  # fmt: skip
 SCRIPTS = [
     *(file for folder in ("gallery", "figures") for file in (ROOT / "docs" / folder).glob("*.py")),
-    *(file for file in (ROOT / "tests" / "strangers").glob("*.py") if file.stem[:5] != "test_"),
+    *(file for file in (ROOT / "tests" / "third_party").glob("*.py") if file.stem[:5] != "test_"),
 ]
 COMMANDS = set(typer.main.get_command(cli.app).commands)
 

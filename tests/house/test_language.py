@@ -52,6 +52,7 @@ def test_an_array_without_shape_is_seen():
     section = "Parameters\n    ----------\n    x : force, N"
     code = f'def f(x: Array):\n    """Sum.\n\n    {section}\n    """\n'
     assert [fault.what for fault in faults_of_code("a.py", code)] == ["x without shape"]
+    assert list(faults_of_code("a.py", code.replace("force, N", "force (10), N")))
     assert not list(faults_of_code("a.py", code.replace("force, N", "force, shape (time,), N")))
     assert not list(faults_of_code("a.py", code.replace("Sum.", "Sum, shape (time,).")))
 

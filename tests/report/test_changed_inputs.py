@@ -95,8 +95,8 @@ def test_rows_name_the_headlines_that_flip(results: xr.Dataset) -> None:
     assert flips(reported, alone) == ["dominant source", "options", "vibration"]
     assert flips(reported, other) == ["options"]
     assert alone.claims["dominant source"] == "the dominant source is gas forces"
-    assert alone.claims["options"] == "no option lowers it, no option raises it"
-    assert other.claims["options"] == "no option lowers it, idle or rattles raises it"
+    assert alone.claims["options"] == "no option lowers the level, no option raises it"
+    assert other.claims["options"] == "no option lowers the level, idle or rattles raises it"
     assert other.claims["vibration"] == "rattles reduces the foot force most"
     assert [name for name, _ in other.changes] == ["idle", "rattles"]
 
@@ -129,6 +129,14 @@ def test_the_table_says_which_rows_have_too_few_samples() -> None:
     assert list(data["changes_effective_samples"])[1:] == [19.0, 20.0]
 
 
+def test_a_cell_with_too_few_samples_alone_begins_with_a_capital() -> None:
+    results = with_changes((LEAST_EFFECTIVE - 1.0, LEAST_EFFECTIVE))
+    few = results["alternative_effective"].copy(data=[LEAST_EFFECTIVE - 2.0, LEAST_EFFECTIVE])
+    results = results.assign(alternative_effective=few)
+    table = headline_table(results, rows_of(results))
+    assert table.rows[1][-1] == "Too few samples (19 effective)"
+
+
 def test_the_section_gives_each_headline_and_needs_alternatives(results: xr.Dataset) -> None:
     section = SECTIONS["alternatives"]
     assert section.applies(results)
@@ -139,7 +147,7 @@ def test_the_section_gives_each_headline_and_needs_alternatives(results: xr.Data
         "Level", "Dominant source", "Options and level", "Options and vibration",
     ]  # fmt: skip
     assert [one.tag for one in listed.entries] == ["holds", "flips", "flips", "flips"]
-    assert listed.entries[1].words.startswith(
+    assert listed.entries[1].words == (
         "Without published spectral share: the dominant source is gas forces."
     )
 

@@ -4,10 +4,12 @@
 """
 
 import os
+from functools import partial
 
 import numpy as np
 import pytest
 import xarray as xr
+from kept_results import kept
 from rooms_made_up import KITCHEN, made_up_vectors
 from sources_study import SOURCES_STUDY, run_made_up, sources_run
 from support import PIPELINES, ROOT, TINY, made_up_radiation
@@ -64,9 +66,12 @@ def own_machine():
 
 
 KINDS = {
-    "rigid": rigid, "sources": sources_run, "room": room, "table": table,
-    "own_machine": own_machine,
-}  # fmt: skip
+    "rigid": partial(kept, "first_screen_rigid", rigid),
+    "sources": sources_run,
+    "room": partial(kept, "first_screen_room", room),
+    "table": partial(kept, "first_screen_table", table),
+    "own_machine": partial(kept, "first_screen_own_machine", own_machine),
+}
 
 
 def chart(block: Intervals) -> list[str]:

@@ -157,7 +157,7 @@ def test_nothing_moves_over_sound_measured_by_force(results):
 
 
 def test_nothing_moves_where_the_machine_is_not_known_or_another(results):
-    for table, values in (({"kind": "a stranger's"}, {}), ({}, {"mass_kg": 50.0})):
+    for table, values in (({"kind": "a third party's"}, {}), ({}, {"mass_kg": 50.0})):
         parameters = json.loads(results.attrs["parameters"])
         parameters["machine"] |= table
         parameters["machine"]["housing"] |= values

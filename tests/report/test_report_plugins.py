@@ -1,4 +1,4 @@
-"""A stranger's section and column: shown, kept in the results, made again without the plug-in."""
+"""A third party's section and column: shown, kept in the results, rebuilt without it."""
 
 import json
 from pathlib import Path
@@ -32,7 +32,7 @@ def blocks(results):
     panel = Panel(Axis(), Axis(), (Line([0, 1], [0, 1]),))
     chart = Chart("../prices", "Prices as a line", "Prices.", (panel,))
     return [
-        Text("A µ <b>stranger</b> says so.", "note"),
+        Text("A µ <b>third party</b> says so.", "note"),
         Bullets(("one|two",)),
         Table("Prices", ("Option", "Price"), rows),
         Details("More", (Pictures((chart,)),)),
@@ -96,7 +96,7 @@ def test_section_and_column_are_shown_and_made_again_without_the_plugin(
     page = (tmp_path / "run" / "report.html").read_text()
     assert page.index('id="comparison"') < page.index('id="prices"') < page.index('id="orders"')
     assert "<summary><h2>What it costs</h2></summary>" in page
-    assert "A µ &lt;b&gt;stranger&lt;/b&gt; says so." in page
+    assert "A µ &lt;b&gt;third party&lt;/b&gt; says so." in page
     assert "about 15" in page  # 45.3 N / 3
     assert "about 15" in comparison_text(results)
     csv = (tmp_path / "run" / "comparison.csv").read_text().splitlines()

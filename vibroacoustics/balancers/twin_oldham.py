@@ -106,6 +106,6 @@ class TwinOldham(TwinRing, Option):
         if inner_sources:
             return ()
         return (
-            "No gas force presses the keys of a second ring: they are likely to rattle. This can "
+            "No gas force presses the keys of a second ring: they are likely to rattle. Rattle can "
             "be louder than the 1× line that the ring removes.",
         )

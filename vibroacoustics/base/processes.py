@@ -255,17 +255,15 @@ def side_by_side(
     items: Iterable[Item],
     otherwise: Callable[[Callable[[Item], Result], Iterable[Item]], Iterable[Result]] = map,
 ) -> Iterator[Result]:
-    """Apply a function in copies of this process, or by the workers of `distributing`.
+    """Apply a function to items in parallel; the results are in the order of the items.
+
+    Workers of `distributing` apply it, else copies of this process.
 
     Parameters
     ----------
     function : function of any kind; what it changes in a copy is lost
-    items : arguments, of any kind
-    otherwise : applies the function where copies or several processors are not available
-
-    Returns
-    -------
-    results in the order of the items; pickle must take them
+    items : arguments; pickle must take the results
+    otherwise : applies the function with one processor, or where processes cannot be copied
     """
 
     def here(function: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[Result]:

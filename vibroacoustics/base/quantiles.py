@@ -23,12 +23,13 @@ def weighted_quantiles(values: Array, weight: Array, shares: Sequence[float]) ->
     weight : not below zero, shape (sample,); values of weight zero do not count
     shares : from 0 to 1
     """
-    rising, sizes = _rising(values, weight)
-    middle = np.cumsum(sizes, axis=0) - 0.5 * sizes
+    sorted_values, sorted_weights = _sorted(values, weight)
+    middle = np.cumsum(sorted_weights, axis=0) - 0.5 * sorted_weights
     middle -= middle[0].copy()
     middle /= np.where(middle[-1] > 0.0, middle[-1], 1.0)
     rows = [
-        np.interp(shares, share, value) for share, value in zip(middle.T, rising.T, strict=True)
+        np.interp(shares, column, value)
+        for column, value in zip(middle.T, sorted_values.T, strict=True)
     ]
     return np.transpose(rows).reshape(len(shares), *values.shape[1:])
 
@@ -43,18 +44,18 @@ def stepped_quantiles(values: Array, weight: Array, shares: Sequence[float]) -> 
     ----------
     values, weight, shares : values, weights and shares, see `weighted_quantiles`
     """
-    rising, sizes = _rising(values, weight)
-    below = np.cumsum(sizes, axis=0)
+    sorted_values, sorted_weights = _sorted(values, weight)
+    cumulative = np.cumsum(sorted_weights, axis=0)
     rows = [
-        np.take_along_axis(rising, np.argmax(below >= part, axis=0)[None], axis=0)
-        for part in (share * (1.0 - _ROUNDING) * below[-1] for share in shares)
+        np.take_along_axis(sorted_values, np.argmax(cumulative >= target, axis=0)[None], axis=0)
+        for target in (share * (1.0 - _ROUNDING) * cumulative[-1] for share in shares)
     ]
     return np.concatenate(rows).reshape(len(shares), *values.shape[1:])
 
 
-def _rising(values: Array, weight: Array) -> tuple[Array, Array]:
-    """Values that count, rising, and their weights, both of shape (sample, column)."""
-    counting = weight > 0.0
-    columns = values[counting].reshape(np.count_nonzero(counting), -1)
+def _sorted(values: Array, weight: Array) -> tuple[Array, Array]:
+    """Sorted values of weight above zero and their weights, both of shape (sample, column)."""
+    is_counted = weight > 0.0
+    columns = values[is_counted].reshape(np.count_nonzero(is_counted), -1)
     order = np.argsort(columns, axis=0)
-    return np.take_along_axis(columns, order, axis=0), weight[counting][order]
+    return np.take_along_axis(columns, order, axis=0), weight[is_counted][order]

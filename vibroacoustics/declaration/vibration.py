@@ -25,8 +25,8 @@ def point_velocity(velocity: ComplexArray, offset_m: Array) -> ComplexArray:
 
     Parameters
     ----------
-    velocity : (dof, order), complex peaks at the centre of mass, m/s and rad/s
-    offset_m : offset of the point from the centre of mass, (3,)
+    velocity : shape (dof, order), complex peaks at the centre of mass, m/s and rad/s
+    offset_m : offset of the point from the centre of mass, shape (3,)
     """
     turned = np.cross(velocity[3:], offset_m[:, None], axis=0)
     return np.asarray(velocity[:3] + turned)
@@ -37,8 +37,8 @@ def peak_to_peak(peaks: ComplexArray, orders: Array) -> Array:
 
     Parameters
     ----------
-    peaks : complex, (..., order)
-    orders : whole numbers, (order,)
+    peaks : complex peaks, shape (..., order)
+    orders : orders, whole numbers, shape (order,)
     """
     count = int(_ANGLES_PER_ORDER * max(orders.max(initial=1.0), 1.0))
     angle = 2.0 * np.pi * np.arange(count) / count

@@ -25,7 +25,7 @@ from .balancing import (
 from .engine.on_mounts import ADDED, SOUND, Arrays, Lines, lines_of, pressure_by_source
 from .engine.probe import Probe, machine_of_design, probe
 from .engine.response import foot_forces
-from .engine.sound_way import SoundPaths
+from .engine.sound_path import SoundPaths
 
 BALANCED: Final = ("force_n", "moment_nm", "foot_force_n", "pressure_pa")
 """Figures whose sum of squares at the shaft frequency may be made least."""

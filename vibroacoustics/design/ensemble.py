@@ -33,10 +33,10 @@ from .engine.contraction import Contraction
 from .engine.deviating import Gains, energy
 from .engine.engine import Engine
 from .engine.machine_sample import Deviation, MachineSample, Unmodelled
+from .engine.needs import Need
 from .engine.on_mounts import lines_of, noise_of, pressure_by_source
 from .engine.response import a_weight
-from .engine.seen import Need
-from .engine.sound_way import SoundPaths
+from .engine.sound_path import SoundPaths
 from .keys import present_value
 from .space import Space
 from .tolerances import Pieces

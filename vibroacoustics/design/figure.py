@@ -8,7 +8,7 @@ from ..base.arrays import Array
 from ..base.registry import LAST, Registry
 from ..study.criterion import CRITERIA
 from ..study.design import Wanted
-from .engine.seen import Need, Seen
+from .engine.needs import Need, ResponsesByNeed
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class DesignFigure:
         """
         raise NotImplementedError
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Compute it, shape (design, speed), (design, speed, receiver or foot) or (design,).
 
         Parameters
@@ -85,7 +85,7 @@ class OfCriterion(DesignFigure):
         """Its value."""
         return (Need("criterion", None, self.name),)
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Criterion in the unit of its name, shape (design,)."""
         (need,) = self.needs(setting.wanted)
         return responses[need]

@@ -15,8 +15,8 @@ from ..stages.radiation import transfer_vectors
 from ..study.design import Design, Objective, Statistic, Wanted
 from ..study.study import Study
 from .engine.engine import Engine
+from .engine.needs import PAIRED, ResponsesByNeed
 from .engine.recognition import Route
-from .engine.seen import PAIRED, Seen
 from .ensemble import ComparedMachine, compared_machines
 from .figure import FIGURES, DesignFigure, Setting
 from .space import Space
@@ -68,7 +68,7 @@ class Compared(NamedTuple):
     changes : reference values of changes, by figure; none of figures that are no change
     """
 
-    responses: Seen
+    responses: ResponsesByNeed
     setting: Callable[[Wanted], Setting]
     changes: list[Array | None]
 
@@ -416,7 +416,7 @@ class Problem:
         return np.array(sign), side, limit
 
 
-def _by_row(responses: Seen, pairs: int) -> Seen:
+def _by_row(responses: ResponsesByNeed, pairs: int) -> ResponsesByNeed:
     """Return the responses with a row for each pair of each design.
 
     Parameters

@@ -6,7 +6,7 @@ from ..base.arrays import Array
 from ..base.decibel import level_of_power
 from ..base.quantiles import weighted_quantiles
 from ..study.design import Statistic, Wanted
-from .engine.seen import Seen
+from .engine.needs import ResponsesByNeed
 from .figure import DesignFigure, Setting
 
 
@@ -58,7 +58,7 @@ def weighted_statistic(
 
 def of_each(
     figure: DesignFigure,
-    responses: Seen,
+    responses: ResponsesByNeed,
     setting: Setting,
     more_is_better: bool,
     reference: Array | None = None,
@@ -87,7 +87,7 @@ def of_each(
     return values
 
 
-def by_speed(figure: DesignFigure, responses: Seen, setting: Setting) -> Array:
+def by_speed(figure: DesignFigure, responses: ResponsesByNeed, setting: Setting) -> Array:
     """Compute a figure by design, speed and, where it has them, microphone; levels in dB."""
     values = figure.values(responses, setting)
     return _level(values, setting.wanted) if figure.is_level else values

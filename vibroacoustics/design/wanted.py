@@ -6,7 +6,7 @@ from ..base.errors import ParameterError
 from ..study.criterion import CRITERIA
 from ..study.design import Constraint, Design, Objective, Wanted
 from ..study.study import Study
-from .engine.seen import Need
+from .engine.needs import Need
 from .figure import FIGURES, DesignFigure, OfCriterion
 
 MEDIAN: Final = 0.5

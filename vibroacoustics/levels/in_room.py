@@ -56,7 +56,8 @@ class RoomPaths:
 
         Parameters
         ----------
-        mean_square : at listeners by waves, then at the positions, (..., place, frequency), Pa²
+        mean_square : mean square at the listeners by waves, then at the positions on the
+            hemisphere, shape (..., place, frequency), Pa²
         frequency_hz : shape (frequency,)
         """
         share = self.wave_share(frequency_hz)
@@ -94,8 +95,8 @@ def room_sound(received: ReceivedSound, paths: RoomPaths) -> RoomSound:
 
     Parameters
     ----------
-    received : sound of the case at the listeners by waves, then at the positions
-    paths : paths to the listeners
+    received : sound at the listeners by waves, then at the positions on the hemisphere
+    paths : paths from the machine to the listeners
     """
     hertz = received.lines.frequency_hz
     audible = hertz > 0.0
@@ -139,8 +140,8 @@ def power_of_hemisphere(mean_square: Array, distance_m: float) -> Array:
 
     Parameters
     ----------
-    mean_square : mean square at the distance, shape (...), Pa²
-    distance_m : from the foot of its axis
+    mean_square : mean square of the pressure at the distance, shape (...), Pa²
+    distance_m : distance from the point of the floor below the source
     """
     return np.asarray(mean_square * hemisphere_area_m2(distance_m) / AIR_IMPEDANCE_PA_S_PER_M)
 
@@ -150,13 +151,14 @@ def wave_gains(
 ) -> Array:
     """Mean square by waves per power in `BASELINE_BANDS`, shape (listener, band), Pa²/W.
 
-    The machine shakes along x, y and z with the same power each; zero above the waves.
+    The machine shakes along x, y and z with the same power each. Gains are zero in bands above
+    the waves.
 
     Parameters
     ----------
-    pressure_per_velocity : function of frequencies to the response at listeners and positions,
-        (place, motion, frequency)
-    paths : paths to the listeners
+    pressure_per_velocity : function that takes frequencies, Hz, and returns the pressure per
+        velocity at listeners and positions, shape (place, motion, frequency), Pa s/m
+    paths : paths from the machine to the listeners
     highest_hz : highest frequency of the waves
     """
     gains = np.zeros((paths.listeners, len(BASELINE_BANDS)))
@@ -180,16 +182,17 @@ def frequencies_of(band: Band) -> Array:
 
 
 def blended_gains(waves: Array, paths: RoomPaths) -> tuple[Array, Array]:
-    """Mean square per power in `BASELINE_BANDS` by both methods, and by the power alone, Pa²/W.
+    """Mean square per power in `BASELINE_BANDS`, Pa²/W: both methods blended, and without waves.
 
     Parameters
     ----------
-    waves : result of `wave_gains`, shape (listener, band)
-    paths : paths to the listeners
+    waves : gain by waves, see `wave_gains`, shape (listener, band), Pa²/W
+    paths : paths from the machine to the listeners
 
     Returns
     -------
-    gains by both methods, and by the power alone, each of shape (listener, band)
+    blend of waves with direct sound and diffuse field, by the wave share, and direct sound and
+    diffuse field alone; each of shape (listener, band)
     """
     hertz = np.array([frequencies_of(band) for band in BASELINE_BANDS])
     share = paths.wave_share(hertz.ravel()).reshape(hertz.shape).mean(axis=1)

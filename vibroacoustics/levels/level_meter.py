@@ -20,20 +20,20 @@ from ..base.weighting import WEIGHTING
 from .time_weighting import FAST_TIME_CONSTANT_S, SLOW_TIME_CONSTANT_S
 
 RUN_IN_S: Final = 0.1
-"""Time that is omitted at either end of A- and C-weighted signals, s: the slowest part of the
-weightings, exp(-2π 20.6 Hz t), has then fallen to 2e-6."""
+"""Length omitted at either end of A- and C-weighted signals: the slowest part of the weightings,
+exp(-2π 20.6 Hz t), has then fallen to 2e-6."""
 _BLOCK_S: Final = 2.5
 """Length of a transform: its lines lie 0.4 Hz apart, a fifteenth of the third octave at 25 Hz."""
 _FILTERED: Final = ("A", "C")
 _SHORTEST_SHARE: Final = 4
-"""Largest part of a recording that is omitted at either end."""
+"""Least length of a recording over the length omitted at either end."""
 _TICK_S: Final = 0.01
 """Squares are summed over ticks of this length for levels over the time."""
 
 
 @dataclass(frozen=True)
 class MeterPlan:
-    """Plan of the measurement of a recording of a length; the same for all its channels.
+    """Plan of the measurement of a recording, for all its channels.
 
     Attributes
     ----------
@@ -46,12 +46,12 @@ class MeterPlan:
 
     @cached_property
     def run_in(self) -> int:
-        """Samples left out at either end where there is a weighting."""
+        """Number of samples omitted at either end of A- and C-weighted signals."""
         return min(round(RUN_IN_S * self.sample_rate_hz), self.samples // _SHORTEST_SHARE)
 
     @property
     def run_in_s(self) -> float:
-        """Run-in in s."""
+        """Length omitted at either end of A- and C-weighted signals, s."""
         return self.run_in / self.sample_rate_hz
 
     @cached_property

@@ -23,9 +23,9 @@ class TakenApart:
 
     Attributes
     ----------
-    order : mean squares of the orders, shape (order,); not a number where lines are too close to
-        separate an order from its neighbours
-    band : mean squares of the bands without these orders, shape (band,); not a number where the
+    order : mean square of each tone, shape (order,); not a number where lines are too close to
+        separate it from its neighbours
+    band : mean square of each band without the tones, shape (band,); not a number where the
         spectrum does not cover a band
     """
 

@@ -1,8 +1,8 @@
 """Sound power level from sound pressure levels on a surface around the source: ISO 3744:2010.
 
-LW = mean Lp - K1 - K2 + 10 lg(S/S0). The method takes the intensity as p²/(rho c), normal to the
-surface: near a small source at a low frequency, and where sound passes a flat side at an angle, the
-result is too high (docs/sound_power.md).
+LW = mean Lp - K1 - K2 + 10 lg(S/S0). The method takes the intensity as p²/(rho c), straight out of
+the surface: near a small source at a low frequency, and where the sound passes a flat side at an
+angle, the result is too high (docs/sound_power.md shows by how much).
 """
 
 from typing import Final

@@ -29,10 +29,11 @@ class Lines:
     order : not a number where it is none, shape (line,)
     pressure : complex peaks, shape (option, receiver, line), Pa
     modelled : complex peaks without what was measured, shape (option, receiver, line), Pa
-    measured : complex peaks of the orders of a baseline, (receiver, line), Pa; zero where there is
-        none
+    measured : complex peaks of the orders of a baseline, shape (receiver, line), Pa; zero where
+        there is none
     has_phase : whether its phase is known, of the same shape
-    continuous : A-weighted mean square of the total beside these lines, (option, receiver), Pa²
+    continuous : A-weighted mean square of the total beside these lines, shape (option, receiver),
+        Pa²
     modelled_continuous : A-weighted mean square of the modelled sound beside them, same shape, Pa²
     noise : mean square of the noise in third octaves, shape (option, receiver, band), Pa²
     """

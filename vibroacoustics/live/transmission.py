@@ -27,8 +27,8 @@ class Transmission:
     velocity : velocity of the body on the feet, of the same shape
     vector : pressure per velocity, zero at orders that the run did not take along, shape (speed,
         receiver, 6, order), Pa s/m
-    pressure : pressure of the loads behind the option's insertion loss, (speed, option, receiver,
-        order), Pa
+    pressure : pressure of the loads behind the option's insertion loss, shape (speed, option,
+        receiver, order), Pa
     """
 
     frequency_hz: Array

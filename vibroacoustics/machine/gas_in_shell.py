@@ -8,9 +8,9 @@ from pydantic import Field
 from ..base.parameters import Parameters
 
 GAS_PATH_PARTLY: Final = (
-    "The model holds only the gas that a study's sources name: in an empty shell, without what it "
-    "does to the block; gas and bearing forces are pairs within the rigid block. Oil, and walls "
-    "that bend, are neglected."
+    "Gas is included only where a study's sources name it: in an empty shell, without its effect "
+    "on the block. Gas and bearing forces are pairs within the rigid block. Oil, and walls that "
+    "bend, are neglected."
 )
 SOUND = Field(ge=50.0, le=1500.0)
 DENSITY = Field(ge=0.05, le=500.0)

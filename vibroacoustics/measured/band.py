@@ -18,14 +18,14 @@ _GOOD_ENOUGH: Final = 1.01
 
 
 def amplitude_band(estimate: ComplexArray, sampled: ComplexArray) -> tuple[Array, Array]:
-    """Amplitudes whose noise gives the estimate or less, and or more, with 5 % each.
+    """Limits of the 90 % confidence interval of an amplitude, 5 % to each side.
 
     The error of a response is, to first order in errors of measured complex values, complex
     normal and circular, so that the squared amplitude over half the variance is noncentral χ² of
     two degrees of freedom: its limits are those noncentralities that put the estimate at 95 % and
-    at 5 % of the distribution. Quantiles of the sampled amplitudes themselves are too high where
-    noise exceeds the response. The variance is that of the samples' median, |e|² / ln 2, which a
-    few near-singular samples do not move. The estimate itself is always within.
+    at 5 % of the distribution. Quantiles of the sampled amplitudes themselves are too high
+    where noise exceeds the response. The variance is that of the samples' median, |e|² / ln 2,
+    which a few near-singular samples do not move. The estimate itself is always within.
 
     Parameters
     ----------
@@ -76,8 +76,8 @@ def truncation_errors(
 
     Parameters
     ----------
-    of_measured : pressures predicted without truncation, Pa, shape (...)
-    of_samples : functions that predict from sampled measurements, with a truncation
+    of_measured : predicted without truncation, shape (...)
+    of_samples : functions of a truncation, each predicts from sampled measurements
     """
     level = sound_pressure_level(of_measured)
     return np.array(

@@ -89,7 +89,7 @@ class BlockedForces(Parameters):
 
     @property
     def needs_positions(self) -> bool:
-        """Whether positions of the points are given or asked for."""
+        """Whether positions of the points are required, or the file has some."""
         interface = self.blocked_forces
         is_mount_model = interface.rigid_source or interface.speed_rpm is not None
         return is_mount_model or bool(interface.positions)

@@ -33,7 +33,7 @@ class OrdersOfBlocks:
     ----------
     phasor : complex peak of the orders wanted, shape (channel, block, order)
     rms : in their bands, shape (channel, block, order)
-    mean_spectrum : RMS of each line from the mean power over the blocks, (channel, line)
+    mean_spectrum : RMS of each line from the mean power over the blocks, shape (channel, line)
     map_order : order of the lines, shape (line,)
     amplitude : complex peaks, shape (channel, block, line); None where no map is wanted
     time_s : mid-time of the blocks, s, shape (block,)

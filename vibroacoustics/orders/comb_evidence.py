@@ -49,9 +49,9 @@ class Lines:
     width : at half of the power, in lines of a block, shape (line,)
     resolution : frequency between lines of a block
     highest : frequency up to which there may be lines
-    spectrum : mean over the blocks of ln(1 + power over floor), at frequencies `step` apart,
-        shape (line,)
-    step : distance of the frequencies
+    spectrum : mean over the blocks of ln(1 + power over floor), at frequencies `step` apart, shape
+        (frequency,)
+    step : frequency
     """
 
     frequency: Array

@@ -8,11 +8,11 @@ from scipy import fft
 from ..base.arrays import Array
 
 _DEVIATION: Final = 0.004
-"""Largest relative deviation of the mains frequency from its nominal value: 0.2 Hz in 50 Hz."""
+"""Largest deviation of the mains frequency from its nominal value, relative: 0.2 Hz in 50 Hz."""
 _NOMINAL_HZ: Final = (50.0, 60.0, 100.0, 120.0)
-"""Lowest frequencies of hum: those of the mains, and twice these (magnetic forces)."""
+"""Lowest lines of hum: the mains frequency and twice that."""
 _AS_EVEN: Final = 0.002
-"""Deviation of the mains from their nominal frequency, relative."""
+"""Largest relative deviation of a speed from a line of hum at which it may be that line."""
 _TRIALS: Final = 401
 _HALF_WIDTH_LINES: Final = 2.5
 """Lines of the transform that a steady line fills to each side, with a Hann window."""
@@ -48,11 +48,11 @@ def without_mains(signal: Array, sample_rate_hz: float, nominal_hz: float) -> Ar
 
 
 def mains_of(speed_hz: Array) -> float | None:
-    """Nominal frequency of which the lines of a speed may be hum: it lies there and never moves.
+    """Nominal line of hum near which a speed is at all times, Hz; None for any other speed.
 
     Parameters
     ----------
-    speed_hz : over the time, shape (time,)
+    speed_hz : speed over the time, shape (time,)
     """
     for nominal in _NOMINAL_HZ:
         if np.all(np.abs(speed_hz / nominal - 1.0) < _AS_EVEN):

@@ -43,8 +43,8 @@ class Unrolled:
 
     Parameters
     ----------
-    search : search with the signal
-    profile : speed profile, above zero everywhere
+    search : signal and limits of the speed
+    profile : speed profile, above zero at all times
     """
 
     def __init__(self, search: Search, profile: SpeedProfile) -> None:
@@ -84,7 +84,11 @@ class Unrolled:
         return self._frames_of(_FRAME_REVOLUTIONS)
 
     def _frames_of(self, wanted: int) -> tuple[Array, Array, int]:
-        """Levels of frames of so many revolutions, their times, and bins to an order."""
+        """Levels of frames, times of their centres, s, and number of bins per order.
+
+        Levels have the shape (frame, bin). Frames have the wanted number of revolutions, at most a
+        third of the signal.
+        """
         revolutions = max(int(min(wanted, self._turned[-1] / 3.0)), 1)
         length = revolutions * self._per_revolution
         starts = np.arange(0, self._signal.size - length + 1, length / 4)
@@ -95,13 +99,11 @@ class Unrolled:
         return levels, when, 2 * revolutions
 
     def followed(self, scale: float = 1.0) -> float:
-        """Return the share of the frames in which the orders stand out.
-
-        They do where the score of a frame exceeds a share of the median score.
+        """Share of the frames in which the score of the orders is above half its median.
 
         Parameters
         ----------
-        scale : scale of the speed, relative to that of the time history
+        scale : factor on the speed of the profile
         """
         levels, _, bins = self._frames
         score = comb_scores(
@@ -110,13 +112,13 @@ class Unrolled:
         return float(np.mean(score > _STANDS_OUT * np.median(score)))
 
     def low_lines(self, scale: float = 1.0) -> NDArray[np.bool_]:
-        """Return whether low orders with a clear line stand out, shape (order, frame).
+        """Whether the lowest orders that have a clear line stand out, shape (order, frame).
 
-        The orders are the two that stand out most often among the three lowest: noise may hide one.
+        Of the three lowest, the two that stand out in most frames: a weak one may be lost in noise.
 
         Parameters
         ----------
-        scale : scale of the speed, relative to that of the time history
+        scale : factor on the speed of the profile
         """
         levels, _, bins = self._frames
         order = scale * self.search.orders

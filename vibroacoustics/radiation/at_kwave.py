@@ -44,7 +44,7 @@ def with_kwave(
     task : says at which microphones and frequencies
     closed : `transfer_vector` and its error by name, (receiver, pattern, frequency)
     kwave : Green's functions of k-Wave's microphones and frequencies alone
-    difference_db : difference of the Green's functions, dB, shape (microphone of k-Wave,
+    difference_db : difference of the Green's functions, shape (microphone of k-Wave,
         frequency)
     """
     rows, table = task.kwave_rows, task.kwave_table

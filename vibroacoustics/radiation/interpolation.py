@@ -52,9 +52,10 @@ def interpolant(tabulated_hz: Array, transfer: ComplexArray, distance_m: Array) 
 
     Parameters
     ----------
-    tabulated_hz : (n,), rising, above 0.
-    transfer : (..., n), Pa per unit velocity.
-    distance_m : (...), of each receiver from the origin; must broadcast against `transfer[..., 0]`.
+    tabulated_hz : tabulated frequencies, shape (n,), rising, above 0.
+    transfer : pressure per unit velocity, shape (..., n), Pa.
+    distance_m : distance of each receiver from the origin, shape (...); must broadcast against
+        `transfer[..., 0]`.
 
     Raises
     ------

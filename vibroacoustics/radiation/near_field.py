@@ -143,9 +143,9 @@ class NearField:
 
         Parameters
         ----------
-        flux : volume velocity of the pattern into the wall cells, (wall,), m³/s
-        frequency_hz : (frequency,)
-        microphones : points outside the box, (point, 3); a run ends when it is over for them
+        flux : volume velocity of the pattern into the wall cells, shape (wall,), m³/s
+        frequency_hz : frequencies, shape (frequency,)
+        microphones : points outside the box, shape (point, 3); a run ends when it is over for them
         name : name of the pattern, for progress and errors
         progress : told of the steps
 

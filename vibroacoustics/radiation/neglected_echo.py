@@ -45,7 +45,7 @@ def neglected_echo(
     scene : body, walls and surroundings
     patterns : surface velocities of the machine
     frequency_hz : shape (frequency,)
-    points : microphones, (point, 3), m
+    points : microphones, shape (point, 3), m
 
     Returns
     -------

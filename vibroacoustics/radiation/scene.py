@@ -59,8 +59,8 @@ class Scene:
 
         Parameters
         ----------
-        points : about the machine, (point, 3), m
-        receivers : (receiver, 3), m
+        points : points about the machine, shape (point, 3), m
+        receivers : positions of the microphones, shape (receiver, 3), m
         frequency_hz : shape (frequency,)
         """
         if self.outdoors is None:

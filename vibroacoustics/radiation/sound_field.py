@@ -88,7 +88,7 @@ class FieldPart:
 
         Parameters
         ----------
-        pressure : (clear point, dof, frequency), Pa
+        pressure : shape (clear point, dof, frequency), Pa
         frequency_hz : frequencies of the table, then those of the lines, shape (frequency,)
         """
         shape = (self.points.size // 3, *pressure.shape[1:])

@@ -23,13 +23,10 @@ from .tables import DataTable, Table, columns_of
 
 MOST_ROWS: Final = 20
 MOST_NAMED: Final = 5
-_RULE: Final = (
-    f"A maximum is at least {STANDS_OUT_DB:g} dB above the higher of the two valleys beside it. "
-    f"The range has all speeds around it within {WITHIN_DB:g} dB of the maximum."
-)
 RECORDED_RULE: Final = (
-    "Speeds to avoid are around maxima of the A-weighted level over the speed, in energy means "
-    f"over {BINS} equal steps of it. {_RULE}"
+    "Speeds to avoid are maxima of the A-weighted level over the speed, in energy means over "
+    f"{BINS} equal steps of speed. A maximum is at least {STANDS_OUT_DB:g} dB above the higher of "
+    f"its two valleys. Its range has all speeds around it within {WITHIN_DB:g} dB of the maximum."
 )
 _HEAD: Final = ("option", "quantity", "from_rpm", "to_rpm", "peak_rpm", "above_db", "line",
                 "line_hz", "mode", "mode_hz")  # fmt: skip
@@ -100,12 +97,13 @@ def rule_words(results: xr.Dataset) -> str:
     speed = np.sort(results["speed"].values)
     step = float(np.diff(speed).max())
     return (
-        "Speeds to avoid are around maxima over the speed. These are maxima of the modelled "
-        "A-weighted level, or of the force into a foot (root of the sum of squares of the orders). "
-        f"{_RULE} Strongest line: "
-        "the loudest order or tone there. Natural frequency: the nearest nominal one within "
-        f"{100.0 * NEAR_RATIO:g} % of that line. Speeds are up to {step:g} rpm apart: a narrower "
-        "maximum between them is not seen, nor one at an end."
+        "Speeds to avoid are maxima over the speed of the modelled A-weighted level or of the "
+        "force into a foot. That force is the root of the sum of squares of its orders. "
+        f"A maximum is at least {STANDS_OUT_DB:g} dB above the higher of its two valleys. "
+        f"Its range has all speeds around it within {WITHIN_DB:g} dB of the maximum. "
+        "Strongest line: the loudest order or tone there. Natural frequency: the nearest, if "
+        f"within {100.0 * NEAR_RATIO:g} % of that line. Natural frequencies are nominal. "
+        f"Speeds are up to {step:g} rpm apart: narrower maxima and those at an end are not found."
     )
 
 

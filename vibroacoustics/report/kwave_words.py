@@ -27,7 +27,8 @@ def kwave_sentence(results: xr.Dataset) -> str:
     words = (
         f"k-Wave computed the room at {', '.join(map(str, by_kwave['receiver'].values))} from "
         f"{frequency[0]:g} to {frequency[-1]:g} Hz; other Green's functions are closed form. "
-        f"The two differ there by at most {rounding.fixed(float(gap.max()), 2)} dB (at "
+        "Its Green's functions differ from the closed form by at most "
+        f"{rounding.fixed(float(gap.max()), 2)} dB (at "
         f"{worst['receiver'].item()}, {worst['frequency'].item():g} Hz)"
     )
     differences = method_difference_db(results)

@@ -136,7 +136,8 @@ class Ensemble(NamedTuple):
 
     Attributes
     ----------
-    level_dba : modelled levels where one is published, not a number without a solution, (sample,)
+    level_dba : modelled levels where one is published, not a number without a solution, shape
+        (sample,)
     weight : by prior of the unmodelled noise, shape (prior, sample)
     before : weight before the published data, shape (sample,)
     value : values of the uncertain parameters, (sample, parameter)

@@ -17,7 +17,8 @@ class Scored(NamedTuple):
     Attributes
     ----------
     name, label, unit : key in study files, plain words, symbol
-    values : (option,), in that unit; medians of the weighted samples where there are some
+    values : values of the options, shape (option,), in that unit; medians of the weighted samples
+        where there are some
     by_sample : (sample, option), in that unit; none where no sample changes it
     """
 

@@ -75,7 +75,8 @@ def extended_uncertainty_db(
 
     Parameters
     ----------
-    tone_db : levels of the lines of the tone, or of the tones of one critical band, (line,), dB
+    tone_db : levels of the lines of the tone, or of the tones of one critical band, shape (line,),
+        dB
     noise_db : levels of the lines of noise, shape (line,), dB
     frequency_hz : frequency of the tone, Hz
     step_hz : distance of the lines, Hz

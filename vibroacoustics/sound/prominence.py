@@ -35,9 +35,10 @@ class JudgedTones(NamedTuple):
 
     Attributes
     ----------
-    level_db : level of the tone; `SILENCE_DB` where the line belongs to a stronger one, (..., line)
+    level_db : level of the tone; `SILENCE_DB` where the line belongs to a stronger one, shape (...,
+        line)
     excess_db : larger excess over the criteria of both ratios, `NO_TONE_DB` to `MOST_EXCESS_DB`;
-        the tone is prominent from 0, (..., line)
+        the tone is prominent from 0, shape (..., line)
     """
 
     level_db: Array

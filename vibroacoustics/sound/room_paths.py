@@ -10,7 +10,7 @@ from ..base.arrays import Array, IndexArray
 from ..base.vocabulary import RIGID_BODY_DOFS, stamped
 from ..levels.in_room import RoomPaths, blended_gains, wave_gains
 from ..levels.measured_points import MIDDLE_HZ
-from ..levels.room_seam import shown_bands
+from ..levels.room_crossover import shown_bands
 from ..machine.shell import Shell
 from ..radiation.rooms import DiffuseRoom
 from ..radiation.rooms import of_study as rooms

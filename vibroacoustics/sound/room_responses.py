@@ -131,7 +131,7 @@ class _Received(NamedTuple):
     waves : at the listeners, shape (listener, motion, frequency)
     positions : sum of the positions with the noise of each, of the same shape
     power : shape (motion, frequency), W
-    square : mean squares at the listeners by both methods, (listener, motion, frequency), Pa²
+    square : mean squares at the listeners by both methods, shape (listener, motion, frequency), Pa²
     """
 
     waves: ComplexArray

@@ -52,9 +52,9 @@ class ToneSpectra(NamedTuple):
         ----------
         names : names of the lines, all orders that were measured among them
         orders : that were measured
-        order_db : their levels, not a number where not measured, (..., speed, option, receiver,
-            order)
-        band_db : levels of the bands, likewise (..., speed, option, receiver, band)
+        order_db : their levels, not a number where not measured, shape (..., speed, option,
+            receiver, order)
+        band_db : levels of the bands, likewise shape (..., speed, option, receiver, band)
         """
         square = self.square.copy()
         columns = [list(names).index(order_name(order)) for order in orders]

@@ -9,9 +9,9 @@ from ..base.progress import Progress
 from ..base.registry import register
 from ..levels.in_room import blended_gains, room_sound
 from ..levels.nominal import NominalSound
+from ..levels.room_crossover import crossover_variables
 from ..levels.room_levels import AirInRoom, room_variables
 from ..levels.room_map import map_bands_hz, map_level
-from ..levels.room_seam import crossover_variables
 from ..machine.cases import Cases
 from ..radiation.patterns import SurfaceMotion
 from ..radiation.rooms import of_study as rooms

@@ -217,9 +217,9 @@ def closing_force_n(valve: CheckValve, time_s: Array) -> Array:
 
     Parameters
     ----------
-    valve : valve with the disc
-    time_s : uniform times from the start of the flight, s, shape (times,); an impact shorter than a
-        step keeps its impulse
+    valve : disc
+    time_s : time from where it starts, uniform, shape (times,); an impact shorter than a step keeps
+        its impulse
     """
     flight, length = flight_s(valve), impact_s(valve)
     step = float(time_s[1] - time_s[0])

@@ -40,16 +40,16 @@ def rows_of(part: Part) -> slice:
 
 @dataclass(frozen=True)
 class BendingShell:
-    """Elastic shell with one set of values; its responses are kept.
+    """The elastic shell with one set of values; responses are kept.
 
     Attributes
     ----------
-    path : modes and joints
+    path : modes and joints of the nominal shell
     loss_factor_ratio : loss factor of the shell
-    variation : difference of the real shell from the model
-    frame : forces of the parts on the shell; none where the loads act on it unchanged
-    gas : gas spaces in the shell, by the name of their table
-    yoke : yoke of the stator as a ring in the shell; none where the machine has none
+    variation : differences of the real shell from the nominal one
+    frame : forces of the parts on the shell; None where loads on parts act on the shell directly
+    gas : spaces of gas in the shell, by the name of their table
+    yoke : yoke of the stator, as a ring in the shell; None where the machine has none
     """
 
     path: ShellPath
@@ -68,10 +68,10 @@ class BendingShell:
 
         Parameters
         ----------
-        observers : with the modes
-        port : in the shell
-        frequency_hz : shape (frequency,); parts and gas share what is solved at these
-        lines : indices of the loaded ones, shape (line,)
+        observers : observed quantities, per motion of the shell's modes
+        port : port of the load, in the shell
+        frequency_hz : frequencies, shape (frequency,), Hz; solutions for parts and gas are shared
+        lines : indices of the loaded frequencies, shape (line,)
 
         Raises
         ------

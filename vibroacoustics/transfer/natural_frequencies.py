@@ -91,13 +91,13 @@ def framed_hz(frame: FrameOnShell) -> Array:
 
 
 def gas_frequencies(machine: Machine, path: ShellPath, sound_speed: Mapping[str, float]) -> Named:
-    """Compute natural frequencies of the gas that sources feed, in rigid walls, Hz, rising.
+    """Natural frequencies of the gas that sources feed, in rigid walls, by name, Hz, rising.
 
     Parameters
     ----------
-    machine : machine with tables of gas spaces
-    path : path with the modes of the nominal wall
-    sound_speed : speed of sound by the name of a space's table, m/s
+    machine : machine with the tables of its gas spaces
+    path : modes of the nominal wall
+    sound_speed : speed of sound by the name of the table of a space that a source feeds, m/s
     """
     named = {}
     for name, space in spaces_of(machine, path).items():

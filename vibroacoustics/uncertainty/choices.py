@@ -36,16 +36,18 @@ def choice_information(study: Study, levels: xr.Dataset, pairs: int) -> xr.Datas
     loss = _losses(levels.sel(receiver=study.catalogue_receiver))
     utility = -np.nan_to_num(loss.sel(option=names).max("speed").values)
     values = levels["sampled_value"].values[::pairs]
-    information = [_of_samples(values, of_choice, weight, pairs) for of_choice in utility]
-    expected = weight @ utility
-    perfect = utility.max(axis=2) @ weight - expected.max(axis=1)
+    information = [
+        _choice_information(values, choice_utility, weight, pairs) for choice_utility in utility
+    ]
+    expected_utility = weight @ utility
+    perfect_information = utility.max(axis=2) @ weight - expected_utility.max(axis=1)
     return stamped(
         {
-            "choice_utility": expected,
-            "perfect_information": perfect,
-            "parameter_information": [of_choice.gain for of_choice in information],
-            "parameter_information_votes": [of_choice.votes for of_choice in information],
-            "parameter_information_floor": [of_choice.floor for of_choice in information],
+            "choice_utility": expected_utility,
+            "perfect_information": perfect_information,
+            "parameter_information": [choice.gain for choice in information],
+            "parameter_information_votes": [choice.votes for choice in information],
+            "parameter_information_floor": [choice.floor for choice in information],
         },
         {
             "choice": loss["choice"].values.tolist(),
@@ -67,7 +69,7 @@ def _losses(levels: xr.Dataset) -> xr.DataArray:
     return xr.concat([change, sound_and_force], choices)
 
 
-def _of_samples(values: Array, utility: Array, weight: Array, pairs: int) -> Information:
+def _choice_information(values: Array, utility: Array, weight: Array, pairs: int) -> Information:
     """Information for a choice; pairs of a sample have its values and their mean utility.
 
     Parameters
@@ -76,8 +78,8 @@ def _of_samples(values: Array, utility: Array, weight: Array, pairs: int) -> Inf
     utility : shape (sample and pair, option)
     weight : shape (sample and pair,)
     """
-    of_pairs = weight.reshape(-1, pairs)
-    of_sample = of_pairs.sum(axis=1)
-    together = np.einsum("sp,spo->so", of_pairs, utility.reshape(*of_pairs.shape, -1))
-    return information_of(values, together / np.where(of_sample > 0.0, of_sample, 1.0)[:, None],
-                          of_sample)  # fmt: skip
+    pair_weight = weight.reshape(-1, pairs)
+    sample_weight = pair_weight.sum(axis=1)
+    weighted_utility = np.einsum("sp,spo->so", pair_weight, utility.reshape(*pair_weight.shape, -1))
+    divisor = np.where(sample_weight > 0.0, sample_weight, 1.0)[:, None]
+    return information_of(values, weighted_utility / divisor, sample_weight)

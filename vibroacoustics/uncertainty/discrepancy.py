@@ -44,7 +44,8 @@ class Discrepancy:
     ----------
     gain : factors on the power of sources, shape (discrepancy, source, band)
     added : factors on what options add, shape (discrepancy,)
-    unmodelled : factors on unmodelled noise, 1 without a measured spectrum, (discrepancy, band)
+    unmodelled : factors on unmodelled noise, 1 without a measured spectrum, shape (discrepancy,
+        band)
     """
 
     gain: Array

@@ -17,21 +17,24 @@ BEFORE: Final = "before"
 """Knowledge of the ranges alone."""
 
 
-def level_shares(ranges: Sequence[Range], ensemble: PriorEnsemble, before: Array) -> xr.Dataset:
+def level_shares(
+    ranges: Sequence[Range], ensemble: PriorEnsemble, prior_weight: Array
+) -> xr.Dataset:
     """Shares of the sampled values in the modelled level, before and by prior of unmodelled noise.
 
     Parameters
     ----------
     ranges : ranges of the sampled values
     ensemble : all samples; where they do not suffice the priors' shares are empty
-    before : weights of the samples before the published level, shape (sample,)
+    prior_weight : weights of the samples before the published level, shape (sample,)
     """
     values = np.array(
         [[sample[limits.table, limits.field] for limits in ranges] for sample in ensemble.samples]
     )
-    is_weighted = list(ensemble.prior_names) != [ALL_ALIKE.name]  # else after is as before
-    after = ensemble.weight if ensemble.suffices else 0.0 * ensemble.weight
-    weights = [before, *(after if is_weighted else ())]
+    # with all alike the posterior weights are the prior ones
+    is_weighted = list(ensemble.prior_names) != [ALL_ALIKE.name]
+    posterior_weight = ensemble.weight if ensemble.suffices else 0.0 * ensemble.weight
+    weights = [prior_weight, *(posterior_weight if is_weighted else ())]
     shares = [shares_of(values, ensemble.modelled_db, weight) for weight in weights]
     coords = {
         "knowledge": [BEFORE, *(ensemble.prior_names if is_weighted else ())],
@@ -49,8 +52,8 @@ def labelled_shares(name: str, shares: Sequence[Shares]) -> dict[str, list[Array
     shares : shares of each quantity
     """
     return {
-        name: [of_quantity.share for of_quantity in shares],
-        f"{name}_low": [of_quantity.low for of_quantity in shares],
-        f"{name}_high": [of_quantity.high for of_quantity in shares],
-        f"{name}_floor": [of_quantity.floor for of_quantity in shares],
+        name: [quantity.share for quantity in shares],
+        f"{name}_low": [quantity.low for quantity in shares],
+        f"{name}_high": [quantity.high for quantity in shares],
+        f"{name}_floor": [quantity.floor for quantity in shares],
     }

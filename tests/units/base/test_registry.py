@@ -1,4 +1,4 @@
-"""Registries: built-in things, strangers' things, refusals."""
+"""Registries: built-in things, plug-ins, refusals."""
 
 from pathlib import Path
 

@@ -53,7 +53,7 @@ def test_every_unit_leads_to_an_si_unit_of_factor_one():
         assert UNITS[unit.si_suffix].factor == 1.0
 
 
-def test_a_strangers_unit_is_shown_from_the_words_that_are_kept():
+def test_a_third_partys_unit_is_shown_from_the_words_that_are_kept():
     kept = {"labels": {"heat_btu": "Heat"}, "units": {"btu": "BTU"}}
     assert labels.name("lost_heat_btu", kept) == "Lost heat"
     assert labels.unit("lost_heat_btu", kept) == "BTU"
@@ -74,7 +74,7 @@ def _registry(monkeypatch):
 
 
 @pytest.mark.usefixtures("_registry")
-def test_a_strangers_unit():
+def test_a_third_partys_unit():
     register(Unit("inch", "in", "m", 0.0254))
     assert si_key("stroke_inch") == ("stroke_m", 0.0254)
     with pytest.raises(PluginError, match="unit mm: is built in"):

@@ -123,7 +123,7 @@ def _registries(monkeypatch):
 
 
 @pytest.mark.usefixtures("_registries")
-def test_a_strangers_variable_and_coordinate():
+def test_a_third_partys_variable_and_coordinate():
     register(Coordinate("roughness_band", ("roughness_band",), "Bark", "critical band"))
     register(Variable("roughness", ("roughness_band",), "asper Bark-1", "specific roughness"))
     coords = {"roughness_band": [0.5, 1.5]}

@@ -84,8 +84,11 @@ def test_radiation_alone(tmp_path: Path) -> None:
 @pytest.mark.long
 @pytest.mark.usefixtures("here")
 def test_level_of_the_line_is_that_of_fine_grids(tmp_path: Path) -> None:
-    """44.2 dB at 12.5 mm cells (reports/showcase); 35 mm cells err by about (35/12.5)² x 0.02 dB
-    for motion along x, and by 0.4 dB for the rocking that adds a tenth (docs/radiation.md)."""
+    """The level with cells of 12.5 mm is 44.2 dB (reports/showcase).
+
+    Cells of 35 mm have an error of about (35/12.5)² x 0.02 dB for motion along x, and of 0.4 dB for
+    rocking, which adds a tenth of the pressure.
+    """
     command_here("run", SMALL, "--out", tmp_path).check_returncode()
     with (tmp_path / "comparison.csv").open() as file:
         rows = list(csv.DictReader(file))

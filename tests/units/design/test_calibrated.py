@@ -13,7 +13,7 @@ from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.base.decibel import mean_square_level
 from vibroacoustics.base.quantiles import weighted_quantiles
 from vibroacoustics.base.vocabulary import WEIGHTINGS
-from vibroacoustics.design.engine.seen import Need
+from vibroacoustics.design.engine.needs import Need
 from vibroacoustics.design.optimising import optimise
 from vibroacoustics.design.problem import Problem
 from vibroacoustics.design.total_change import lowering_words

@@ -15,7 +15,7 @@ from design_studies import (
 from support import PIPELINES
 
 from vibroacoustics.base.registry import register
-from vibroacoustics.design.engine.seen import Need
+from vibroacoustics.design.engine.needs import Need
 from vibroacoustics.machine.option import OPTIONS, Option
 from vibroacoustics.mechanics.added import Added
 from vibroacoustics.mechanics.bushings import AttachedBodies, Bushing, RigidBody

@@ -12,7 +12,7 @@ from design_studies import (
 from support import PIPELINES, ROOT
 
 from vibroacoustics import given_radiation
-from vibroacoustics.design.engine.seen import Need
+from vibroacoustics.design.engine.needs import Need
 from vibroacoustics.stages.shell import shell_path
 
 CLOSE_DB = 1e-9

@@ -14,9 +14,9 @@ from vibroacoustics.base.decibel import mean_square_level
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.design.engine.contraction import keeps_values
 from vibroacoustics.design.engine.memo import Budget, Memo
+from vibroacoustics.design.engine.needs import Need
 from vibroacoustics.design.engine.on_mounts import random_squares
-from vibroacoustics.design.engine.seen import Need
-from vibroacoustics.design.engine.sound_way import RandomResponse
+from vibroacoustics.design.engine.sound_path import RandomResponse
 from vibroacoustics.design.listing import listed_grid
 from vibroacoustics.levels.by_source import GAIN_BANDS
 from vibroacoustics.levels.nominal import NominalSound

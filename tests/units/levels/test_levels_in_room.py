@@ -14,8 +14,8 @@ from vibroacoustics.levels.in_room import (
     wave_gains,
 )
 from vibroacoustics.levels.measured_points import BASELINE_BANDS
+from vibroacoustics.levels.room_crossover import shown_bands
 from vibroacoustics.levels.room_levels import AirInRoom
-from vibroacoustics.levels.room_seam import shown_bands
 from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import NoisePower, ReceivedSound
 from vibroacoustics.uncertainty.sampled_room import sampled_room_level

@@ -224,7 +224,7 @@ def test_page_names_every_curve():
     assert not missing
 
 
-def test_curve_of_a_stranger_that_cannot_be_is_one_line():
+def test_curve_of_a_third_party_that_cannot_be_is_one_line():
     class Broken(Machine):
         kind = "broken"
 
@@ -236,7 +236,7 @@ def test_curve_of_a_stranger_that_cannot_be_is_one_line():
         va.curves(Broken(**fields_of_a_machine()))
 
 
-def test_curve_of_a_stranger_is_drawn():
+def test_curve_of_a_third_party_is_drawn():
     class Flywheel(Machine):
         kind = "flywheel"
 

@@ -80,7 +80,7 @@ NOT_MADE_HERE = {
     "order_sound_power_level",
     "sound_power_level",
     "given_value",
-    "column_value",  # of strangers only
+    "column_value",  # of third parties only
     "option_natural_frequency",  # with attached bodies
     "option_mode_energy",
     "option_mount_transmissibility",

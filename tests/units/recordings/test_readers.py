@@ -1,4 +1,4 @@
-"""Readers as things that others can add to; what a stranger's does, tests/strangers."""
+"""Readers as things that others can add to; what a third party's does, tests/third_party."""
 
 import re
 import shutil
@@ -52,7 +52,7 @@ def test_a_reader_of_this_session_alone_is_refused(tmp_path):
 
 def test_a_reader_from_a_file_reads_in_a_process_of_its_own(tmp_path):
     """Its channel is named after the process: that of this test has labelled arrays."""
-    load_plugin(shutil.copy(ROOT / "tests" / "strangers" / "reading_process.py", tmp_path))
+    load_plugin(shutil.copy(ROOT / "tests" / "third_party" / "reading_process.py", tmp_path))
     (tmp_path / "ones.process").write_bytes(bytes([1, 1, 1, 1]))
     recording = read_recording(tmp_path / "ones.process")
     assert recording["channel"].values.tolist() == ["process that reads"]

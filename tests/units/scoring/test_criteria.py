@@ -1,4 +1,4 @@
-"""Criteria of strangers and criteria that a study gives: values, words, refusals, report."""
+"""Criteria of third parties and criteria that a study gives: values, words, refusals, report."""
 
 import json
 import re
@@ -19,7 +19,7 @@ from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.scoring import Scoring
 from vibroacoustics.study.study import Study
 
-STRANGER = (ROOT / "tests" / "strangers" / "second_order.py").read_text()
+THIRD_PARTY = (ROOT / "tests" / "third_party" / "second_order.py").read_text()
 """The criterion that the tutorial shows."""
 SECOND_FORCE = "force_2x_n = { weight = 1.0, best = 0.0, worst = 50.0 }\n"
 GIVEN = """
@@ -37,14 +37,14 @@ StudyFile = Callable[..., Path]
 
 
 @pytest.fixture
-def stranger(tmp_path: Path) -> Iterator[Path]:
-    """File of a stranger's criterion; what it registers is forgotten after the test."""
+def third_party(tmp_path: Path) -> Iterator[Path]:
+    """File of a third party's criterion; what it registers is forgotten after the test."""
     assert len(CRITERIA) == 10  # fills the registry with the built-in ones
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(CRITERIA, "_things", dict(CRITERIA._things))
         patch.setattr(CRITERIA, "_origins", dict(CRITERIA._origins))
         file = tmp_path / "second_force.py"
-        file.write_text(STRANGER)
+        file.write_text(THIRD_PARTY)
         yield file
 
 
@@ -67,17 +67,17 @@ def judged() -> xr.Dataset:
     return tiny_run(GIVEN, COST + ROOM)
 
 
-# --- a stranger's ---------------------------------------------------------------------------------
+# --- a third party's ----------
 
 
 @pytest.mark.long
-def test_strangers_criterion_is_scored_and_reported_without_its_file(
-    stranger: Path, tmp_path: Path
+def test_third_partys_criterion_is_scored_and_reported_without_its_file(
+    third_party: Path, tmp_path: Path
 ) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(CRITERIA, "_things", dict(CRITERIA._things))
         patch.setattr(CRITERIA, "_origins", dict(CRITERIA._origins))
-        load_plugin(stranger)
+        load_plugin(third_party)
         results = tiny_run(criteria=SECOND_FORCE)
     assert "force_2x_n" not in CRITERIA
     value = results["criterion_value"].sel(criterion="force_2x_n")
@@ -92,16 +92,16 @@ def test_strangers_criterion_is_scored_and_reported_without_its_file(
     assert_refused(command_here("score", file), "criterion force_2x_n: unknown")
 
 
-def test_strangers_criterion_comes_after_the_built_in_ones(stranger: Path) -> None:
-    load_plugin(stranger)
+def test_third_partys_criterion_comes_after_the_built_in_ones(third_party: Path) -> None:
+    load_plugin(third_party)
     assert list(CRITERIA)[-1] == "force_2x_n"
     assert len(CRITERIA) == 11
 
 
-def test_strangers_criterion_of_a_built_in_name_is_refused(stranger: Path) -> None:
-    stranger.write_text(STRANGER.replace("force_2x_n", "added_mass_kg"))
+def test_third_partys_criterion_of_a_built_in_name_is_refused(third_party: Path) -> None:
+    third_party.write_text(THIRD_PARTY.replace("force_2x_n", "added_mass_kg"))
     with pytest.raises(PluginError, match=r"second_force.py: criterion added_mass_kg: is built in"):
-        load_plugin(stranger)
+        load_plugin(third_party)
 
 
 @pytest.mark.parametrize(
@@ -120,11 +120,11 @@ def test_strangers_criterion_of_a_built_in_name_is_refused(stranger: Path) -> No
         ('.max("speed")', '.max("speed") * float("nan")', "no finite value for the option none"),
     ],
 )
-def test_wrong_values_of_a_stranger_are_one_line(
-    stranger: Path, judged: xr.Dataset, old: str, new: str, message: str
+def test_wrong_values_of_a_third_party_are_one_line(
+    third_party: Path, judged: xr.Dataset, old: str, new: str, message: str
 ) -> None:
-    stranger.write_text(STRANGER.replace(old, new))
-    load_plugin(stranger)
+    third_party.write_text(THIRD_PARTY.replace(old, new))
+    load_plugin(third_party)
     scale = {"weight": 1.0, "best": 0.0, "worst": 1.0}
     settings = Scoring.model_validate({"criteria": {"force_2x_n": scale}})
     with (

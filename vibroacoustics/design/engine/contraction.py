@@ -30,7 +30,7 @@ from .probe import (
     machine_of_design,
     stand_of_design,
 )
-from .sound_way import PathOfDesign, SoundPaths
+from .sound_path import PathOfDesign, SoundPaths
 
 Layouts = tuple[Layout, ...]
 

@@ -16,12 +16,12 @@ from .contraction import Contraction
 from .deviating import Gains
 from .hearing import HEARING
 from .machine_sample import MachineSample
+from .needs import Need
 from .option_engine import ARRAYS, OptionEngine, Outcome
 from .recognition import Explorer, Route
 from .runs import Scores
 from .samples import Samples
-from .seen import Need
-from .sound_way import SoundPaths
+from .sound_path import SoundPaths
 from .terms import Basis
 
 

@@ -10,8 +10,8 @@ from ...base.arrays import Array, ComplexArray, IndexArray
 from .deviating import WeightedLines, varied_bands
 from .expansion import Expansion, summed
 from .hearing import HEARING, Spectrum
+from .needs import PAIRED, Need
 from .on_mounts import Arrays, Lines, heard_spectrum, noise_of, pressure_by_source, seen_of
-from .seen import PAIRED, Need
 
 RANK: Final = 1e-13
 """Part of the largest singular value below which others are rounding."""
@@ -96,7 +96,7 @@ class PairedSound:
     Attributes
     ----------
     lines : lines in the bands that designs change
-    pressure : pressure per product of the variables, (product, source, receiver, line), Pa
+    pressure : pressure per product of the variables, shape (product, source, receiver, line), Pa
     noise : mean squares in these bands, shape (product, source, receiver, band), Pa²
     constant : mean square in the other bands, shape (pair, receiver), Pa²
     """
@@ -148,7 +148,7 @@ class FixedSpectrum:
     Attributes
     ----------
     lines : lines of the speed
-    pressure : pressure per product of the variables, (product, source, receiver, line), Pa
+    pressure : pressure per product of the variables, shape (product, source, receiver, line), Pa
     noise, thirds : mean squares of random loads, A-weighted and unweighted, shape
         (product or 1, source, receiver, band), Pa²; a single product where designs do
         not change them

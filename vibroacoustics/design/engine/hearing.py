@@ -16,7 +16,7 @@ from ...levels.measured_points import MIDDLE_HZ
 from ...sound.loudness import filter_gain, noise_gain, thirds_db
 from ...sound.predicted_audibility import predicted_audibility
 from ...sound.zwicker import LOUDEST_DB, core_loudness, total_loudness
-from .seen import Need
+from .needs import Need
 
 LOUDNESS: Final = Need("loudness")
 AUDIBILITY: Final = Need("audibility")

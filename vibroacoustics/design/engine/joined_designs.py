@@ -9,13 +9,13 @@ from ...base.errors import ParameterError, SolverError
 from .contraction import Contraction, Layouts
 from .hearing import HEARING, Spectrum
 from .linear_designs import chunk_of
+from .needs import Need, ResponsesByNeed
 from .on_mounts import Lines, seen_of, spectra_of
 from .probe import LoadsOfDesign, Parts, Stand
-from .seen import Need, Seen
-from .sound_way import PathOfDesign
+from .sound_path import PathOfDesign
 
 LinesOf = Callable[[Layouts, PathOfDesign], tuple[Lines, ...]]
-Joined = Iterator[tuple[IndexArray, Seen | Exception, list[Spectrum]]]
+Joined = Iterator[tuple[IndexArray, ResponsesByNeed | Exception, list[Spectrum]]]
 """Numbers of designs, their responses, shape (design, ...), or why they failed, and their
 spectra where loudness or audibility is requested."""
 
@@ -69,7 +69,7 @@ def _seen(
     on_loads: IndexArray,
     stands: Sequence[Stand | Exception],
     on_stand: IndexArray,
-) -> Iterator[tuple[slice, Seen | Exception, list[Spectrum]]]:
+) -> Iterator[tuple[slice, ResponsesByNeed | Exception, list[Spectrum]]]:
     """Compute designs of one path, chunk by chunk.
 
     Parameters

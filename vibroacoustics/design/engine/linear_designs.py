@@ -8,8 +8,8 @@ from ...base.arrays import Array
 from .expansion import Expansion
 from .fixed_mounts import FixedMounts, is_fixed
 from .hearing import HEARING, Spectrum
+from .needs import Need, ResponsesByNeed
 from .on_mounts import Lines, seen_of, spectra_of
-from .seen import Need, Seen
 
 CHUNK_BYTES: Final = 32e6
 """Size of the largest array of designs that are computed side by side."""
@@ -56,7 +56,7 @@ class LinearDesigns:
             fixed = FixedMounts.of(needs, lines, by_speed, body, designs)
         return cls(needs, lines, tuple(expansions), fixed)
 
-    def results(self, values: Array) -> Iterator[tuple[slice, Seen, list[Spectrum]]]:
+    def results(self, values: Array) -> Iterator[tuple[slice, ResponsesByNeed, list[Spectrum]]]:
         """Compute the responses of designs, shape (design, variable), chunk by chunk.
 
         The spectra are empty where neither loudness nor audibility is requested.
@@ -72,7 +72,7 @@ class LinearDesigns:
             return chunk_of(self.needs, self.lines)
         return chunk_of(self.needs, self.lines, 4 * len(self.expansions[0].terms.products))
 
-    def _of_chunk(self, values: Array) -> tuple[Seen, list[Spectrum]]:
+    def _of_chunk(self, values: Array) -> tuple[ResponsesByNeed, list[Spectrum]]:
         is_heard = any(need in HEARING for need in self.needs)
         if self.fixed is not None:
             spectra = self.fixed.spectra_of(values) if is_heard else []

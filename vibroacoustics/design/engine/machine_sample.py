@@ -42,8 +42,10 @@ class Unmodelled(NamedTuple):
 
     Attributes
     ----------
-    square : A-weighted mean square, with a measured baseline in its place, (pair, speed, receiver)
-    thirds : unweighted mean square without a baseline, (pair, speed, receiver, gain band), Pa²
+    square : A-weighted mean square, with a measured baseline in its place, shape (pair, speed,
+        receiver)
+    thirds : unweighted mean square without a baseline, shape (pair, speed, receiver, gain band),
+        Pa²
     """
 
     square: Array

@@ -11,9 +11,9 @@ from ...levels.by_source import GAIN_BANDS, gain_band_number
 from .deviating import Gains, WeightedLines
 from .hearing import HEARING, Spectrum
 from .layout import Layout
+from .needs import Need
 from .response import a_weight, displacement, foot_forces, natural_modes, pressure, size_of_vector
-from .seen import Need
-from .sound_way import RandomResponse, Responses
+from .sound_path import RandomResponse, Responses
 
 Arrays = Mapping[str, ComplexArray]
 ADDED = ("added", "foot_added")

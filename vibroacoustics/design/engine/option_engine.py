@@ -16,11 +16,11 @@ from .expansion import Expansion
 from .hearing import Hearing
 from .joined_designs import Joined, joined_designs
 from .linear_designs import LinearDesigns
+from .needs import Need, ResponsesByNeed
 from .on_mounts import Lines, lines_of
 from .probe import Probe
 from .recognition import NO_EFFECT, TESTS, Explorer, Route, fits, spread
-from .seen import Need, Seen
-from .sound_way import PathOfDesign
+from .sound_path import PathOfDesign
 from .terms import Basis, Terms, products_of
 
 ARRAYS: Final = frozenset({
@@ -35,7 +35,7 @@ MOST_JOINED: Final = 2048
 MOST_GROUPS: Final = 256
 """Sets of values that take runs, of which linear designs are kept."""
 ON_PATH: Final = "changes the path from the loads to the microphones"
-Score = Callable[[Array], Seen]
+Score = Callable[[Array], ResponsesByNeed]
 """Function of the values of a design, shape (variable,): requested criteria, shape (1,)."""
 
 
@@ -52,14 +52,14 @@ class Outcome:
     results: dict[Need, Array] = field(default_factory=dict)
     failed: dict[int, str] = field(default_factory=dict)
 
-    def take(self, rows: IndexArray, part: Seen, count: int) -> None:
+    def take(self, rows: IndexArray, part: ResponsesByNeed, count: int) -> None:
         """Add the responses of some of so many designs."""
         for need, values in part.items():
             if need not in self.results:
                 self.results[need] = np.full((count, *values.shape[1:]), np.nan)
             self.results[need][rows] = values
 
-    def take_or_fail(self, rows: IndexArray, part: Seen | Exception, count: int) -> None:
+    def take_or_fail(self, rows: IndexArray, part: ResponsesByNeed | Exception, count: int) -> None:
         """Add the responses of some of so many designs, or why they failed."""
         if isinstance(part, Exception):
             self.failed |= dict.fromkeys(rows.tolist(), str(part))

@@ -18,8 +18,8 @@ from ...results import storage
 from ...study.criterion import CRITERIA
 from ...study.study import Study
 from ..space import Space
-from .seen import Need, Seen
-from .sound_way import SoundPath, SoundPaths
+from .needs import Need, ResponsesByNeed
+from .sound_path import SoundPath, SoundPaths
 
 SLOW_S: Final = 0.2
 """A run that takes longer is kept on disk, too."""
@@ -43,7 +43,7 @@ class Scores:
     sound_paths: SoundPaths
     _slow: bool = True
 
-    def __call__(self, design: Array) -> Seen:
+    def __call__(self, design: Array) -> ResponsesByNeed:
         """Return the criteria of a design, shape (1,); all samples of the machine share them.
 
         Raises
@@ -53,10 +53,10 @@ class Scores:
         """
         study = self.space.quick_study_of(design)
         key = canonical_json(study.parameters()), self.option
-        scores: Seen = self.sound_paths.criteria(key, partial(self._cached, study))
+        scores: ResponsesByNeed = self.sound_paths.criteria(key, partial(self._cached, study))
         return scores
 
-    def _cached(self, study: Study) -> Seen:
+    def _cached(self, study: Study) -> ResponsesByNeed:
         """Return criteria from memory or disk; after the first run only slow ones get a file."""
         if not self._slow:
             return _scored(study, self.option, self.criteria, self.sound_paths)

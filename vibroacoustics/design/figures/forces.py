@@ -7,7 +7,7 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.registry import register
 from ...study.design import Wanted
-from ..engine.seen import Need, Seen
+from ..engine.needs import Need, ResponsesByNeed
 from ..figure import DesignFigure, Setting
 
 
@@ -20,7 +20,7 @@ class OrderFigure(DesignFigure):
         """The order's amplitude."""
         return (Need(self.what, wanted.order or 1),)
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Amplitude by speed; of feet the largest."""
         (need,) = self.needs(setting.wanted)
         return responses[need]
@@ -55,6 +55,6 @@ class FootForce(OrderFigure):
     position = 12.0
     what = "foot"
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Largest force into a foot by speed, N."""
         return np.asarray(super().values(responses, setting).max(axis=-1))

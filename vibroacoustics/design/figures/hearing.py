@@ -7,7 +7,7 @@ from ...base.decibel import power_of_level
 from ...base.registry import register
 from ...study.design import Wanted
 from ..engine.hearing import AUDIBILITY, LOUDNESS
-from ..engine.seen import Need, Seen
+from ..engine.needs import Need, ResponsesByNeed
 from ..figure import DesignFigure, Setting
 
 
@@ -23,7 +23,7 @@ class Loudness(DesignFigure):
         """Loudness."""
         return (LOUDNESS,)
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Loudness by speed and microphone, sone."""
         return responses[LOUDNESS]
 
@@ -41,6 +41,6 @@ class Audibility(DesignFigure):
         """Decisive audibility."""
         return (AUDIBILITY,)
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Power that the audibility is the level of: its mean is that of energies."""
         return power_of_level(responses[AUDIBILITY])

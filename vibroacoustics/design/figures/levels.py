@@ -6,7 +6,7 @@ from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.registry import register
 from ...study.design import Wanted
-from ..engine.seen import Need, Seen
+from ..engine.needs import Need, ResponsesByNeed
 from ..figure import DesignFigure, Setting
 
 
@@ -28,7 +28,7 @@ class Level(DesignFigure):
         """All sound."""
         return (Need("sound"),)
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Power over that of 0 dB(A)."""
         return _power(responses[Need("sound")])
 
@@ -51,7 +51,7 @@ class TotalLevel(Level):
     label = "Level of the machine"
     position = 3.0
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Power over that of 0 dB(A)."""
         return _power(responses[Need("sound")] + setting.unmodelled())
 
@@ -79,7 +79,7 @@ class OrderLevel(DesignFigure):
         """The order's sound."""
         return (Need("sound", wanted.order or 1),)
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Power over that of 0 dB."""
         (need,) = self.needs(setting.wanted)
         return _power(responses[need])

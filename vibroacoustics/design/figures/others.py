@@ -7,7 +7,7 @@ from ...base.errors import ParameterError
 from ...base.registry import register
 from ...base.units import shaft_frequency_hz
 from ...study.design import Wanted
-from ..engine.seen import Need, Seen
+from ..engine.needs import Need, ResponsesByNeed
 from ..figure import DesignFigure, Setting
 
 
@@ -23,7 +23,7 @@ class AddedMass(DesignFigure):
         """The option's figure."""
         return (Need("figure", None, "added_mass_kg"),)
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Mass, kg."""
         return responses[self.needs(setting.wanted)[0]]
 
@@ -42,7 +42,7 @@ class Reported(DesignFigure):
             raise ParameterError('reported: is missing; name the figure, as "stroke_amplitude_mm"')
         return (Need("figure", None, wanted.reported),)
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Figure in the unit of its name."""
         return responses[self.needs(setting.wanted)[0]]
 
@@ -60,7 +60,7 @@ class ResonanceMargin(DesignFigure):
         """Natural frequencies."""
         return (Need("natural"),)
 
-    def values(self, responses: Seen, setting: Setting) -> Array:
+    def values(self, responses: ResponsesByNeed, setting: Setting) -> Array:
         """Least of f_n / f_highest - 1 above and of 1 - f_n / f_lowest below the shaft's range.
 
         An order that is given multiplies the shaft's frequencies; below zero a resonance lies in

@@ -43,7 +43,7 @@ class PeriodicSolution:
     mesh : angles of the mesh points, rad, shape (steps + 1,)
     states : at the mesh points, shape (steps + 1, states); the last equals the first
     stages : at the collocation points, shape (steps, 3, states)
-    monodromy : derivative of the states after one cycle by those before, (states, states)
+    monodromy : derivative of the states after one cycle by those before, shape (states, states)
     """
 
     mesh: Array

@@ -32,7 +32,8 @@ class Contact:
     impacts : landings of the vane's tip
     jump_speed_rad_per_s : speed of the shaft above which the tip leaves
     vane_acceleration : inwards, shape (samples,), m/s²
-    tip_n : normal force of the tip, negative where frozen flight and contact differ, (samples,)
+    tip_n : normal force of the tip, negative where frozen flight and contact differ, shape
+        (samples,)
     tip_friction_n : friction of the vane on the roller against the turned normal, shape (samples,)
     slot_n : across the vane at mouth and rear end, on the vane, shape (2, samples)
     slot_friction_n : against the vane's motion inwards, shape (samples,)

@@ -43,8 +43,8 @@ def eccentricity_ratio(load_coefficient: Array, length_per_diameter: float) -> A
 
     Parameters
     ----------
-    load_coefficient : Φ_p (22), at least zero, shape (samples,)
-    length_per_diameter : l/d
+    load_coefficient : Φ_p (22), at least zero, shape (...)
+    length_per_diameter : length over diameter of the bearing, l/d
     """
     low, high = np.zeros_like(load_coefficient), np.ones_like(load_coefficient)
     ratio = 0.5 * high

@@ -31,8 +31,8 @@ class CrankForces:
 
     Attributes
     ----------
-    gas : F_g (1), on the piston towards -x
-    film : F_FG (7), on the piston along x
+    gas : F_g (1), on the piston towards -x, shape (samples,)
+    film : F_FG (7), on the piston along x, shape (samples,)
     contacts : constraint forces on the piston
     crank_pin : F_kx, F_ky (17), on the slider, shape (2, samples)
     upper_bearing, lower_bearing : F_a, F_b (30), on the crankshaft, shape (2, samples)

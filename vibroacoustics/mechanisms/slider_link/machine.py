@@ -48,9 +48,9 @@ class SliderLinkMachine(SliderLinkTables):
     speed_growth: ClassVar[Growth] = RECIPROCATING
     axes: ClassVar[str] = "along the cylinder (x), across (y) and along the shaft (z)"
     orders: ClassVar[str] = (
-        "Link and slider move the piston by a pure cosine of the crank angle: only the swing of "
-        "the shaft's speed under the gas load makes orders above the first. Orders are multiples "
-        "of the mean shaft frequency in time."
+        "Link and slider move the piston by a pure cosine of the crank angle. Orders above the "
+        "first are due to the variation of the shaft's speed under the gas load. Orders are "
+        "multiples of the mean shaft frequency in time."
     )
     limits: ClassVar[tuple[Limit, ...]] = (*Machine.limits, *SIZES)
 
@@ -86,15 +86,15 @@ class SliderLinkMachine(SliderLinkTables):
 
 
 _GAS_PATH: Final = (
-    "Sound and force that pass from the block to the shell through gas and oil are neglected: "
-    "above some hundred hertz they can carry more than the springs."
+    "Sound and force from the block to the shell through gas and oil are neglected. "
+    "Above some hundred hertz they can exceed those through the springs."
 )
 
 
 _LEAVES_OUT: Final = (
-    "Start and stop, in which the block swings widely on its springs, and knocks of the block "
-    "against the shell are not modelled; springs and discharge tube are linear and without mass, "
-    "so that their own resonances are missing.",
+    "Start and stop, in which the block swings widely on its springs, are not modelled, nor are "
+    "impacts of the block on the shell. Springs and discharge tube are linear and without mass: "
+    "their own resonances are missing.",
     "A weight on the shaft turns: it lowers the force along the stroke and makes one across it. "
     "It adds to the shaft's own counterweight, which holds the slider and a part of the piston "
     "already. The couple of an option's weights about the block's centre of mass is included, "

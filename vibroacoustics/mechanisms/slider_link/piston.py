@@ -175,8 +175,8 @@ def piston_contacts(
     mechanism : lengths in m
     state : motion of the crank
     axial_force_n : F_g - F_FG + m_p ẍ_p, first entry of the right side of (10), shape (samples,)
-    tilting_moment_n_m : third entry of the right side: m_p ẍ_p e_cl and the crank pin's friction
-        moment, shape (samples,)
+    tilting_moment_n_m : m_p ẍ_p e_cl and the crank pin's friction moment, third entry of the right
+        side of (10), shape (samples,)
     """
     senses = sign(-piston_velocity(mechanism, state)), sign(slider_velocity(mechanism, state))
     matrix = piston_matrix(

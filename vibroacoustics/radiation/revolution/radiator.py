@@ -102,7 +102,7 @@ def wall_pressure(
     Parameters
     ----------
     mesh : mesh of the meridian
-    null : points in the body where the field vanishes, (point, 2), m
+    null : points in the body where the field vanishes, shape (point, 2), m
     wavenumber : rad/m
     velocity : normal velocity at the nodes, (node, column) of each order, m/s
     floor_z_m : height of a hard floor

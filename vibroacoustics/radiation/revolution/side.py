@@ -175,7 +175,8 @@ class RevolutionSide:
         ----------
         pressure : result of `spectrum`
         addition : to them
-        points, table_hz : points (point, 3) and frequencies (frequency,) of the pressures
+        points, table_hz : points, shape (point, 3), and frequencies, shape (frequency,), of the
+            pressures
         name, progress : name and progress of the computation
         """
         indices = first_solved(table_hz)

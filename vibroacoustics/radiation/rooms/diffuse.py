@@ -81,7 +81,7 @@ def mean_square_per_power(
 
     Parameters
     ----------
-    frequency_hz : (frequency,), above 0
+    frequency_hz : frequencies above 0, shape (frequency,)
     distance_m : from the machine to the listener; 0.05 m at least is taken
     room : its absorption
     in_sight : whether the machine is in the listener's sight: see `line_of_sight`
@@ -134,7 +134,7 @@ def gain_at_position_db(waves: Array, diffuse: Array) -> float:
 
     Parameters
     ----------
-    waves, diffuse : mean square pressures (listener, third octave), Pa²; those without sound
+    waves, diffuse : mean square pressures, shape (listener, third octave), Pa²; those without sound
         are omitted
     """
     sounding = (waves > 0.0) & (diffuse > 0.0)

@@ -79,7 +79,7 @@ def random_absorption_slopes(admittance: ComplexArray) -> tuple[Array, Array]:
 
     Parameters
     ----------
-    admittance : admittance times rho c, (frequency,)
+    admittance : admittance times rho c, shape (frequency,)
     """
     node, weight = _quadrature()
     cosine = (node + 1.0) / 2.0
@@ -101,8 +101,8 @@ def octave_branches(weights: Array, quality: Array) -> Branches:
 
     Parameters
     ----------
-    weights : admittance of each branch there, (octave,)
-    quality : resonance frequency over bandwidth of each branch, (octave,)
+    weights : admittance of each branch there, shape (octave,)
+    quality : resonance frequency over bandwidth of each branch, shape (octave,)
     """
     omega = 2.0 * np.pi * np.array(OCTAVES_HZ[: weights.size])
     resistance = 1.0 / weights

@@ -66,8 +66,8 @@ def room_vectors(
     shell, settings : shell and settings of the machine; the room replaces the settings'
         surroundings for them
     room : without the machine
-    foot_m : foot of the axis of the shell on what it stands on, in the room's coordinates, (3,);
-        the axes of machine and room are parallel
+    foot_m : foot of the axis of the shell on what it stands on, in the room's coordinates, shape
+        (3,); the axes of machine and room are parallel
     listeners : (3,) by name, in the room's coordinates, m
     maximum_frequency_hz : maximum frequency of the waves
     motions : surface velocities besides the rigid motions

@@ -203,7 +203,7 @@ def room_transfer(
     room : its origin is the origin of all coordinates
     lattices : lattices of points, such as those of `join_lattices`
     microphones : (3,) by name, m
-    frequency_hz : (frequency,), up to the settings' highest
+    frequency_hz : frequencies up to the highest of the settings, shape (frequency,)
     settings : spacing and duration
     gradient : whether derivatives are asked for, too
     progress : reports steps done

@@ -10,8 +10,8 @@ from ..arrays import Array
 
 LEAST_NODES_PER_WAVE: Final = 3.5
 LARGEST_SPACING_M: Final = 0.128
-"""Largest spacing: flat L- and U-shaped rooms with blocks of 1.1 m and more have their natural
-frequencies within 0.1 %, with waves to 355, 710 and 1000 Hz."""
+"""Largest spacing: flat L-, U- and T-shaped rooms with blocks of at least 1.1 m have their natural
+frequencies within 0.1 %, with waves to 355, 710 and 1000 Hz (T: 1000 Hz)."""
 SAMPLES_PER_PERIOD: Final = 3.0
 """Samples of what is recorded, at the highest frequency: the pulse has next to nothing at twice
 that."""

@@ -33,8 +33,8 @@ def room_map(results: xr.Dataset) -> Chart:
     return Chart(
         "room_map",
         f"Level over the room, which spans {scale[1] - scale[0]:.0f} dB.",
-        f"A-weighted level {height:.3g} m above the floor at {speed:g} rpm, option none. Waves of "
-        "a monopole with the machine's power at its position, in third octaves to "
+        f"A-weighted level {height:.3g} m above the floor at {speed:g} rpm, option none. "
+        "Wave field of a monopole with the machine's power at its position, third octaves to "
         f"{float(level.attrs['highest_band_hz']):g} Hz. Cross: machine; dots: listeners; dotted: "
         "furniture below or above; grey: inside furniture.",
         (Panel(x, y, (image, *_furniture(room, height)), height=4.0, equal=True),),
@@ -86,9 +86,9 @@ def room_seam(results: xr.Dataset, listener: str | None = None) -> Chart:
     mean = "Difference and, dashed, its mean over listeners; grey: 2 dB"
     return Chart(
         "room_seam",
-        "Both methods around the frequencies where one follows the other, and their difference",
-        f"{name}: both methods around the crossover frequency. The machine shakes along x, y and z "
-        "with equal powers. The diffuse field is that of the power in the open.",
+        "Both methods near the crossover frequency, and their difference",
+        f"{name}: both methods near the crossover frequency, for a machine that shakes along x, y "
+        "and z with equal powers. The diffuse field is that of the power in the open.",
         (
             Panel(axis, Axis("dB"), gains, "Level at the listener re power level", 2.1),
             Panel(axis, Axis("dB"), differences, mean, 2.1),

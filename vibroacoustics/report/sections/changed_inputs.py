@@ -38,7 +38,6 @@ SOURCE: Final = "dominant source"
 LEVEL: Final = "level"
 OPTIONS: Final = "options"
 VIBRATION: Final = "vibration"
-HOLDS: Final = "No input or law below flips it."
 _NONE: Final = "none"
 _EMPTY: Final = {_NONE, rounding.NOTHING}
 """Cells of columns that are not shown where all are such."""
@@ -101,12 +100,12 @@ def _row(results: xr.Dataset, name: str, sizes: tuple[float, float]) -> Row:
         claims[SOURCE] = (
             f"the dominant source is {words}"
             if makes_most
-            else f"the dominant source is not settled, the largest is {words}"
+            else f"the dominant source is not settled; {words} is the largest"
         )
     if of_changes and balancers(results):
         changes = _extremes(results)
         lower, higher = by_effect(results)
-        claims[OPTIONS] = f"{_names(lower)} lowers it, {_names(higher)} raises it"
+        claims[OPTIONS] = f"{_names(lower)} lowers the level, {_names(higher)} raises it"
         best, _ = best_for_feet(results)
         claims[VIBRATION] = f"{best or 'no option'} reduces the foot force most"
     return Row(name, sizes, level, source, share, changes, claims)
@@ -181,9 +180,9 @@ def flip_list(results: xr.Dataset, rows: Sequence[Row]) -> Definitions:
             if name in flips(reported, row):
                 inputs = changed.setdefault(row.claims[name], [])
                 inputs.append(alternative_words(results, row.name))
-        said = [f"{' or '.join(inputs)}: {claim}." for claim, inputs in changed.items()]
-        words = " ".join(each[0].upper() + each[1:] for each in said)
-        entries.append(Definition(term, "flips" if said else "holds", words or HOLDS))
+        said = [f"{' or '.join(inputs)}: {claim}" for claim, inputs in changed.items()]
+        words = f"{_capital('; '.join(said))}." if said else "No input or law below flips it."
+        entries.append(Definition(term, "flips" if said else "holds", words))
     return Definitions(tuple(entries))
 
 
@@ -233,8 +232,14 @@ def _verdict(reported: Row, row: Row) -> str:
     few = [size for size in row.sizes if size < LEAST_EFFECTIVE]
     if not few:
         return flipped or "no"
-    what = "" if len(few) == len(row.sizes) else f"{flipped or 'no'}; changes: "
-    return f"{what}too few samples ({few[-1]:.0f} effective)"
+    effective = f"too few samples ({few[-1]:.0f} effective)"
+    if len(few) == len(row.sizes):
+        return _capital(effective)
+    return f"{flipped or 'no'}; changes: {effective}"
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:

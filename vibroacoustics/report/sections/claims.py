@@ -1,4 +1,4 @@
-"""Verified claims of the software on which a study depends: computed values beside references."""
+"""Claims of the software that apply to a study: computed values beside references."""
 
 from typing import Final
 
@@ -41,7 +41,7 @@ def _blocks(results: xr.Dataset) -> list[Block]:
     return [
         Text(
             f"{len(rows)} of {len(claims())} tested claims of the software apply to this study. "
-            f"{missed} printed values are missed, with the reason in claims.csv."
+            f"{missed} of them disagree with the printed value; claims.csv has the reasons."
         ),
         Table(f"The {SHOWN} closest to their tolerance", head, cells, frozenset({0, 1, 4})),
     ]

@@ -90,11 +90,11 @@ def room_sentence(results: xr.Dataset) -> str:
         f"{_TIMES.get(time, time)}"
         for time, limit in _limits(results).items()
     ]
-    beside = f" This is {' and '.join(limits)}." if limits else ""
+    beside = f" That is {' and '.join(limits)}." if limits else ""
     return (
-        f"In the room the machine without a balancer has {rounding.level(level)} dB(A) at "
-        f"{nearest_speed(results):g} rpm at {name}, the loudest listener.{beside} "
-        f"{_carrier_words(results, name)} {_best(results, name)}"
+        f"In the room the machine without a balancer is {rounding.level(level)} dB(A) at "
+        f"{name}, the loudest listener, at {nearest_speed(results):g} rpm.{beside} "
+        f"{_carrier_words(results, name)}{_best(results, name)}"
     )
 
 
@@ -129,14 +129,14 @@ def crossover_table(results: xr.Dataset) -> Table:
     """Waves less diffuse field of the power in the open at every listener, in third octaves."""
     difference = results["room_gain_difference"].transpose("listener", "seam_band").values
     named = dict(zip(listeners(results), difference, strict=True))
-    named["mean, for the gain of the place"] = results["room_place_gain"].values
+    named["mean, gain of the position"] = results["room_place_gain"].values
     rows = tuple((name, *map(rounding.signed, row.tolist())) for name, row in named.items())
     head = ("Listener", *(f"{band:g} Hz" for band in results["seam_band"].values))
     return Table("Waves less diffuse field of the power in the open, dB", head, rows)
 
 
 def crossover_sentence(results: xr.Dataset) -> str:
-    """Say where the two methods differ by more than is to be passed over, and what follows."""
+    """Say in which third octaves the two methods differ, and how the difference is used."""
     gain = results["room_place_gain"]
     alone = (results["room_gain_difference"] - gain).transpose("listener", "seam_band")
     at_one = [
@@ -145,15 +145,15 @@ def crossover_sentence(results: xr.Dataset) -> str:
         for third_octave in _large_differences(values)
     ]
     above = rounding.signed(float(results["room_place_gain_above"]))
-    none = "none"
+    none = "no third octave"
     return (
-        f"Third octaves with a level by waves more than {CROSSOVER_DB:g} dB off that of the "
-        f"diffuse field of the power in the open (mean over {len(listeners(results))} listeners): "
-        f"{', '.join(_large_differences(gain)) or none}. This mean is the gain of the power by the "
-        "machine's position, and is added to the diffuse field. Above the crossover frequency the "
-        f"gain is {above} dB; single third octaves may be 5 dB off (assumed). "
-        f"Single listeners more than {CROSSOVER_DB:g} dB off the mean: "
-        f"{', '.join(at_one) or none}."
+        "Waves and the diffuse field of the power in the open differ by more than "
+        f"{CROSSOVER_DB:g} dB, in the mean over {len(listeners(results))} listeners, at "
+        f"{', '.join(_large_differences(gain)) or none}. This mean is the gain of the machine's "
+        "position and corrects the diffuse field. "
+        f"Above the waves the gain is {above} dB; single third octaves may be 5 dB off (assumed). "
+        "Single listeners differ from the mean by more than "
+        f"{CROSSOVER_DB:g} dB at {', '.join(at_one) or none}."
     )
 
 
@@ -197,9 +197,9 @@ def power_sentence(results: xr.Dataset) -> str:
         f"{published['distance_m']:g} m and {published['speed_rpm']:g} rpm"
     )
     return (
-        f"On a hard floor in the open the nominal sound power level is "
-        f"{_level(results, 'room_sound_power_level', name)} dB(A) re 1 pW. {noise}. "
-        f"The airborne level in the room is {_level(results, 'room_level', name)} dB(A) at {name}."
+        "On a hard floor in the open the machine has a sound power level of "
+        f"{_level(results, 'room_sound_power_level', name)} dB(A) re 1 pW, nominal. {noise}. "
+        f"Airborne sound in the room is {_level(results, 'room_level', name)} dB(A) at {name}."
     )
 
 
@@ -239,8 +239,8 @@ def _best(results: xr.Dataset, listener: str) -> str:
     least = min(each, key=lambda option: each[option])
     change = each[least] - _both(results, listener)
     if change > -_LEAST_DB:
-        return "No option changes that."
-    return f"Option {least} lowers it most, {rounding.signed(change)} dB."
+        return f" No option lowers it by {_LEAST_DB:g} dB or more."
+    return f" Option {least} lowers it most, {rounding.signed(change)} dB."
 
 
 def _limits(results: xr.Dataset) -> dict[str, float]:

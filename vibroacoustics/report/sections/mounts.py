@@ -90,7 +90,7 @@ def block_table(results: xr.Dataset) -> Table | None:
     )
     caption = (
         "Displacement of the block against the shell at its springs, mm: largest of the four "
-        "springs and of a revolution, without the sag; start and stop are not modelled"
+        "springs and of a revolution, without the sag. Start and stop are not modelled"
     )
     return Table(caption, ("Option", *(f"At {speed:g} rpm" for speed in speeds(results))), rows)
 

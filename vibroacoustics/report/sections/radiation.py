@@ -43,9 +43,9 @@ def line_difference_sentence(results: xr.Dataset) -> str:
     line = results["order_level"].sel(order=1, weighting="Z")
     gap = abs(results["line_difference"]).where(line > rounding.LEVEL_FLOOR_DB)
     return (
-        "The 1× level of the two differs by at most "
+        "The 1× line differs between the methods by at most "
         f"{rounding.fixed(float(gap.max().fillna(0.0)), 3)} dB, over all options, speeds and "
-        "microphones where the line has a level."
+        "microphones at which it has a level."
     )
 
 

@@ -130,9 +130,9 @@ def resolved_sentence(results: xr.Dataset) -> str:
         for name, count in zip(shares["knowledge"].values, counts, strict=True)
     ]
     return (
-        "Resolved shares of the variance of the modelled level at "
-        f"{catalogue_receiver(results)}, of {shares.sizes['uncertain_parameter']} parameters: "
-        f"{', '.join(words)}."
+        "Shares in the variance are of the modelled level at "
+        f"{catalogue_receiver(results)}. Number of parameters with a resolved share, of "
+        f"{shares.sizes['uncertain_parameter']}: {', '.join(words)}."
     )
 
 

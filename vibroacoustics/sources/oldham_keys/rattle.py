@@ -18,8 +18,8 @@ from .integration import SPEED, integrate
 from .parameters import OldhamKeys
 
 SETTLING_REVOLUTIONS: Final = 4
-"""Revolutions that are omitted after the start midway in the slots. At rated load, at all corners
-of the assumed ranges, forces are then within 2e-8 N of those after ten."""
+"""Revolutions omitted after the start, which has the keys midway in the slots. At rated load, at
+all corners of the assumed ranges, forces are then within 2e-8 N of those after ten."""
 REPEATED: Final = 1e-4
 """Change of forces from one revolution to the next, of the largest, below which they repeat; the
 one that follows is a fifth of it or less. A tenth of it changes no level by more than 0.003 dB."""

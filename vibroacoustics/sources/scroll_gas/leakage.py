@@ -93,11 +93,18 @@ class LeakingPockets:
 
     @property
     def _until_open(self) -> Array:
-        """Crank angles of a pocket since it closed, at half steps, up to its opening."""
+        """Crank angles since a closing at half steps, of pockets; those of contacts go further."""
         return self._angle[: -2 * STEPS]
 
     def _mass(self, opens_with: float) -> float:
-        """Return the mass of a pair of pockets without leakage, kg, from the gas at the opening."""
+        """Return the mass of a pair without leakage, kg.
+
+        At its opening a pair has the density of the opening's gas at the pair's pressure.
+
+        Parameters
+        ----------
+        opens_with : mass of a pair at its opening, over that without leakage
+        """
         c = self._opening
         pressure = self._built_in * opens_with**self._index
         density = c.density * (pressure / c.pressure) ** (1.0 / c.stiffness_exponent)

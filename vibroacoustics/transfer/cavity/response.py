@@ -15,7 +15,8 @@ class DrivenGas:
     Attributes
     ----------
     wavenumber_squared : k² of the modes, shape (mode,), 1/m²
-    at_source, at_tube : φ at the source and at the mouth of a tube without reflection, (mode,)
+    at_source, at_tube : φ at the source and at the mouth of a tube without reflection, shape
+        (mode,)
     on_wall : ∫ φ ψ dS with the outward motion ψ of each of the wall's modes, shape (mode, wall)
     tube_area_m2 : cross-section of the tube; 0 for none
     quality_ratio : Q

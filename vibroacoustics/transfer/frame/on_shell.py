@@ -64,16 +64,16 @@ class FrameOnShell:
     def sound(
         self, modes: ComplexArray, rigid: ComplexArray, frequency_hz: Array, gain: float = 1.0
     ) -> SoundPerForce:
-        """Compute pressure per load on the parts and per force on the shell's modes.
+        """Pressure per load on the parts and per force on the shell's modes.
 
-        It is zero at frequency zero, and lacks that of the machine as one rigid body.
+        Zero at frequency zero; that of the machine as one rigid body is not included.
 
         Parameters
         ----------
         modes : pressure per velocity of the shell's modes, shape (receiver, mode, frequency),
             Pa s/m
-        rigid : pressure per velocity of the six rigid motions about the centre of mass, shape
-            (receiver, 6, frequency), Pa s/m and Pa s/rad
+        rigid : pressure of its six rigid motions about the centre of mass, shape (receiver, 6,
+            frequency), Pa s/m and Pa s/rad
         frequency_hz : shape (frequency,)
         gain : gain of the modes' pressure
         """
@@ -101,7 +101,7 @@ class FrameOnShell:
     ) -> ComplexArray:
         """Velocities of the shell's modes and then of its six rigid motions, (motion, frequency).
 
-        None at frequency zero; without that of the machine as one rigid body.
+        Zero at frequency zero; that of the machine as one rigid body is not included.
 
         Parameters
         ----------

@@ -123,7 +123,7 @@ def _not_an_order(results: xr.Dataset) -> str:
     figures = results["reported_figure"].sel(option=REFERENCE_OPTION)
     motor = float(figures.sel(figure=LINE_FIGURE).max())
     return (
-        f"Twice the line frequency is no order of the shaft: {_twice_line(results)}. "
+        f"Twice the line frequency is not an order of the shaft. It is {_twice_line(results)}. "
         f"{_derived_supply(results)}It is a source of its own; its foot force is at most "
         f"{rounding.significant(motor)} N."
     )

@@ -78,8 +78,8 @@ def contributions(results: xr.Dataset) -> Intervals:
     caption = f"Contributions to the level at {where}"
     medians = ", nor do medians" if has_samples(results) else ""
     note = (
-        f"Each source alone, down to {_QUIETEST_DB:g} dB below the machine. Levels in dB do not "
-        f"add up{medians}."
+        f"Each source alone: the largest, and those within {_QUIETEST_DB:g} dB of the machine. "
+        f"Levels in dB do not add up{medians}."
     )
     return Intervals(caption, ("", f"dB(A){of}"), tuple(rows), scale, None, note)
 

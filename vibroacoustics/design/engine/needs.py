@@ -33,7 +33,7 @@ class Need(NamedTuple):
 
 PAIRED: Final = ("sound", "loudness", "audibility")
 """Responses that an engine gives for each pair of a discrepancy and an unmodelled level."""
-Seen = Mapping[Need, Array]
+ResponsesByNeed = Mapping[Need, Array]
 """Responses by need, (design, speed, ...): receivers of sound, feet; (design, mode), Hz, of
 `natural`.
 

@@ -1,4 +1,4 @@
-"""Strangers' things, one file each outside the package: from the command line to the report."""
+"""Plug-ins, one file each outside the package: from the command line to the report."""
 
 import json
 import os
@@ -20,7 +20,7 @@ from vibroacoustics.results.estimates import nominal
 from vibroacoustics.results.storage import open_results
 from vibroacoustics.study.loading import load_study
 
-STRANGERS = ROOT / "tests" / "strangers"
+THIRD_PARTY = ROOT / "tests" / "third_party"
 OPTION = """
 [options.counter-shaft]
 kind = "counter-shaft"
@@ -96,12 +96,12 @@ def forgetful_command(*words: object, path: Path | None = None) -> subprocess.Co
 
 
 def plugins(*names: str) -> list[object]:
-    return [word for name in names for word in ("--plugin", STRANGERS / f"{name}.py")]
+    return [word for name in names for word in ("--plugin", THIRD_PARTY / f"{name}.py")]
 
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory) -> Path:
-    """The tiny study with a stranger's balancer and criterion, on its coarsest settings."""
+    """The tiny study with a third party's balancer and criterion, on its coarsest settings."""
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
     text = text.replace("[receivers.", OPTION.lstrip("\n"), 1)
     text = text.replace("[scoring.criteria]\n", CRITERION)
@@ -269,7 +269,7 @@ def test_the_report_is_made_again_without_the_files(finished, tmp_path):
 
 @pytest.fixture
 def refused():
-    """Asserts a refusal by the command line of this process, which forgets the strangers again."""
+    """Asserts a refusal by the command line of this process, which forgets the plug-ins again."""
 
     def refused(words: list[object], *said: str) -> None:
         assert_refused(forgetful_command(*words), *said)
@@ -297,7 +297,7 @@ def test_refusal_names_key_unit_and_bounds(study, refused, tmp_path):
 
 def test_a_name_that_is_built_in_is_refused(study, tmp_path):
     clash = tmp_path / "clash.py"
-    text = (STRANGERS / "counter_shaft.py").read_text()
+    text = (THIRD_PARTY / "counter_shaft.py").read_text()
     clash.write_text(text.replace('"counter-shaft"', '"lanchester"'))
     outcome = forgetful_command("run", study, "--plugin", clash)
     assert_refused(outcome, "clash.py: kind of option lanchester: is built in")
@@ -305,14 +305,16 @@ def test_a_name_that_is_built_in_is_refused(study, tmp_path):
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory) -> Path:
-    """A folder of installed packages that holds the strangers with their entry points."""
+    """A folder of installed packages that holds the plug-ins with their entry points."""
     folder = tmp_path_factory.mktemp("site")
-    for file in STRANGERS.glob("*.py"):
+    for file in THIRD_PARTY.glob("*.py"):
         text = file.read_text().replace("@vibroacoustics.register\n", "")
         (folder / file.name).write_text(text)
-    information = folder / "strangers-1.2.dist-info"
+    information = folder / "third_party-1.2.dist-info"
     information.mkdir()
-    (information / "METADATA").write_text("Metadata-Version: 2.1\nName: strangers\nVersion: 1.2\n")
+    (information / "METADATA").write_text(
+        "Metadata-Version: 2.1\nName: third_party\nVersion: 1.2\n"
+    )
     (information / "entry_points.txt").write_text(ENTRY_POINTS)
     return folder
 
@@ -326,7 +328,7 @@ def test_installed_packages_need_no_word_on_the_command_line(study, installed, t
 
 
 def rotor_study(folder: Path) -> Path:
-    """A study of a stranger's machine: the Copeland's housing with a lone rotor in it."""
+    """A study of a third party's machine: the Copeland's housing with a lone rotor in it."""
     machine = (ROOT / "data" / "machines" / "copeland_zp41k3e.toml").read_text()
     tables = re.split(r"(?m)^(?=\[)", machine)
     kept = [
@@ -364,7 +366,7 @@ def test_a_kind_of_machine_runs_to_the_report(refused, tmp_path):
     refused(["run", study, "--out", tmp_path / "no"], "machine.kind = lone-rotor: unknown")
 
 
-def test_a_ring_option_is_refused_on_a_strangers_machine(refused, tmp_path):
+def test_a_ring_option_is_refused_on_a_third_partys_machine(refused, tmp_path):
     study = rotor_study(tmp_path)
     ring = '[options.damped]\nkind = "ring-damping"\ndamping_ns_per_m = 5.0\n\n[receivers.'
     study.write_text(study.read_text().replace("[receivers.", ring, 1))

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from support import ROOT, TINY, assert_refused, command_here, made_up_radiation
-from test_strangers import STRANGERS, rotor_study
+from test_third_party import THIRD_PARTY, rotor_study
 
 from vibroacoustics import pipeline, report
 from vibroacoustics.base import registry
@@ -372,7 +372,7 @@ MACHINES = {
 def test_machine_ends_the_run_in_one_line(tmp_path, body, said):
     study, file = rotor_study(tmp_path), tmp_path / "rotor.py"
     head = "    def revolution(self, speed_rpm, samples):\n"
-    code = (STRANGERS / "lone_rotor.py").read_text()
+    code = (THIRD_PARTY / "lone_rotor.py").read_text()
     code = re.sub(r"    def revolution\(.*\n", f"{head}        {body}\n", code)
     file.write_text(code)
     run = ["run", study, "--out", tmp_path / "out", "--plugin", file]

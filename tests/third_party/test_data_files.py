@@ -37,7 +37,7 @@ def _plugin(monkeypatch):
         len(each)  # fills it
         for name in ("_things", "_origins"):
             monkeypatch.setattr(each, name, dict(getattr(each, name)))
-    va.load_plugin(ROOT / "tests" / "strangers" / "bench_force.py")
+    va.load_plugin(ROOT / "tests" / "third_party" / "bench_force.py")
     yield
     for name in set(sys.modules) - modules:
         if name.startswith("plugin_"):

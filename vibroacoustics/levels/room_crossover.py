@@ -22,16 +22,17 @@ def shown_bands(between_hz: tuple[float, float]) -> IndexArray:
 def crossover_variables(
     listeners: Sequence[str], shown: IndexArray, waves: Array, diffuse: Array, gains_db: Array
 ) -> xr.Dataset:
-    """Levels at the listeners over the sound power level by both methods, and their difference.
+    """Levels at the listeners relative to the sound power level by both methods, and difference.
 
     Parameters
     ----------
     listeners : names of the listeners
     shown : numbers of the bands, shape (shown band,)
-    waves : mean square per power, shape (listener, shown band), Pa²/W
-    diffuse : gain by direct sound, same shape, and diffuse field, relative to the power in the open
-    gains_db : mean difference of both methods over the listeners, dB, shape (shown band + 1,): of
-        the bands, and of all bands above; not part of the curves
+    waves : mean square per power by waves, shape (listener, shown band), Pa²/W
+    diffuse : mean square by direct sound and diffuse field per power in the open, shape (listener,
+        shown band), Pa²/W
+    gains_db : gain of the diffuse field in the shown bands and in all bands above, shape (shown
+        band + 1,), dB: mean difference of both methods over the listeners, not part of `diffuse`
     """
     bands = [BASELINE_BANDS[number].nominal_hz for number in shown]
     by_waves, by_power = (

@@ -40,7 +40,7 @@ class RandomResponse:
     ----------
     source : number of the source
     per_density : shape (line, force times force, receiver), Pa² Hz per unit
-    a_weight, member : share of each line in each gain band, A-weighted and not, (line, band)
+    a_weight, member : share of each line in each gain band, A-weighted and not, shape (line, band)
     """
 
     source: int
@@ -56,7 +56,7 @@ class Responses:
     Attributes
     ----------
     per_velocity : pressure per velocity of the rigid motions, shape (receiver, 6, line), Pa s/m
-    per_load : pressure per load on the ports in the shell, (receiver, component, line), Pa/N
+    per_load : pressure per load on the ports in the shell, shape (receiver, component, line), Pa/N
     random : responses to random loads
     """
 

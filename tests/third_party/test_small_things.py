@@ -1,4 +1,4 @@
-"""Strangers' sections, columns, variables, units, readers: by file and as installed packages."""
+"""Plug-ins: sections, columns, variables, units, readers: by file and as installed packages."""
 
 import json
 import re
@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support import ROOT, TINY, assert_refused, command_here, tiny_run
-from test_strangers import STRANGERS, command, forgetful_command, plugins
+from test_third_party import THIRD_PARTY, command, forgetful_command, plugins
 
 from vibroacoustics.results.storage import open_results, write_results
 
@@ -41,19 +41,21 @@ def installed(tmp_path_factory) -> Path:
     """A folder of installed packages: the files, which register nothing, and entry points."""
     folder = tmp_path_factory.mktemp("site")
     for name in MODULES:
-        text = (STRANGERS / f"{name}.py").read_text()
+        text = (THIRD_PARTY / f"{name}.py").read_text()
         plain = re.sub(r"(?m)^@?vibroacoustics\.register.*\n", "", text)
         (folder / f"{name}.py").write_text(plain)
-    information = folder / "strangers-1.2.dist-info"
+    information = folder / "third_party-1.2.dist-info"
     information.mkdir()
-    (information / "METADATA").write_text("Metadata-Version: 2.1\nName: strangers\nVersion: 1.2\n")
+    (information / "METADATA").write_text(
+        "Metadata-Version: 2.1\nName: third_party\nVersion: 1.2\n"
+    )
     (information / "entry_points.txt").write_text(ENTRY_POINTS)
     return folder
 
 
 @pytest.fixture(params=["installed", pytest.param("by file", marks=pytest.mark.long)])
-def stranger(request, installed):
-    """The command line of this process with the strangers' things."""
+def third_party(request, installed):
+    """The command line of this process with the plug-ins."""
 
     def run(*words: object, names: tuple[str, ...]):
         if request.param == "installed":
@@ -68,9 +70,9 @@ def results_file(tmp_path_factory) -> Path:
     return write_results(tiny_run(), tmp_path_factory.mktemp("results") / "results.nc")
 
 
-def test_section_column_and_variable_are_shown(stranger, results_file, tmp_path):
+def test_section_column_and_variable_are_shown(third_party, results_file, tmp_path):
     names = ("floor_force", "third_force")
-    outcome = stranger("report", results_file, "--out", tmp_path / "out", names=names)
+    outcome = third_party("report", results_file, "--out", tmp_path / "out", names=names)
     assert outcome.returncode == 0, outcome.stderr
     page = (tmp_path / "out" / "comparison.md").read_text()
     assert "is missing:" not in page
@@ -82,12 +84,12 @@ def test_section_column_and_variable_are_shown(stranger, results_file, tmp_path)
     assert csv[0].endswith(",force_3x_n")
 
 
-def test_stage_gives_its_variable_and_section(stranger, tmp_path):
+def test_stage_gives_its_variable_and_section(third_party, tmp_path):
     """Severity of the worst axis by hand; the report is made again without the plug-in."""
     out, study = tmp_path / "out", tmp_path / "study.toml"
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
     study.write_text(text.replace("[radiation]\n", '[radiation]\nroom_solver = "closed-form"\n'))
-    outcome = stranger("run", study, "--out", out, names=("vibration_severity",))
+    outcome = third_party("run", study, "--out", out, names=("vibration_severity",))
     assert outcome.returncode == 0, outcome.stderr
     results = open_results(out / "results.nc")
     severity = results["vibration_severity"].sel(option="none").values
@@ -104,7 +106,7 @@ def test_stage_gives_its_variable_and_section(stranger, tmp_path):
         assert "## Vibration severity" in (page / "comparison.md").read_text()
 
 
-def test_unit_is_read_and_told(stranger, tmp_path):
+def test_unit_is_read_and_told(third_party, tmp_path):
     text = TINY.read_text().replace("../../data", str(ROOT / "data"))
     option = """[options.weight]
 kind = "counterweight"
@@ -118,7 +120,7 @@ height_mm = { value = 0.0, source = "a test" }
     study.write_text(text.replace("[receivers.", option, 1))
     without = command_here("run", study)
     assert_refused(without, "options.weight.radius_inch: unknown key")
-    outcome = stranger("run", study, names=("inches",))
+    outcome = third_party("run", study, names=("inches",))
     assert_refused(
         outcome, "options.weight.radius_inch = 400.0 in: out of range", "above 0 to 19.685 in"
     )
@@ -152,10 +154,10 @@ def test_reader_gives_the_requested_channels(installed, tmp_path):
     assert origin["file"] == "plain_bytes.py"
 
 
-def test_missing_package_of_a_reader_is_named(stranger, tmp_path):
+def test_missing_package_of_a_reader_is_named(third_party, tmp_path):
     file = tmp_path / "bad.process"
     file.write_bytes(bytes(100))
-    outcome = stranger("orders", file, "--rpm", "3000", names=("reading_process",))
+    outcome = third_party("orders", file, "--rpm", "3000", names=("reading_process",))
     assert_refused(outcome, "needs no_such_module: pip install process-of-pip")
 
 
