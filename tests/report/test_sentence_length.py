@@ -12,6 +12,7 @@ from vibroacoustics.report import render
 
 MOST_WORDS = 25
 LISTS = (
+    "Number of parameters with a resolved share",
     "Dominant paths to ", "Without a balancer the 1× force and moment ",
     "Waves and the diffuse field of the power in the open differ by more than ",
 )  # fmt: skip

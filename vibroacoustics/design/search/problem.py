@@ -32,8 +32,8 @@ class SearchProblem:
         Each integer has an equal part of its range.
         """
         span = self.upper - self.lower
-        whole = self.lower + np.minimum(np.floor(shares * (span + 1.0)), span)
-        return np.where(self.integer, whole, self.lower + shares * span)
+        steps = np.minimum(np.floor(shares * (span + 1.0)), span)
+        return self.lower + np.where(self.integer, steps, shares * span)
 
     def shares(self, designs: Array) -> Array:
         """Return designs as shares of the ranges, shape (..., variable).
