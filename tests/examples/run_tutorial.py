@@ -2,7 +2,7 @@
 
 A `console` block has commands after `$` and lines that they print; `…` omits lines. A block with a
 caption changes the file of that name: TOML replaces values and adds tables, text is the file.
-`--write` puts the numbers of the real lines into the shown ones.
+`--write` puts the numbers of the real lines into the shown ones, `--figures` takes the pictures.
 """
 
 import os
@@ -13,10 +13,17 @@ import sys
 import tempfile
 from pathlib import Path
 
+from PIL import Image
+
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "tutorial.md"
 CONSOLE = r"^```console\n(?P<console>.*?)^```$"
 FILE = r"^```\{code-block\} (?P<kind>\w+)\n:caption: (?P<file>\S+)\n\n(?P<text>.*?)^```$"
 BLOCK = re.compile(f"{CONSOLE}|{FILE}", re.MULTILINE | re.DOTALL)
+FIGURES = {
+    "tutorial_first_screen.png": "scroll/reports/study/report.html",
+    "tutorial_compared.png": "scroll/reports/bench/compared.html",
+}
+"""Pictures of the page, by the reports of which they are the first screens."""
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
 RELATIVE, LAST_DIGITS = 0.02, 1.0
 """Difference that another processor and other versions of libraries make in shown numbers."""
@@ -135,11 +142,23 @@ def close(shown: str, printed: str) -> bool:
     return abs(float(shown) - float(printed)) <= allowed * (1.0 + 1e-9)
 
 
+def take(folder: Path) -> None:
+    """Take the pictures of the reports in a folder, with Chromium."""
+    for name, report in FIGURES.items():
+        picture = PAGE.parent / "figures" / name
+        subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu",
+                        "--hide-scrollbars", "--window-size=1280,960", f"--screenshot={picture}",
+                        (folder / report).as_uri()], check=True, timeout=170)  # fmt: skip
+        Image.open(picture).quantize(64).save(picture, optimize=True)
+
+
 def main() -> None:
-    """Follow the page; print the differences, or write the real lines."""
+    """Follow the page; print the differences, write the real lines or take the pictures."""
     page = PAGE.read_text(encoding="utf-8")
     with tempfile.TemporaryDirectory() as folder:
         differences, real = follow(page, Path(folder))
+        if "--figures" in sys.argv:
+            take(Path(folder))
     print("\n".join(differences))
     if "--write" in sys.argv:
         PAGE.write_text(real, encoding="utf-8")

@@ -52,6 +52,20 @@ class Band(NamedTuple):
         """`48.9`."""
         return rounding.to_unit(self.middle, self.units[1], write)
 
+    def as_part_of(self, total: "Band") -> "Band":
+        """Return the band in the total's units where rounding alone puts it above the total.
+
+        A part has less energy than its total in every sample, so that the total limits its error.
+        """
+        units = [
+            of_total if part <= whole and _rounded(part, unit) > _rounded(whole, of_total) else unit
+            for part, unit, whole, of_total in zip(
+                self[:3], self.units, total[:3], total.units, strict=True
+            )
+        ]
+        low, middle, high = units
+        return self._replace(units=(low, middle, high))
+
     def in_percent(self) -> str:
         """`20 % (3 % to 59 %)`, of shares."""
         small = [0.0 < share < 0.5 * FINEST_RATIO for share in self[:3]]
@@ -59,6 +73,10 @@ class Band(NamedTuple):
             0.0 if is_small else unit for is_small, unit in zip(small, self.units, strict=True)
         )
         return self._replace(units=(low, middle, high)).middle_and_ends(_whole_percent)
+
+
+def _rounded(value: float, unit: float) -> float:
+    return unit * np.round(value / unit) if unit else value
 
 
 def fixed(value: Estimate) -> str:

@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 
 import vibroacoustics as va
+from vibroacoustics.base import rounding
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.results.bands import FINEST_DB, Band, written
@@ -155,6 +156,17 @@ def test_digits_follow_the_number_of_samples(effective: float, units: tuple[floa
     band = written(Estimate(40.0, 45.0, 50.0), effective, FINEST_DB)
     assert band == Band(40.0, 45.0, 50.0, band.units)
     assert band.units == pytest.approx(units)
+
+
+def test_rounding_puts_no_part_above_its_total() -> None:
+    total = Band(54.2, 56.3, 58.9, (1.0, 1.0, 1.0))
+    part = Band(22.0, 44.0, 57.0, (10.0, 10.0, 10.0))
+    assert part.middle_and_ends(rounding.level) == "40 (20 to 60)"
+    assert part.as_part_of(total).middle_and_ends(rounding.level) == "40 (20 to 57)"
+    louder = part._replace(highest=61.0)
+    assert louder.as_part_of(total) == louder
+    median = part._replace(middle=55.4)
+    assert median.as_part_of(total).middle_and_ends(rounding.level) == "55 (20 to 57)"
 
 
 def test_amounts_and_nominal_values_have_their_own_digits() -> None:

@@ -165,20 +165,24 @@ def unknowns_table(results: xr.Dataset, among: Collection[str] | None = None) ->
     return Table(caption, ("Parameter", *values, *of_variance), rows)
 
 
-def most_valuable(results: xr.Dataset) -> str:
-    """Return the most valuable measurement; empty where the samples do not show one."""
+def most_valuable(results: xr.Dataset) -> tuple[str, str] | None:
+    """Return what the most valuable measurement is for, and the measurement.
+
+    None where the samples do not show one.
+    """
     if "parameter_information" in results:
         for choice in results["choice"].values.tolist():
             here = results.sel(choice=choice)
             best = _best(here)
             if float(here["perfect_information"]) >= SMALLEST_DB and best is not None:
-                return named(str(results["uncertain_parameter"].values[best]))
+                measurement = named(str(results["uncertain_parameter"].values[best]))
+                return f"the choice of an option on {choice}", measurement
     measured = "baseline_band_level" in results or "spectrum_measured" in results
     if measured or not has_samples(results):
-        return ""
+        return None
     if overall_noise(results) is None:
-        return "the A-weighted level at a microphone, as none is published"
-    return "a third-octave spectrum at a microphone"
+        return "the level", "the A-weighted level at a microphone, as none is published"
+    return "the dominant source", "a third-octave spectrum at a microphone"
 
 
 def measure_next_sentence(results: xr.Dataset) -> str:

@@ -63,11 +63,11 @@ def contributions(results: xr.Dataset) -> Intervals:
         text = f"{level:g} ± {deviation:g}"
         rows.insert(0, Interval(_kind(results), text, *bounds, "published"))
     if noise is not None:
-        rows.append(
-            _contribution(UNMODELLED, band(results, "residual_level", **coordinates), "part")
-        )
+        unmodelled = band(results, "residual_level", **coordinates).as_part_of(total)
+        rows.append(_contribution(UNMODELLED, unmodelled, "part"))
     for number, source in enumerate(ranked(results, speed)):
         level_of = band(results, "source_level", **coordinates, sound_source=source)
+        level_of = level_of.as_part_of(total)
         if number == 0 or level_of.highest > total.middle - _QUIETEST_DB:
             rows.append(_contribution(source_name(results, source), level_of, "part"))
     ends = [end for row in rows for end in (row.low, row.high) if np.isfinite(end)]
@@ -273,8 +273,11 @@ def best_for_feet(results: xr.Dataset) -> tuple[str, bool]:
 
 
 def _measurement(results: xr.Dataset) -> str:
-    measurement = most_valuable(results)
-    return f"Most valuable measurement: {measurement}." if measurement else ""
+    wanted = most_valuable(results)
+    if wanted is None:
+        return ""
+    purpose, measurement = wanted
+    return f"Most valuable measurement for {purpose}: {measurement}."
 
 
 def _at_largest(of_quantity: Shift) -> Band:
