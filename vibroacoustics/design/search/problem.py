@@ -33,7 +33,7 @@ class SearchProblem:
         """
         span = self.upper - self.lower
         steps = np.minimum(np.floor(shares * (span + 1.0)), span)
-        return self.lower + np.where(self.integer, steps, shares * span)
+        return np.asarray(self.lower + np.where(self.integer, steps, shares * span))
 
     def shares(self, designs: Array) -> Array:
         """Return designs as shares of the ranges, shape (..., variable).
