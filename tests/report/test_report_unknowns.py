@@ -77,7 +77,7 @@ def test_shares_are_given_only_where_their_interval_lies_above_chance():
     assert plain(gain[5]) == "70 % (56 % to 77 %)"
     assert len(gain) == 6  # no column of the prior with which nothing is resolved
     text = plain(resolved_sentence(results))
-    assert "Number of parameters with a resolved share, of 3: 1 by the ranges alone" in text
+    assert "Parameters with resolved shares, of 3: 1 by the ranges alone" in text
     assert "1 by the ranges alone, 1 with the published data, prior flat, 0 with" in text
     index = unknowns_table(with_unknowns(floors=(0.121, 0.1, 0.9))).rows[1]
     assert plain(index[4]) == NOT_RESOLVED

@@ -58,8 +58,10 @@ class Band(NamedTuple):
         A part has less energy than its total in every sample, so that the total limits its error.
         """
         units = [
-            of_total if part <= whole and _rounded(part, unit) > _rounded(whole, of_total) else unit
-            for part, unit, whole, of_total in zip(
+            total_unit
+            if value <= limit and _rounded(value, unit) > _rounded(limit, total_unit)
+            else unit
+            for value, unit, limit, total_unit in zip(
                 self[:3], self.units, total[:3], total.units, strict=True
             )
         ]

@@ -131,7 +131,7 @@ def resolved_sentence(results: xr.Dataset) -> str:
     ]
     return (
         "Shares in the variance are of the modelled level at "
-        f"{catalogue_receiver(results)}. Number of parameters with a resolved share, of "
+        f"{catalogue_receiver(results)}. Parameters with resolved shares, of "
         f"{shares.sizes['uncertain_parameter']}: {', '.join(words)}."
     )
 
@@ -176,13 +176,13 @@ def most_valuable(results: xr.Dataset) -> tuple[str, str] | None:
             best = _best(here)
             if float(here["perfect_information"]) >= SMALLEST_DB and best is not None:
                 measurement = named(str(results["uncertain_parameter"].values[best]))
-                return f"the choice of an option on {choice}", measurement
+                return f"choice on {choice}", measurement
     measured = "baseline_band_level" in results or "spectrum_measured" in results
     if measured or not has_samples(results):
         return None
     if overall_noise(results) is None:
-        return "the level", "the A-weighted level at a microphone, as none is published"
-    return "the dominant source", "a third-octave spectrum at a microphone"
+        return "level", "the A-weighted level at a microphone, as none is published"
+    return "dominant source", "a third-octave spectrum"
 
 
 def measure_next_sentence(results: xr.Dataset) -> str:

@@ -277,7 +277,7 @@ def _measurement(results: xr.Dataset) -> str:
     if wanted is None:
         return ""
     purpose, measurement = wanted
-    return f"Most valuable measurement for {purpose}: {measurement}."
+    return f"Most valuable measurement ({purpose}): {measurement}."
 
 
 def _at_largest(of_quantity: Shift) -> Band:
