@@ -26,10 +26,10 @@ def in_threads(tasks: Sequence[Callable[[], Result]], workers: int | None = None
 
 
 def mapped_in_threads(
-    function: Callable[[Item], Result], items: Iterable[Item]
+    function: Callable[[Item], Result], items: Iterable[Item], workers: int | None = None
 ) -> Iterator[Result]:
     """Apply a function in threads; the results are in the order of the items."""
-    with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as pool:
+    with one_thread_of_linear_algebra(), ThreadPoolExecutor(workers or processors()) as pool:
         yield from pool.map(function, items)
 
 
