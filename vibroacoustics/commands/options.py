@@ -88,7 +88,7 @@ def resumable(job: str, study: "Study", unused: bool) -> AbstractContextManager[
 
     if unused:
         return nullcontext()
-    return run_pieces.resumable(job, study.parameters(), study.title, messages.inform)
+    return run_pieces.resumable(job, study.parameters(), messages.inform)
 
 
 def load_plugins(plugins: list[Path] | None) -> None:

@@ -239,7 +239,7 @@ def _memory_bytes() -> int:
 
 
 def _written(problem: Problem, tried: _Tried) -> _Written:
-    """Write a few designs to memory as a sweep writes them: once as text, twice compressed."""
+    """Write a few designs to memory as a sweep writes them: text, bytes and compressed bytes."""
     rows = slice(min(len(tried.designs), _WRITTEN))
     variables = problem.space.variables
     cells = [[v.written(x) for v, x in zip(variables, design, strict=True)]
@@ -249,7 +249,7 @@ def _written(problem: Problem, tried: _Tried) -> _Written:
     columns = [*zip(*cells, strict=True), *values[rows].T.tolist()]
     text = "\n".join(map(",".join, zip(*map(_text, columns), strict=True)))
     shuffled = values[rows].T.reshape(-1, 1).view(np.uint8).T.tobytes()
-    packed = [zlib.compress(shuffled, 4) for _ in range(2)]
+    packed = [shuffled, zlib.compress(shuffled, 4)]
     seconds, count = time.process_time() - begin, len(cells)
     return _Written(
         seconds / count, len(text) / count + _FURTHER_BYTES, sum(map(len, packed)) / count

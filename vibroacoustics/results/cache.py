@@ -22,8 +22,6 @@ _MAXIMUM_LIMIT_BYTES: Final = 100
 _MAXIMUM_STUDY_BYTES: Final = 10_000
 RUN: Final = "run-"
 """First part of the name of a folder that holds what an interrupted run has computed."""
-STUDY_NAME: Final = "study"
-"""File in such a folder that names its study."""
 _LEFTOVERS: Final = ("*.nc.lock", ".*.nc*", "*.nc.sha256", "*.nc.study", f"{RUN}*.lock")
 
 
@@ -118,7 +116,7 @@ def entries(cache_folder: Folder) -> list[Entry]:
             listed.append(Entry(name, status.st_size, status.st_mtime, _study(cache_folder, name)))
         if name.startswith(RUN) and stat.S_ISDIR(status.st_mode):
             size = _size_below(cache_folder, name)
-            listed.append(Entry(name, size, status.st_mtime, _study(cache_folder, name)))
+            listed.append(Entry(name, size, status.st_mtime, "interrupted run"))
     return sorted(listed, key=lambda entry: entry.used_s)
 
 
@@ -130,8 +128,8 @@ def _size_below(cache_folder: Folder, name: str) -> int:
 
 
 def study_of(name: str) -> str:
-    """File beside an entry, or in its folder, that names its study."""
-    return f"{name}/{STUDY_NAME}" if name.startswith(RUN) else f"{name}.study"
+    """File beside an entry that names its study."""
+    return f"{name}.study"
 
 
 def _study(cached: Folder, name: str) -> str:
