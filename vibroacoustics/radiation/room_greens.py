@@ -37,11 +37,8 @@ def room_greens(box: Box, task: Task, progress: Progress) -> list[BoxField]:
         return kwave_green(box, position, *arguments, name, progress, threads)
 
     in_parallel = partial(mapped_in_threads, green, workers=workers)
-    return list(
-        stored(
-            ("k-Wave", device.engine_name(), frequency_hz), _positions(task).items(), in_parallel
-        )
-    )
+    name = "k-Wave", device.engine_name(), frequency_hz
+    return list(stored(name, _positions(task).items(), in_parallel))
 
 
 def room_spacing_m(box: Box, task: Task) -> float:

@@ -110,11 +110,9 @@ def entries(cache_folder: Folder) -> list[Entry]:
     listed = []
     for name in os.listdir(cache_folder.descriptor):
         status = cache_folder.status(name)  # none where another process takes it away
-        if status is None:
-            continue
-        if name.endswith(".nc") and stat.S_ISREG(status.st_mode):
+        if name.endswith(".nc") and status is not None and stat.S_ISREG(status.st_mode):
             listed.append(Entry(name, status.st_size, status.st_mtime, _study(cache_folder, name)))
-        if name.startswith(RUN) and stat.S_ISDIR(status.st_mode):
+        if name.startswith(RUN) and status is not None and stat.S_ISDIR(status.st_mode):
             size = _size_below(cache_folder, name)
             listed.append(Entry(name, size, status.st_mtime, "interrupted run"))
     return sorted(listed, key=lambda entry: entry.used_s)
@@ -181,15 +179,12 @@ def _shrink(cache_folder: Folder, limit: int) -> list[Entry]:
     for entry in present:
         if size <= limit:
             break
-        if entry.name.startswith(RUN):
-            with taken(cache_folder, lock_of(entry.name)) as held:
-                if not held:  # the run goes on
-                    continue
-                cache_folder.remove_tree(entry.name)
-        else:
-            cache_folder.remove(entry.name)
-            cache_folder.remove(_hash_of(entry.name))
-            cache_folder.remove(study_of(entry.name))
+        with ExitStack() as stack:
+            lock = lock_of(entry.name)
+            if entry.name.startswith(RUN) and not stack.enter_context(taken(cache_folder, lock)):
+                continue  # the run goes on
+            for name in (entry.name, _hash_of(entry.name), study_of(entry.name)):
+                _remove_any(cache_folder, name)
         size -= entry.size_bytes
         removed.append(entry)
     return removed

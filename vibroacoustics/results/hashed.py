@@ -4,10 +4,8 @@ So content and hash change in one step. HDF5 keeps its own length and does not r
 rewrites the file in place loses or breaks it, and that is seen.
 """
 
-import hashlib
 import os
 import re
-from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import BinaryIO, Final, NamedTuple
@@ -35,20 +33,12 @@ def append_hash(file: BinaryIO) -> str:
     """Hash of an open file's content, which becomes its last line."""
     digest = file_sha256(file)
     file.seek(0, os.SEEK_END)
-    file.write(_last_line(digest))
+    file.write(hash_line(digest))
     return digest
 
 
-def with_hash(parts: Iterable[bytes]) -> Iterator[bytes]:
-    """Parts of a file's content, and its hash as the last line."""
-    digest = hashlib.sha256()
-    for part in parts:
-        digest.update(part)
-        yield part
-    yield _last_line(digest.hexdigest())
-
-
-def _last_line(digest: str) -> bytes:
+def hash_line(digest: str) -> bytes:
+    """Last line of a file with this hash of its content."""
     return f"\nvibroacoustics sha256 {digest}\n".encode()
 
 

@@ -13,10 +13,11 @@ from typing import Any, Final
 
 from ..base.errors import StorageError
 from ..base.folder import Folder
+from ..base.hashing import sha256
 from ..base.pieces import Item, Result, Stream
 from ..base.plain_bytes import from_bytes, to_bytes
 from .files import STAGING_NAME, replace_all, staging, write
-from .hashed import read_checked, with_hash
+from .hashed import hash_line, read_checked
 
 _FIRST: Final = "pieces_"
 _BATCH_S: Final = 10.0
@@ -84,9 +85,9 @@ class PieceFiles:
             last = self._names[-1].removeprefix(_FIRST).partition(".")[0] if self._names else "-1"
             name = f"{_FIRST}{int(last) + 1:08d}.bin"
             sizes = {key: len(content) for key, content in self._batch.items()}
-            parts = [json.dumps(sizes).encode(), b"\n", *self._batch.values()]
+            content = b"".join([json.dumps(sizes).encode(), b"\n", *self._batch.values()])
             with staging(self._folder, STAGING_NAME) as staged:
-                write(staged, name, with_hash(parts))
+                write(staged, name, [content, hash_line(sha256(content))])
                 replace_all(staged)
             self._names.append(name)
             self._files |= dict.fromkeys(self._batch, name)

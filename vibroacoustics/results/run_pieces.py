@@ -88,12 +88,12 @@ def resumable(
     inputs = [job, parameters, software_version(), package_versions(), here, _hash_of_sources()]
     name = f"{cache.RUN}{hash_of_inputs(inputs)[:32]}"
     with ExitStack() as stack:
-        store = None
         try:
             folder = stack.enter_context(cache.opened())
             store = _opened(stack, folder, name)
         except StorageError as error:
             _warn(error)
+            store = None
         if store is None:
             yield
             return
@@ -105,6 +105,8 @@ def resumable(
             except BaseException:
                 with suppress(StorageError):
                     store.write()
+                if not len(store):
+                    folder.remove_tree(name)
                 raise
         folder.remove_tree(name)
 
