@@ -66,8 +66,8 @@ def designs_of(study: Path, out: Path, *options: str) -> bytes:
 SMALL_FILES = """
 import sys
 from vibroacoustics.__main__ import main
-from vibroacoustics.design.store import pieces
-pieces.BATCH_S = 0.1
+from vibroacoustics.results import piece_files
+piece_files.BATCH_S = 0.1
 main()
 """
 """The command with a file of pieces every 0.1 s: a search as short as this one writes several."""

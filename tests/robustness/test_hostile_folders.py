@@ -127,8 +127,8 @@ def look(ground: Ground) -> None:
 
 def put_piece(ground: Ground) -> None:
     with opened_store(ground.folder / "pieces", {"study": "a"}) as store:
-        if DESIGNS not in store:
-            store.put(DESIGNS, Evaluation(DESIGNS, np.empty((1, 0)), ("",)))
+        if "a" not in store:
+            store.put("a", Evaluation(DESIGNS, np.empty((1, 0)), ("",)))
 
 
 def use_cache(_: Ground) -> None:
@@ -244,7 +244,7 @@ CASES: Final = (
     Case("files.json", both(listing("old.csv"), "old.csv", pipe), write_run, False),
     *cases("pieces", put_piece, "to_folder to_folder_by_dots to_nothing pipe"),
     *cases("pieces/plan.json", put_piece, "to_file pipe"),
-    *cases("pieces/pieces_00000000.nc", put_piece, "to_file to_nothing pipe", "hard_link"),
+    *cases("pieces/pieces_00000000.bin", put_piece, "to_file to_nothing pipe", "hard_link"),
     *cases("pieces/.lock", put_piece, "to_file pipe", "hard_link"),
     *cases("pieces/.writing", put_piece, "to_folder"),
     *cases("cache/limit_bytes", limit_cache, "to_file to_nothing pipe", "hard_link"),
@@ -309,7 +309,7 @@ def entry() -> str:
     return storage._entry("kind", {"a": 1})
 
 
-@pytest.mark.filterwarnings("ignore:.*its designs are evaluated again")
+@pytest.mark.filterwarnings("ignore:.*its pieces are computed again")
 @pytest.mark.parametrize(
     "case", CASES, ids=lambda case: f"{case.act.__name__}-{case.name}-{case.plant.__name__}"
 )

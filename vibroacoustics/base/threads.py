@@ -16,20 +16,14 @@ def in_threads(tasks: Sequence[Callable[[], Result]], workers: int | None = None
 
     Linear algebra in them takes one thread each. The first error ends what has not begun.
     """
-    with one_thread_of_linear_algebra(), ThreadPoolExecutor(workers or processors()) as pool:
-        futures = [pool.submit(task) for task in tasks]
-        try:
-            return [future.result() for future in futures]
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    return list(mapped_in_threads(lambda task: task(), tasks, workers))
 
 
 def mapped_in_threads(
-    function: Callable[[Item], Result], items: Iterable[Item]
+    function: Callable[[Item], Result], items: Iterable[Item], workers: int | None = None
 ) -> Iterator[Result]:
     """Apply a function in threads; the results are in the order of the items."""
-    with one_thread_of_linear_algebra(), ThreadPoolExecutor(processors()) as pool:
+    with one_thread_of_linear_algebra(), ThreadPoolExecutor(workers or processors()) as pool:
         yield from pool.map(function, items)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 if TYPE_CHECKING:
+    from ..study.study import Study
     from .outputs import Target
     from .printing import Printer
 
@@ -78,6 +79,16 @@ def used_cache(unused: bool) -> AbstractContextManager[None]:
     from ..results import storage
 
     return storage.without_cache() if unused else nullcontext()
+
+
+def resumable(job: str, study: "Study", unused: bool) -> AbstractContextManager[None]:
+    """Return the store of a run, from which one resumes that was interrupted; none if unused."""
+    from ..results import run_pieces
+    from . import messages
+
+    if unused:
+        return nullcontext()
+    return run_pieces.resumable(job, study.parameters(), messages.inform)
 
 
 def load_plugins(plugins: list[Path] | None) -> None:

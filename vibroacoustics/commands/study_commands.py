@@ -21,6 +21,7 @@ from .options import (
     StudyFile,
     StudyOut,
     load_plugins,
+    resumable,
     used_cache,
 )
 from .outcome import Outcome, columns
@@ -88,7 +89,8 @@ def run_command(
             if len(studies) > 1:
                 progress("all studies", number, len(studies))
             elsewhere = cluster.distributing(plugin)
-            outcomes[folder.name] = _run(study, folder, progress, prints, elsewhere)
+            with resumable("run", study, no_cache or bool(plugin)):
+                outcomes[folder.name] = _run(study, folder, progress, prints, elsewhere)
         if len(studies) > 1:
             progress("all studies", len(studies), len(studies))
     return summary(outcomes)
@@ -221,7 +223,11 @@ def radiation_command(
     load_plugins(plugin)
     study = load_study(study_file)
     target = printing.target(out or Path("reports") / study_file.stem)
-    with used_cache(no_cache), cluster.distributing(plugin):
+    with (
+        used_cache(no_cache),
+        resumable("radiation", study, no_cache or bool(plugin)),
+        cluster.distributing(plugin),
+    ):
         radiated = pipeline.radiate(study, progress)
     return target.outcome(report.analysis_of_radiation(radiated), radiated, "transfer_vectors.nc")
 

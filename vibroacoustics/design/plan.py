@@ -10,6 +10,7 @@ import psutil
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..results.piece_files import BATCH_S
 from ..results.size import MOST_BYTES
 from .dataset import cells
 from .engine.memo import MOST_BYTES as MOST_KEPT_BYTES
@@ -17,7 +18,6 @@ from .explaining import SPREAD_DESIGNS
 from .listing import BLOCK, Listing
 from .problem import Problem
 from .space import OPTION
-from .store.pieces import BATCH_S
 from .sweep_values import MOST_SHOWN
 from .trial import Trial, tried
 
@@ -189,17 +189,16 @@ def _report_s(problem: Problem, count: int) -> float:
 
 
 def _written(problem: Problem, trial: Trial) -> _Written:
-    """Write a few designs to memory as a sweep writes them: once as text, twice compressed."""
+    """Write a few designs to memory as a sweep writes them: text, bytes and compressed bytes."""
     rows = slice(min(len(trial.designs), _WRITTEN))
     values = np.concatenate([trial.evaluation.objectives, trial.evaluation.constraints], axis=1)
     begin = time.process_time()
     each = zip(problem.space.variables, trial.designs[rows].T, strict=True)
     columns = [variable.in_file(column) for variable, column in each]
     text = "\n".join(map(",".join, zip(*map(cells, [*columns, *values[rows].T]), strict=True)))
-    in_files = [values[rows]] * 2
+    packed = [values[rows].tobytes(), _compressed(values[rows])]
     if problem.design.sampling != "grid":
-        in_files.append(trial.designs[rows])
-    packed = [_compressed(each) for each in in_files]
+        packed.append(_compressed(trial.designs[rows]))
     seconds, count = time.process_time() - begin, len(values[rows])
     return _Written(
         seconds / count, len(text) / count + _FURTHER_BYTES, sum(map(len, packed)) / count

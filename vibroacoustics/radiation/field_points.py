@@ -8,7 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..base.threads import in_threads
+from ..base.pieces import stored
+from ..base.threads import mapped_in_threads
 from ..base.vocabulary import RIGID_BODY_DOFS
 from ..study.radiation import RadiationSettings
 from ..study.study import Study
@@ -60,7 +61,8 @@ def vectors_at(
         direct = radiator.pressures(wall, positions)
         return direct if ground is None else direct + ground(radiator, wall)
 
-    solved = in_threads([partial(pressure, float(hertz)) for hertz in frequency_hz])
+    in_parallel = partial(mapped_in_threads, pressure)
+    solved = list(stored("pressure at points", frequency_hz.tolist(), in_parallel))
     names = [pattern.name for pattern in task.patterns[len(RIGID_BODY_DOFS) :]]
     vectors = {"transfer_vector": np.stack(solved, axis=-1)}
     return labelled(vectors, clear, frequency_hz, names)

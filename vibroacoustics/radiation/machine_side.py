@@ -8,8 +8,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from ..base.pieces import stored
 from ..base.progress import Progress, no_progress
-from ..base.threads import in_threads
+from ..base.threads import in_threads, mapped_in_threads
 from .arrays import Array, ComplexArray
 from .box import BoxField
 from .exact import Mirror
@@ -125,19 +126,16 @@ class MachineSide:
 
     def _radiate(self, batch: Sequence[tuple[int, int]]) -> None:
         """Run grids and patterns and join what they send out."""
-        fields = in_threads(
-            [
-                partial(
-                    self._near[grid].radiate,
-                    self._fluxes[grid][number],
-                    self._frequency_hz,
-                    self._points,
-                    self._names[number],
-                    self._progress,
-                )
-                for grid, number in batch
-            ]
-        )
+
+        def field(member: tuple[int, int]) -> Sequence[PartField]:
+            grid, number = member
+            flux, name = self._fluxes[grid][number], self._names[number]
+            return self._near[grid].radiate(
+                flux, self._frequency_hz, self._points, name, self._progress
+            )
+
+        name, in_parallel = ("near field", self._points), partial(mapped_in_threads, field)
+        fields = list(stored(name, batch, in_parallel))
         tasks = []
         for grid in sorted({grid for grid, _ in batch}):
             members = {

@@ -3,8 +3,9 @@
 from functools import partial
 from typing import Final
 
+from ..base.pieces import stored
 from ..base.progress import Progress
-from ..base.threads import in_threads, processors
+from ..base.threads import mapped_in_threads, processors
 from . import device, room_grid
 from .arrays import Array
 from .box import Box, BoxField
@@ -30,13 +31,14 @@ def room_greens(box: Box, task: Task, progress: Progress) -> list[BoxField]:
     threads = max(1, processors() // workers)
     frequency_hz = task.table_hz[task.kwave_table]
     arguments = (frequency_hz, task.kwave_highest_hz, room_spacing_m(box, task), walls)
-    return in_threads(
-        [
-            partial(kwave_green, box, position, *arguments, name, progress, threads)
-            for name, position in _positions(task).items()
-        ],
-        workers,
-    )
+
+    def green(microphone: tuple[str, Array]) -> BoxField:
+        name, position = microphone
+        return kwave_green(box, position, *arguments, name, progress, threads)
+
+    in_parallel = partial(mapped_in_threads, green, workers=workers)
+    name = "k-Wave", device.engine_name(), frequency_hz
+    return list(stored(name, _positions(task).items(), in_parallel))
 
 
 def room_spacing_m(box: Box, task: Task) -> float:

@@ -20,13 +20,15 @@ DEFAULT_LIMIT_BYTES: Final = 2_000_000_000
 LIMIT_NAME: Final = "limit_bytes"
 _MAXIMUM_LIMIT_BYTES: Final = 100
 _MAXIMUM_STUDY_BYTES: Final = 10_000
-_LEFTOVERS: Final = ("*.nc.lock", ".*.nc*", "*.nc.sha256", "*.nc.study")
+RUN: Final = "run-"
+"""First part of the name of a folder that holds what an interrupted run has computed."""
+_LEFTOVERS: Final = ("*.nc.lock", ".*.nc*", "*.nc.sha256", "*.nc.study", f"{RUN}*.lock")
 
 
 class Entry(NamedTuple):
     """A cached result: file, size, when it was last used, s since 1970, and title of its study.
 
-    The title is empty where it is unknown.
+    The title is empty where it is unknown. A folder of an interrupted run is an entry, too.
     """
 
     name: str
@@ -110,7 +112,17 @@ def entries(cache_folder: Folder) -> list[Entry]:
         status = cache_folder.status(name)  # none where another process takes it away
         if name.endswith(".nc") and status is not None and stat.S_ISREG(status.st_mode):
             listed.append(Entry(name, status.st_size, status.st_mtime, _study(cache_folder, name)))
+        if name.startswith(RUN) and status is not None and stat.S_ISDIR(status.st_mode):
+            size = _size_below(cache_folder, name)
+            listed.append(Entry(name, size, status.st_mtime, "interrupted run"))
     return sorted(listed, key=lambda entry: entry.used_s)
+
+
+def _size_below(cache_folder: Folder, name: str) -> int:
+    """Size of the files in a folder, bytes."""
+    with suppress(OSError, StorageError), cache_folder.below(name) as folder:
+        return sum(status.st_size for file in folder.files() if (status := folder.status(file)))
+    return 0
 
 
 def study_of(name: str) -> str:
@@ -167,9 +179,12 @@ def _shrink(cache_folder: Folder, limit: int) -> list[Entry]:
     for entry in present:
         if size <= limit:
             break
-        cache_folder.remove(entry.name)
-        cache_folder.remove(_hash_of(entry.name))
-        cache_folder.remove(study_of(entry.name))
+        with ExitStack() as stack:
+            lock = lock_of(entry.name)
+            if entry.name.startswith(RUN) and not stack.enter_context(taken(cache_folder, lock)):
+                continue  # the run goes on
+            for name in (entry.name, _hash_of(entry.name), study_of(entry.name)):
+                _remove_any(cache_folder, name)
         size -= entry.size_bytes
         removed.append(entry)
     return removed
@@ -181,6 +196,8 @@ def _remove_leftovers(cache_folder: Folder) -> None:
         if not any(fnmatch(name, pattern) for pattern in _LEFTOVERS):
             continue
         entry = name.removeprefix(".").partition(".nc")[0] + ".nc"
+        if name.startswith(RUN):
+            entry = name.removesuffix(".lock")
         lock = lock_of(entry)
         if name == lock and is_held(cache_folder, lock):
             continue

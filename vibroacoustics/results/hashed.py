@@ -33,8 +33,13 @@ def append_hash(file: BinaryIO) -> str:
     """Hash of an open file's content, which becomes its last line."""
     digest = file_sha256(file)
     file.seek(0, os.SEEK_END)
-    file.write(f"\nvibroacoustics sha256 {digest}\n".encode())
+    file.write(hash_line(digest))
     return digest
+
+
+def hash_line(digest: str) -> bytes:
+    """Last line of a file with this hash of its content."""
+    return f"\nvibroacoustics sha256 {digest}\n".encode()
 
 
 def read_checked(path: Path, folder: Folder | None = None) -> Checked:

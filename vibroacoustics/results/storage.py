@@ -17,6 +17,7 @@ import xarray as xr
 from ..base.errors import StorageError
 from ..base.folder import Folder
 from ..base.hashing import canonical_json, sha256
+from ..base.pieces import following_from
 from . import cache, hashed
 from .files import Staging, naming, only_writer, replace_all, staging, write
 from .lock import locked
@@ -139,7 +140,8 @@ def cached(
         can_be_written = _locked_entry(stack, folder, name)
         if (result := _known(folder, name)) is not None:
             return result, True
-        result = compute()
+        with following_from(lambda: [kind, material]):
+            result = compute()
         if can_be_written:
             _keep(result, folder, name, study)
     return result, False

@@ -28,7 +28,7 @@ def sounds_of(chain: Chain, samples: list[Sample], progress: Callable[[int], Non
         return by_source(chain.study, nominal.axes, path.received(chain.at(sample)[Cases]))
 
     unknown = {key: nominal.sound[key].unknown for key in chain[Cases].cases}
-    return in_every_sample(samples, sound_of, unknown, progress)
+    return in_every_sample(samples, sound_of, unknown, progress, "ensemble", chain.study)
 
 
 def values_of(
@@ -42,7 +42,7 @@ def values_of(
     def of_number(counted: tuple[int, int]) -> SampleValues | None:
         return _values(chain, ensemble, *counted)
 
-    return in_every_sample(numbers, of_number, None, progress)
+    return in_every_sample(numbers, of_number, None, progress, "samples", chain.study)
 
 
 def _values(chain: Chain, ensemble: PriorEnsemble, number: int, count: int) -> SampleValues:

@@ -87,7 +87,8 @@ def _computing(chain: Chain, chosen: Representative, axes: LevelAxes) -> Compute
             return None
         return bands.of(received, cases.cases[axes.speeds[0], REFERENCE_OPTION].machine)
 
-    return lambda samples: in_every_sample(samples, of_sample, None, lambda _: None)
+    name = f"sliders {axes.speeds} {axes.options}"
+    return lambda batch: in_every_sample(batch, of_sample, None, lambda _: None, name, chain.study)
 
 
 def _at_sample(chain: Chain, chosen: Representative, axes: LevelAxes) -> Chain:

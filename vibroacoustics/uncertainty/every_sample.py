@@ -1,7 +1,8 @@
 """All samples side by side, and their values."""
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -10,10 +11,12 @@ import xarray as xr
 from ..base.errors import ParameterError, SolverError
 from ..base.fault import FaultError
 from ..base.linear_algebra import one_thread_of_linear_algebra
+from ..base.pieces import following_from, stored
 from ..base.processes import side_by_side
 from ..base.threads import mapped_in_threads
 from ..base.vocabulary import stamped
 from ..study.sampling import Sample
+from ..study.study import Study
 from ..study.uncertainty import Range
 
 Item = TypeVar("Item")
@@ -25,6 +28,8 @@ def in_every_sample(
     compute: Callable[[Item], Result],
     without_solution: Result,
     progress: Callable[[int], None],
+    name: str = "",
+    study: Study | None = None,
 ) -> list[Result]:
     """Compute a result of every sample, in their order; one warning counts those without solution.
 
@@ -37,6 +42,8 @@ def in_every_sample(
         takes
     without_solution : in place of the result of a sample with which the machine cannot run
     progress : called with the number of samples that are done
+    name : name of the computation, which no other of the study has; see `stored`
+    study : study from which, with a sample, the result follows; None: results are not stored
     """
 
     def solved(sample: Item) -> tuple[Result, str | None]:
@@ -52,10 +59,13 @@ def in_every_sample(
     results: list[Result] = []
     failures: list[str] = []
     progress(0)
-    for result, failure in _in_parallel(solved, samples):
-        results.append(result)
-        failures += [] if failure is None else [f"sample {len(results)}: {failure}"]
-        progress(len(results))
+    solving = partial(side_by_side, solved, otherwise=mapped_in_threads)
+    inputs = study.parameters if study else None
+    with one_thread_of_linear_algebra(), following_from(inputs):
+        for result, failure in stored(name, samples, solving):
+            results.append(result)
+            failures += [] if failure is None else [f"sample {len(results)}: {failure}"]
+            progress(len(results))
     if failures:
         warnings.warn(
             f"{len(failures)} of {len(samples)} samples have no solution and are omitted, "
@@ -63,12 +73,6 @@ def in_every_sample(
             stacklevel=2,
         )
     return results
-
-
-def _in_parallel(compute: Callable[[Item], Result], samples: Sequence[Item]) -> Iterator[Result]:
-    """Compute in processes, which share no interpreter's lock, or in threads."""
-    with one_thread_of_linear_algebra():
-        yield from side_by_side(compute, samples, mapped_in_threads)
 
 
 def sampled_values(ranges: Sequence[Range], samples: Sequence[Sample]) -> xr.Dataset:

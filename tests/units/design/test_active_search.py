@@ -16,7 +16,8 @@ from vibroacoustics.design.evaluation import Evaluate, Evaluation
 from vibroacoustics.design.search.active import ActiveSearch, _Search, search_active
 from vibroacoustics.design.search.gaussian_process import Process, Runs
 from vibroacoustics.design.search.problem import SearchProblem
-from vibroacoustics.design.store.pieces import PieceStore, opened_store, stored
+from vibroacoustics.design.store.pieces import opened_store, stored
+from vibroacoustics.results.piece_files import PieceFiles
 
 
 @pytest.mark.slow
@@ -110,7 +111,7 @@ def test_seed_decides_the_runs() -> None:
     assert first.searched.designs.tobytes() != other.searched.designs.tobytes()
 
 
-def kept(evaluate: Evaluate, store: PieceStore) -> Evaluate:
+def kept(evaluate: Evaluate, store: PieceFiles) -> Evaluate:
     """Evaluate by a store, each call as one piece."""
     each = stored(partial(map, evaluate), store)
     return lambda designs: next(iter(each([designs])))

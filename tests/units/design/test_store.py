@@ -18,8 +18,9 @@ from vibroacoustics.base.folder import opened_folder
 from vibroacoustics.design.evaluation import Evaluation, joined
 from vibroacoustics.design.search.best import search_best
 from vibroacoustics.design.search.problem import Searched, SearchProblem
-from vibroacoustics.design.store import pieces
-from vibroacoustics.design.store.pieces import PieceStore, opened_store, stored
+from vibroacoustics.design.store.pieces import opened_store, stored
+from vibroacoustics.results import piece_files
+from vibroacoustics.results.piece_files import PieceFiles
 
 PLAN: dict[str, object] = {"study": "a"}
 
@@ -59,27 +60,27 @@ def test_piece_comes_back_with_its_failures(tmp_path: Path) -> None:
     designs = np.random.default_rng(0).uniform(-1.0, 1.0, (50, 2))
     for written in (False, True):  # from the batch, then from the file
         with opened_store(tmp_path / "designs", PLAN) as store:
-            assert (designs in store) == written
+            assert ("all" in store) == written
             if not written:
-                store.put(designs, bowl(designs))
-                store.put(designs[:3], bowl(designs[:3]))
-            back = store.get(designs)
+                store.put("all", bowl(designs))
+                store.put("some", bowl(designs[:3]))
+            back = store.get("all")
             assert back.objectives.tobytes() == bowl(designs).objectives.tobytes()
             assert back.failures == bowl(designs).failures
             assert "too far left" in back.failures
-            assert store.get(designs[:3]).failures == back.failures[:3]
-            assert designs + 1e-15 not in store
-    assert [one.name for one in tmp_path.glob("designs/pieces_*")] == ["pieces_00000000.nc"]
+            assert store.get("some").failures == back.failures[:3]
+            assert "none" not in store
+    assert [one.name for one in tmp_path.glob("designs/pieces_*")] == ["pieces_00000000.bin"]
 
 
 def test_pieces_are_written_by_time(tmp_path: Path) -> None:
     """A file at the first piece that ends 10 s or more after the last file."""
     now_s = 0.0
     with opened_folder(tmp_path) as folder:
-        store = PieceStore(folder, lambda: now_s)
+        store = PieceFiles(folder, lambda: now_s)
         for number in range(24):
             now_s += 3.0
-            store.put(np.full((1, 2), float(number)), bowl(np.ones((1, 2))))
+            store.put(str(number), bowl(np.ones((1, 2))))
             assert len(list(tmp_path.glob("pieces_*"))) == (number + 1) // 4
 
 
@@ -115,9 +116,9 @@ def test_folder_of_another_plan_is_refused(tmp_path: Path) -> None:
 def test_damaged_file_is_evaluated_again(
     tmp_path: Path, damage: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(pieces, "BATCH_S", 0.0)  # a file a generation
+    monkeypatch.setattr(piece_files, "BATCH_S", 0.0)  # a file a generation
     whole = searched_in(tmp_path)
-    path = sorted(tmp_path.glob("pieces_*.nc"))[7]
+    path = sorted(tmp_path.glob("pieces_*.bin"))[7]
     content = bytearray(path.read_bytes())
     if damage == "removed":
         path.unlink()
@@ -127,7 +128,7 @@ def test_damaged_file_is_evaluated_again(
     if damage == "removed":
         again = searched_in(tmp_path)
     else:
-        with pytest.warns(UserWarning, match="evaluated again"):
+        with pytest.warns(UserWarning, match="computed again"):
             again = searched_in(tmp_path)
     same(again, whole)
 
@@ -151,8 +152,8 @@ def killed_and_gone_on(folder: Path, seed: int) -> None:
     code = (
         f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
         "from pathlib import Path\n"
-        "from test_store import pieces, searched_in\n"
-        "pieces.BATCH_S = 0.1\n"
+        "from test_store import piece_files, searched_in\n"
+        "piece_files.BATCH_S = 0.1\n"
         f"print('begun', flush=True); searched_in(Path({str(folder / 'killed')!r}), 0.02)"
     )
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
 from ...base.errors import ParameterError
+from ...base.pieces import stored
 from ...base.processes import distributed
 from ...base.progress import Progress, no_progress
 from ...base.revolution import Profile
@@ -147,7 +148,8 @@ class RevolutionSide:
         def solve(indices: IndexArray) -> tuple[ComplexArray, Array]:
             nonlocal done
             total, parts = max(expected, done + indices.size), []
-            for walls, *part in distributed(solved, indices.tolist(), mapped_in_threads):
+            solving = partial(distributed, solved, otherwise=mapped_in_threads)
+            for walls, *part in stored((name, points, table_hz), indices.tolist(), solving):
                 self._solved[walls[0].frequency_hz] = walls  # of another process
                 parts.append(part)
                 done += 1

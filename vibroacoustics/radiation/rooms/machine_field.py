@@ -6,8 +6,9 @@ from typing import Final
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from ...base.pieces import stored
 from ...base.progress import Progress
-from ...base.threads import in_threads
+from ...base.threads import mapped_in_threads
 from ..arrays import Array, ComplexArray
 from ..revolution.side import RevolutionSide
 from .join_box import JoinBox
@@ -59,7 +60,8 @@ class MachineField:
             progress("machine on its floor", number, count)
             return side.finer_pressures(float(self._table_hz[number]), np.concatenate(layers))
 
-        pressure = np.array(in_threads([partial(pressures_at, number) for number in range(count)]))
+        name, in_parallel = ("machine field", *points), partial(mapped_in_threads, pressures_at)
+        pressure = np.array([*stored(name, range(count), in_parallel)])
         pressure /= self._trend(self._table_hz)[:, None, None]
         parts = np.split(
             pressure, np.cumsum([len(layer_points) for layer_points in layers])[:-1], axis=1

@@ -8,9 +8,10 @@ import numpy as np
 import xarray as xr
 
 from ...base.errors import ParameterError
+from ...base.pieces import stored
 from ...base.progress import Progress, no_progress
 from ...base.revolution import Profile
-from ...base.threads import in_threads
+from ...base.threads import mapped_in_threads
 from ...base.vocabulary import RIGID_BODY_DOFS, check, stamp
 from ...machine.shell import Shell
 from ...study.radiation import RadiationSettings
@@ -160,17 +161,15 @@ def _in_room(
     origin_m = stands.foot_m - [0.0, 0.0, side.floor_z_m or 0.0]
     field = MachineField(side, box, origin_m, clearance_m, lines * step_hz, progress)
     advance = together(progress, len(listeners))
-    remaining: dict[str, float] = {}
 
-    def of_listener(name: str, position: Array) -> tuple[ComplexArray, ComplexArray]:
-        record = runs.record(name, position, advance)
-        remaining[name] = record.remaining_db
+    def of_listener(listener: tuple[str, Array]) -> tuple[ComplexArray, ComplexArray, float]:
+        record = runs.record(*listener, advance)
         green = record.on_grid(len(box.lattices), length, lines)[:, 0].mean(axis=-1)
-        return field.join(record, length, lines, step_hz), green
+        return field.join(record, length, lines, step_hz), green, record.remaining_db
 
-    values, green = zip(
-        *in_threads([partial(of_listener, *of) for of in listeners.items()]), strict=True
-    )
+    in_parallel = partial(mapped_in_threads, of_listener)
+    of_listeners = stored("machine in room", listeners.items(), in_parallel)
+    values, green, remaining_db = zip(*of_listeners, strict=True)
     ears = {"listener": list(listeners)}
     hertz = {"room_frequency": step_hz * np.arange(1.0, lines + 1.0)}
     coords = {**ears, "pattern": list(names), **hertz}
@@ -181,7 +180,7 @@ def _in_room(
     attributes = {
         "room_maximum_frequency_hz": highest,
         "room_record_s": runs.samples * runs.sample_s,
-        "room_remaining_db": max(remaining.values(), default=0.0),
+        "room_remaining_db": max(remaining_db),
         "room_boxes": len(boxes),
         "room_terms": int(sum(np.prod(grid.nodes) for grid in boxes)),
         "room_time_step_s": runs.step_s,

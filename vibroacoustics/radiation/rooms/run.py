@@ -11,8 +11,9 @@ import numpy as np
 
 from ...base.decibel import SILENCE_DB, level_of_amplitude, level_of_power
 from ...base.errors import ParameterError, SolverError
+from ...base.pieces import stored
 from ...base.progress import Progress, no_progress
-from ...base.threads import in_threads
+from ...base.threads import mapped_in_threads
 from ..arrays import Array, ComplexArray
 from .air import Air, stable_air
 from .cutting import AirBox, Face, cut, faces
@@ -140,12 +141,13 @@ def run_all(
     runs = Runs(boxes, faces, lattices, quantities, settings, longest_s)
     advance = together(progress, len(microphones))
 
-    def of_microphone(name: str, position: Array) -> RoomResponse:
-        record = runs.record(name, position, advance)
+    def of_microphone(microphone: tuple[str, Array]) -> RoomResponse:
+        record = runs.record(*microphone, advance)
         return RoomResponse(record.greens_at(frequency_hz), record.remaining_db)
 
-    tasks = [partial(of_microphone, name, position) for name, position in microphones.items()]
-    return dict(zip(microphones, in_threads(tasks, workers), strict=True))
+    in_parallel = partial(mapped_in_threads, of_microphone, workers=workers)
+    responses = stored(("room", frequency_hz, settings), microphones.items(), in_parallel)
+    return dict(zip(microphones, responses, strict=True))
 
 
 def together(progress: Progress, runs: int) -> Progress:

@@ -1,0 +1,358 @@
+"""Pieces of a run that was interrupted: read again to the same bits, by the same inputs alone."""
+
+import os
+import subprocess
+import sys
+import warnings
+from collections.abc import Iterable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays, scalar_dtypes
+from test_lock import hold
+
+from vibroacoustics.base.pieces import following_from, stored
+from vibroacoustics.base.plain_bytes import from_bytes, to_bytes
+from vibroacoustics.base.registry import Origin
+from vibroacoustics.design.evaluation import Evaluation
+from vibroacoustics.levels.by_source import SourceSound
+from vibroacoustics.radiation.revolution.radiator import WallPressure
+from vibroacoustics.results import cache, piece_files, run_pieces
+from vibroacoustics.results.run_pieces import resumable
+from vibroacoustics.uncertainty.sample_variables import SampleValues
+
+# --- values as bytes -----------------------------------------------------------------------------
+
+
+def laid_out(array: Any, order: str) -> Any:
+    return np.asarray(array, order=order)
+
+
+ARRAYS = st.builds(
+    laid_out,
+    arrays(
+        scalar_dtypes().filter(lambda kind: kind.kind in "biufc"),
+        array_shapes(min_dims=0, min_side=0),
+    ),
+    st.sampled_from("CF"),
+)
+NUMBERS = st.one_of(
+    st.none(), st.booleans(), st.integers(), st.floats(), st.complex_numbers(), st.text(),
+    ARRAYS, ARRAYS.map(lambda array: array.ravel()[0] if array.size else array),
+)  # fmt: skip
+VALUES = st.recursive(
+    NUMBERS,
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=3),
+        st.lists(inner, max_size=3).map(tuple),
+        st.dictionaries(st.tuples(st.floats(allow_nan=False), st.text()), inner, max_size=3),
+        st.builds(WallPressure, st.floats(), st.lists(ARRAYS, max_size=2)),
+        st.builds(SourceSound, ARRAYS, ARRAYS, ARRAYS),
+        st.builds(
+            SampleValues, st.dictionaries(st.text(), ARRAYS, max_size=2), inner, inner, inner
+        ),
+        st.builds(Evaluation, ARRAYS, ARRAYS, st.lists(st.text(), max_size=2).map(tuple)),
+    ),
+    max_leaves=6,
+)
+
+
+def assert_same(first: Any, second: Any) -> None:
+    """Types, bits, and the order of values in memory."""
+    assert type(first) is type(second)
+    if isinstance(first, np.ndarray | np.generic):
+        assert (first.dtype, first.shape) == (second.dtype, second.shape)
+        assert first.tobytes("A") == second.tobytes("A")
+        assert first.strides == second.strides
+        assert first.flags.f_contiguous == second.flags.f_contiguous
+        assert first.flags.writeable == second.flags.writeable
+    elif isinstance(first, dict):
+        assert list(first) == list(second)
+        for key in first:
+            assert_same(first[key], second[key])
+    elif isinstance(first, list | tuple):
+        assert len(first) == len(second)
+        for one, other in zip(first, second, strict=True):
+            assert_same(one, other)
+    elif hasattr(first, "__dict__"):
+        assert_same(vars(first), vars(second))
+    elif isinstance(first, float | complex):
+        assert np.array(first).tobytes() == np.array(second).tobytes() or np.isnan(first)
+    else:
+        assert first == second
+
+
+@given(VALUES)
+def test_value_comes_back_in_every_bit(value: Any) -> None:
+    assert_same(from_bytes(to_bytes(value)), value)
+
+
+@pytest.mark.parametrize(
+    "value", [object(), {1}, np.array([object()]), Path("a"), print, [np.zeros(1, "datetime64[s]")]]
+)
+def test_value_of_another_type_is_refused(value: Any) -> None:
+    with pytest.raises(TypeError, match="cannot be stored"):
+        to_bytes(value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '["os:system","true"]', '["subprocess:Popen","true"]',
+        '["vibroacoustics.base.folder:os.system","true"]',
+        '["vibroacoustics.base.folder:os","true"]',
+        '["vibroacoustics.base.hashing:sha256","true"]',
+        '["vibroacoustics.results.run_pieces:RunPieces","true"]',
+        '["array",true,"|O","C",1]', '["nothing",1]',
+    ],
+)  # fmt: skip
+def test_bytes_name_no_code(text: str) -> None:
+    with pytest.raises((TypeError, ValueError, AttributeError)):
+        from_bytes(text.encode() + b"\n" + bytes(8))
+
+
+# --- runs that are interrupted -------------------------------------------------------------------
+
+
+class StoppedError(Exception):
+    """In place of a signal."""
+
+
+class Job:
+    """Computes values of items, counts them, and stops after some."""
+
+    def __init__(self, most: float = np.inf) -> None:
+        self.computed: list[int] = []
+        self._most = most
+
+    def value(self, item: int) -> tuple[int, np.ndarray]:
+        if len(self.computed) == self._most:
+            raise StoppedError
+        self.computed.append(item)
+        return item, np.random.default_rng(item).standard_normal(100)
+
+
+ITEMS = range(10)
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    return cache.folder()
+
+
+def no_line(line: str) -> None:
+    raise AssertionError(line)
+
+
+def run(
+    job: Job,
+    items: Iterable[int] = ITEMS,
+    parameters: Any = "a study",
+    inputs: Any = "inputs",
+    names: tuple[str, ...] = ("work",),
+    lines: list[str] | None = None,
+) -> list[list[tuple[int, np.ndarray]]]:
+    """A run with works of some names."""
+    announce = no_line if lines is None else lines.append
+    with resumable("run", {"study": parameters}, announce):
+        results = []
+        for name in names:
+            with following_from(lambda: inputs):
+                results.append(list(stored(name, items, partial(map, job.value))))
+        return results
+
+
+def interrupted(most: int, **inputs: Any) -> None:
+    with pytest.raises(StoppedError):
+        run(Job(most), **inputs)
+
+
+def test_run_computes_what_an_interrupted_one_has_not(own_cache: Path) -> None:
+    undisturbed = run(Job())
+    assert not list(own_cache.iterdir())  # it ended well
+    interrupted(4)
+    job, lines = Job(), list[str]()
+    assert_same(run(job, lines=lines), undisturbed)
+    assert job.computed == [4, 5, 6, 7, 8, 9]
+    assert lines == ["continues an interrupted run: 4 of its results are read"]
+    assert not list(own_cache.iterdir())
+
+
+def test_stored_items_may_be_anywhere() -> None:
+    interrupted(3, items=[7, 2, 5, 1])
+    job = Job()
+    assert_same(run(job, lines=[]), run(Job()))
+    assert job.computed == [0, 1, 3, 4, 6, 8, 9]
+
+
+def test_run_interrupted_again_and_again() -> None:
+    for lines in (None, [], []):
+        interrupted(3, lines=lines)
+    job = Job()
+    run(job, lines=[])
+    assert job.computed == [9]
+
+
+@pytest.mark.parametrize("changed", [{"parameters": "b"}, {"inputs": "b"}, {"names": ("b",)}])
+def test_other_inputs_read_nothing(changed: dict[str, Any]) -> None:
+    interrupted(4)
+    job = Job()
+    run(job, **changed, lines=[])
+    assert job.computed == list(ITEMS)
+
+
+def test_changed_file_of_the_inputs_reads_nothing(tmp_path: Path) -> None:
+    file = tmp_path / "body.stl"
+    for content, changed in (("a", False), ("b", True)):
+        file.write_text("a")
+        interrupted(4, inputs={"mesh": [str(file)]}, lines=[])
+        file.write_text(content)
+        job = Job()
+        run(job, inputs={"mesh": [str(file)]}, lines=[])
+        assert len(job.computed) == (10 if changed else 6)
+
+
+@pytest.mark.parametrize("changed", ["_hash_of_sources", "package_versions", "software_version"])
+def test_changed_code_reads_nothing(changed: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    interrupted(4)
+    monkeypatch.setattr(run_pieces, changed, lambda: "changed")
+    job = Job()
+    run(job)
+    assert len(job.computed) == 10
+
+
+def test_run_with_a_plugin_stores_nothing(monkeypatch: pytest.MonkeyPatch, own_cache: Path) -> None:
+    plugins = {"option a": Origin("a.py", "1", "")._asdict()}
+    monkeypatch.setattr("vibroacoustics.base.pieces.plugins", lambda: plugins)
+    interrupted(4)
+    assert not list(own_cache.glob("run-*/*"))
+
+
+def test_work_of_unknown_inputs_is_not_stored(own_cache: Path) -> None:
+    with pytest.raises(StoppedError), resumable("run", {}, no_line):
+        list(stored("work", ITEMS, partial(map, Job(4).value)))
+    assert not list(own_cache.glob("run-*/*"))
+
+
+def test_two_works_of_one_name_are_refused() -> None:
+    """Also where their first results are read, not computed."""
+    interrupted(4)
+    for _ in range(2):
+        with pytest.raises(RuntimeError, match="name their work apart"):
+            clash()
+
+
+def clash() -> None:
+    """Another work of the same name, inputs and items."""
+    with resumable("run", {"study": "a study"}, lambda _: None), following_from(lambda: "inputs"):
+        list(stored("work", ITEMS, partial(map, Job().value)))
+        list(stored("work", ITEMS, lambda items: (Job().value(n + 1) for n in items)))
+
+
+def test_work_that_is_done_twice_is_the_same() -> None:
+    first, again = run(Job(), names=("work", "work"))
+    assert_same(first, again)
+
+
+@pytest.mark.parametrize("damage", ["cut", "flipped", "emptied"])
+def test_damaged_file_is_computed_again(damage: str, own_cache: Path) -> None:
+    interrupted(4)
+    (file,) = own_cache.glob("run-*/pieces_*")
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes({"cut": content[:90], "flipped": content, "emptied": b""}[damage])
+    job = Job()
+    with pytest.warns(UserWarning, match="computed again"):
+        results = run(job)
+    assert job.computed == list(ITEMS)
+    assert_same(results, run(Job()))
+
+
+def test_second_run_at_the_same_time_stores_nothing(
+    own_cache: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run_pieces, "_LOCK_S", 0.2)
+    interrupted(4)
+    (folder,) = own_cache.glob("run-*/")
+    before = [file.read_bytes() for file in sorted(folder.iterdir())]
+    process = hold(own_cache / cache.lock_of(folder.name), 60)
+    try:
+        job = Job()
+        run(job)
+        assert job.computed == list(ITEMS)
+        with cache.opened() as opened:
+            assert cache.clear(opened) == []  # the other run goes on
+        assert [file.read_bytes() for file in sorted(folder.iterdir())] == before
+    finally:
+        process.kill()
+        process.wait()
+    with cache.opened() as opened:
+        entries = cache.entries(opened)
+        assert [entry.name for entry in entries] == [folder.name]
+        assert entries[0].size_bytes == sum(map(len, before))
+        assert len(cache.clear(opened)) == 1
+    assert not list(own_cache.iterdir())
+
+
+def test_limit_of_the_cache_is_kept(own_cache: Path) -> None:
+    interrupted(9)
+    (file,) = own_cache.glob("run-*/pieces_*")
+    with cache.opened() as opened:
+        cache.set_limit(opened, file.stat().st_size // 2)
+        assert len(cache.tidy(opened)) == 1
+    interrupted(9)
+    lines = list[str]()
+    run(Job(), lines=lines)
+    assert 1 <= int(lines[0].split()[4]) <= 5
+
+
+def test_cache_that_cannot_be_written_costs_a_warning(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def full(*_: Any) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch, warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        patch.setattr(piece_files, "BATCH_S", 0.0)
+        patch.setattr("vibroacoustics.base.folder.os.fsync", full)
+        results = run(Job())
+    assert ["could not resume" in str(one.message) for one in caught] == [True]
+    assert_same(results, run(Job()))
+
+
+def test_short_run_writes_nothing(own_cache: Path) -> None:
+    job = Job()
+
+    def values(items: Iterable[int]) -> Iterator[Any]:
+        for item in items:
+            assert not list(own_cache.glob("run-*/*"))
+            yield job.value(item)
+
+    with resumable("run", {}, no_line), following_from(lambda: "inputs"):
+        list(stored("work", ITEMS, values))
+    assert len(job.computed) == 10
+
+
+def test_a_copy_of_the_process_stores_nothing(own_cache: Path) -> None:
+    code = (
+        "import os\n"
+        "from vibroacoustics.base.pieces import following_from, stored\n"
+        "from vibroacoustics.results import piece_files\n"
+        "from vibroacoustics.results.run_pieces import resumable\n"
+        "piece_files.BATCH_S = 0.0\n"
+        "with resumable('run', {}, print), following_from(lambda: 1):\n"
+        "    if not (child := os.fork()):\n"
+        "        list(stored('work', [1, 2], lambda items: map(abs, items))); os._exit(0)\n"
+        "    os.waitpid(child, 0)\n"
+        "    os.kill(os.getpid(), 9)"
+    )
+    subprocess.run([sys.executable, "-c", code], env=dict(os.environ), check=False)
+    assert list(own_cache.glob("run-*/"))
+    assert not list(own_cache.glob("run-*/*"))
