@@ -59,7 +59,7 @@ def stored(name: object, items: Iterable[Item], stream: Stream[Item, Result]) ->
 
     Parameters
     ----------
-    name : name of the work, and all that tells it from other work of the same inputs; see
+    name : name of the work, and all that differs from other work of the same inputs; see
         `to_bytes`
     items : each determines its result, with the name and the inputs; see `to_bytes`
     stream : function that computes results
