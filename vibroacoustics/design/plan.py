@@ -1,5 +1,6 @@
 """Expected time, memory and disk space of a sweep, before it starts."""
 
+import json
 import time
 import zlib
 from dataclasses import dataclass
@@ -10,7 +11,6 @@ import psutil
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from ..results.piece_files import BATCH_S
 from ..results.size import MOST_BYTES
 from .dataset import cells
 from .engine.memo import MOST_BYTES as MOST_KEPT_BYTES
@@ -35,8 +35,6 @@ _LABELLED_S: Final = 5e-8
 """Processor time of the value of a variable in a sample."""
 _REPORT_BYTES: Final = 150_000
 """Files of a sweep without designs: the study in the dataset, the report, its pictures."""
-_PIECES_BYTES: Final = 6_000
-"""A file of pieces without designs."""
 _REPORT_ROW: Final = 1.1
 """Row of the report's table of designs over that of the sweep's table."""
 _REPORT_MEMORY_BYTES: Final = 60e6
@@ -157,7 +155,6 @@ def planned(
     seconds += count * written.seconds + _report_s(problem, count)
     rows = count + _REPORT_ROW * min(count, MOST_SHOWN)
     disk = rows * written.row_bytes + count * written.value_bytes + _REPORT_BYTES
-    disk += _PIECES_BYTES * np.ceil(of_all / BATCH_S)
     growth = min(trial.kept_bytes, MOST_KEPT_BYTES)
     here = memory_bytes(problem, count) + (0.0 if workers else growth)
     plan = Plan(
@@ -196,7 +193,8 @@ def _written(problem: Problem, trial: Trial) -> _Written:
     each = zip(problem.space.variables, trial.designs[rows].T, strict=True)
     columns = [variable.in_file(column) for variable, column in each]
     text = "\n".join(map(",".join, zip(*map(cells, [*columns, *values[rows].T]), strict=True)))
-    packed = [values[rows].tobytes(), _compressed(values[rows])]
+    no_failures = json.dumps([""] * len(values[rows])).encode()
+    packed = [values[rows].tobytes(), no_failures, _compressed(values[rows])]
     if problem.design.sampling != "grid":
         packed.append(_compressed(trial.designs[rows]))
     seconds, count = time.process_time() - begin, len(values[rows])
