@@ -18,9 +18,7 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 Stream: TypeAlias = Callable[[Iterable[Item]], Iterable[Result]]
 """Function that computes the results of items, in their order."""
-EachOnce: TypeAlias = Callable[
-    [Iterable[Any], Callable[[Iterable[Any]], Iterable[Any]], Callable[[Any], str]], Iterable[Any]
-]
+EachOnce: TypeAlias = Callable[..., Iterable[Any]]
 """Takes items, a stream and the key of an item; `PieceFiles.each_once` is one."""
 _STORE: Final = ContextVar[tuple[EachOnce, int] | None]("_STORE", default=None)
 """Store of this run, and the process that may use it."""
