@@ -78,8 +78,8 @@ def contributions(results: xr.Dataset) -> Intervals:
     caption = f"Contributions to the level at {where}"
     medians = ", nor do medians" if has_samples(results) else ""
     note = (
-        f"Each source alone: the largest, and those within {_QUIETEST_DB:g} dB of the machine. "
-        f"Levels in dB do not add up{medians}."
+        f"Each source alone: the largest one, and others within {_QUIETEST_DB:g} dB of the "
+        f"machine. Levels in dB do not add up{medians}."
     )
     return Intervals(caption, ("", f"dB(A){of}"), tuple(rows), scale, None, note)
 
@@ -185,7 +185,8 @@ def _source(results: xr.Dataset) -> str:
     if not has_sources(results):
         coordinates = at_catalogue(results, speed=speed)
         modelled = band(results, "level_modelled", **coordinates).middle_text(rounding.level)
-        unmodelled = "" if overall_noise(results) is None else "; the rest is unmodelled noise"
+        fill = "; unmodelled noise fills up the published level"
+        unmodelled = "" if overall_noise(results) is None else fill
         return f"Shaft orders of the rigid machine alone make {modelled} dB(A){unmodelled}."
     source, makes_most = leading_source(results)
     name = source_name(results, source)
