@@ -87,7 +87,8 @@ def test_third_partys_criterion_is_scored_and_reported_without_its_file(
     assert "criterion force_2x_n" in json.loads(results.attrs["plugins"])
     file = storage.write_results(results, tmp_path / "results.nc")
     files = report.render(storage.open_results(file))
-    assert b"Largest force at twice the speed, N" in files["report.html"]
+    row = b'Largest force at twice the speed</th><td class="words">N</td>'
+    assert row in files["report.html"]
     assert files["scores.csv"].startswith(b"option,foot_force_1x_n,force_2x_n,score_")
     assert_refused(command_here("score", file), "criterion force_2x_n: unknown")
 
