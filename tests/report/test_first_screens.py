@@ -17,6 +17,7 @@ from support import PIPELINES, ROOT, TINY, made_up_radiation
 import vibroacoustics as va
 from vibroacoustics.report.blocks import Intervals
 from vibroacoustics.report.sections.verdict import words as first_screen
+from vibroacoustics.results.titles import titled
 from vibroacoustics.stages import room as room_stage
 
 TEXTS = ROOT / "tests" / "report" / "first_screens"
@@ -80,6 +81,7 @@ def chart(block: Intervals) -> list[str]:
 
 
 def text_of(results: xr.Dataset) -> str:
+    results = titled(results)
     changes = first_screen.changes(results)
     lines = [*first_screen.sentences(results), *chart(first_screen.contributions(results))]
     return "\n".join([*lines, *(chart(changes) if changes else [])]) + "\n"

@@ -408,9 +408,7 @@ def test_a_line_that_the_total_masks_makes_nothing_worse() -> None:
 
 def test_the_first_screen_says_whether_the_total_changes() -> None:
     factors = {"none": 1.0, "louder": 4.0}
-    assert "No option reliably lowers the level by 0.5 dB or more." in sentences(
-        make_results(factors)
-    )
+    assert "No option lowers the level by 0.5 dB." in sentences(make_results(factors))
     louder = " ".join(sentences(make_results(factors, published_dba=22.0)))
     assert "Option louder raises the level: +" in louder
     halved = make_results({"none": 4.0, "halved": 1.0}, published_dba=15.0)

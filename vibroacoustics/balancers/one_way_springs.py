@@ -94,6 +94,6 @@ class OneWaySprings(Option):
         cost = rounding.span(figures["dissipated_power_w"], rounding.significant)
         return (
             f"Its planks move by ±{size} mm.",
-            f"They resonate on their springs at {speed} rpm, also on the way up to speed.",
+            f"They resonate at {speed} rpm, also during run-up.",
             f"It dissipates {cost} W.",
         )

@@ -88,16 +88,12 @@ class Pendulum(Option):
         growth = figures["hanging_multiplier"]
         size = rounding.span(growth, lambda value: rounding.fixed(value, 2))
         state = "stable" if growth.max() < 1.0 else "stable at some of the speeds only"
-        hanging = f"Hanging is {state} (Floquet multiplier {size})."
         if growth.min() > 1.0:
-            hanging = (
-                f"Hanging is unstable: a deviation grows {size}-fold a revolution (Floquet "
-                "multiplier)."
-            )
+            state = "unstable"
         where = rounding.span(abs(figures["settled_angle_deg"]), rounding.fixed)
         return (
-            hanging,
-            f"The pendulum settles {where}° from hanging on average; stops are not modelled.",
+            f"Hanging is {state} (Floquet multiplier {size}).",
+            f"It settles {where}° from hanging on average.",
         )
 
 

@@ -72,7 +72,7 @@ class SprungMass(Option):
         cost = rounding.span(figures["dissipated_power_w"], rounding.significant)
         return (
             f"Its mass moves with an amplitude of {stroke} mm.",
-            f"Its mass resonates on the springs at {speed} rpm, also on the way up to speed.",
+            f"Its mass resonates at {speed} rpm, also during run-up.",
             f"It dissipates {cost} W.",
         )
 

@@ -47,7 +47,7 @@ def _analysis(results: xr.Dataset) -> Analysis:
         about="What each way of balancing does to the forces, to the feet and to the sound.",
         parts=tuple(side_by_side(blocks_of, range(len(sections)))),
         summary=sentences(named),
-        shown=(*terminal_blocks(results), *map(Text, filter(None, notes))),
+        shown=(*terminal_blocks(named), *map(Text, filter(None, notes))),
         tables=_tables(results),
         figures="figures/",
         in_markdown="comparison.md",

@@ -27,9 +27,12 @@ def titled(results: xr.Dataset) -> xr.Dataset:
     CSV files are made of results without.
     """
     titles, options = _titles(results), option_titles(results)
-    names = [str(name) for name in results["option"].values] if "option" in results.coords else []
-    renamed = [options.get(name, name) for name in names]
-    if renamed == names and not titles.get("machine"):
+    named = {
+        dimension: [options.get(str(name), str(name)) for name in results[dimension].values]
+        for dimension in ("option", "shown_option")
+        if dimension in results.coords
+    }
+    if not titles.get("machine") and all(results[d].values.tolist() == n for d, n in named.items()):
         return results
     parameters = json.loads(results.attrs["parameters"])
     parameters["machine"]["name"] = titles.get("machine") or parameters["machine"]["name"]
@@ -39,11 +42,11 @@ def titled(results: xr.Dataset) -> xr.Dataset:
         words = json.loads(results.attrs["words"])
         words["sentences"] = _by_title(words["sentences"], options)
         attrs["words"] = canonical_json(words)
-    return results.assign_coords(option=renamed).assign_attrs(attrs)
+    return results.assign_coords(named).assign_attrs(attrs)
 
 
 def chosen(results: xr.Dataset, dimension: str, value: Any) -> Any:
-    """A label of a dimension; where none is given, the first; of an option with a title that.
+    """A label of a dimension; where none is given, the first; an option by name or title.
 
     Raises
     ------
@@ -52,7 +55,7 @@ def chosen(results: xr.Dataset, dimension: str, value: Any) -> Any:
     """
     labels = results[dimension].values.tolist()
     if dimension == "option" and value not in labels:
-        value = option_titles(results).get(value, value)
+        value = {**option_titles(results), **option_names(results)}.get(value, value)
     if value is None:
         return labels[0]
     if value not in labels:

@@ -61,8 +61,7 @@ def rank_acceptability(results: xr.Dataset) -> Chart:
         "ranks",
         "Probability of every rank of every option as a stacked bar, the first rank leftmost; the "
         "numbers are in scoring.csv.",
-        f"Probability of each rank over {sampled}: the more of the dark left end, the surer an "
-        "option is among the first.",
+        f"Probability of each rank over {sampled}. The dark left end is the first rank.",
         (_stacked(results, "Probability", zip(labels, colours, ranks.values, strict=True)),),
     )
 

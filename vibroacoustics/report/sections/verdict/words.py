@@ -55,13 +55,14 @@ def contributions(results: xr.Dataset) -> Intervals:
     speed = nearest_speed(results)
     coordinates = at_catalogue(results, speed=speed)
     total = band(results, "level_total", **coordinates)
-    rows = [_contribution("machine", total, "total")]
+    rows, scatter = [_contribution("machine", total, "total")], ""
     noise = overall_noise(results)
     if noise is not None and speed == noise["speed_rpm"]:
         level, deviation = noise["level_dba"], noise.get("deviation_db", 2.0)
         bounds = (level - deviation, level, level + deviation)
         text = f"{level:g} ± {deviation:g}"
         rows.insert(0, Interval(_kind(results), text, *bounds, "published"))
+        scatter = f" ±{NO_BREAK}{deviation:g} dB is the standard deviation."
     if noise is not None:
         unmodelled = band(results, "residual_level", **coordinates).as_part_of(total)
         rows.append(_contribution(UNMODELLED, unmodelled, "part"))
@@ -78,8 +79,8 @@ def contributions(results: xr.Dataset) -> Intervals:
     caption = f"Contributions to the level at {where}"
     medians = ", nor do medians" if has_samples(results) else ""
     note = (
-        f"Each source alone: the largest one, and others within {_QUIETEST_DB:g} dB of the "
-        f"machine. Levels in dB do not add up{medians}."
+        f"Each source alone: the largest always, others if within {_QUIETEST_DB:g} dB of the "
+        f"machine. Levels in dB do not add up{medians}.{scatter}"
     )
     return Intervals(caption, ("", f"dB(A){of}"), tuple(rows), scale, None, note)
 
@@ -94,7 +95,7 @@ def changes(results: xr.Dataset) -> Intervals | None:
     ends = [abs(end) for row in rows for end in (row.low, row.high) if np.isfinite(end)]
     span = float(np.ceil(max(*ends, _LEAST_SPAN_DB)))
     several = (
-        " Each change is given at the speed where it is largest."
+        " Each change is given at the simulated speed where it is largest."
         if len(speeds(results)) > 1
         else ""
     )
@@ -185,7 +186,7 @@ def _source(results: xr.Dataset) -> str:
     if not has_sources(results):
         coordinates = at_catalogue(results, speed=speed)
         modelled = band(results, "level_modelled", **coordinates).middle_text(rounding.level)
-        fill = "; unmodelled noise fills up the published level"
+        fill = f"; unmodelled noise fills up the {_kind(results)} level"
         unmodelled = "" if overall_noise(results) is None else fill
         return f"Shaft orders of the rigid machine alone make {modelled} dB(A){unmodelled}."
     source, makes_most = leading_source(results)
@@ -212,7 +213,8 @@ def _options(results: xr.Dataset) -> str:
     if not shifts:
         return ""
     lower, higher = by_effect(results)
-    none = f"No option reliably lowers the level by {measurable(results).level_db:g} dB or more."
+    does = "is likely to lower" if has_samples(results) else "lowers"
+    none = f"No option {does} the level by {measurable(results).level_db:g} dB."
     lowered = _claim(results, shifts, lower, "lower") or none
     sentences = [lowered, _claim(results, shifts, higher, "raise")]
     return " ".join(filter(None, sentences))
@@ -254,7 +256,7 @@ def _vibration(results: xr.Dataset) -> str:
     change = _largest_change(results, shift(results, FOOT_FORCE, best), "%")
     if not sure:
         return f"Option {best} may reduce the force on the feet at shaft speed (1×): {change}."
-    return f"Smallest force on the feet at shaft speed (1×): option {best}, {change}."
+    return f"Largest reduction of force on the feet at shaft speed (1×): option {best}, {change}."
 
 
 def best_for_feet(results: xr.Dataset) -> tuple[str, bool]:
@@ -278,7 +280,7 @@ def _measurement(results: xr.Dataset) -> str:
     if wanted is None:
         return ""
     purpose, measurement = wanted
-    return f"Most valuable measurement ({purpose}): {measurement}."
+    return f"Most valuable measurement for the {purpose}: {measurement}."
 
 
 def _at_largest(of_quantity: Shift) -> Band:
