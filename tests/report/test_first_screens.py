@@ -53,7 +53,8 @@ def room():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(room_stage, "vectors_of", vectors)
         patch.setattr(room_stage, "_map", lambda *_: xr.Dataset({"room_map_level": level}))
-        study = va.load_study(TINY).replace({"room": KITCHEN})
+        title = {"options.counterweight-half.title": "half-force counterweight"}
+        study = va.load_study(TINY).replace({"room": KITCHEN, **title})
         return va.run(study, radiation=made_up_radiation)
 
 

@@ -67,7 +67,7 @@ def test_sentence_table_file_and_sheet_have_one_adjustment(
     for window in map(str, results["rating_window"].values):
         cells = {str(row[0]): str(row[3]) for row in rating_table(results, window).rows}
         sheet = {one.window: one.adjustment_db for one in va.data_sheet(results, "none").windows}
-        added = re.search(r"with (\S+) dB for the tone", rating_sentence(results, window))
+        added = re.search(r"including (\S+) dB for the tone", rating_sentence(results, window))
         assert in_file["none", window] == sheet[window] == float(cells["none"].split()[0])
         assert in_file["none", window] == (float(added[1]) if added else 0.0)
 

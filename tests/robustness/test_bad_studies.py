@@ -317,7 +317,7 @@ def test_wrong_type_of_a_quantity(tree, old, field, wrong):
         ("[receivers.left_1m]", "[[receivers.left_1m]]", ["receivers.left_1m"]),
         ('kind = "twin-oldham"', "kind = 3", ["options.twin-oldham"]),
         ("[machine]\n", "[[machine]]\n", ["machine"]),
-        ('title = "', 'title = 3 #"', ["title", "3"]),
+        ('title = "Copeland', 'title = 3 #"', ["title", "3"]),
     ],
 )
 def test_wrong_type(tree, old, new, words):

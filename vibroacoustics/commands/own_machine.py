@@ -135,7 +135,7 @@ def commented_options(study: list[Block]) -> None:
 
 def _follows_machine(entry: Entry) -> bool:
     """Whether a value of an option is none of the published machine's."""
-    if entry.key == "kind":
+    if entry.key in ("kind", "title"):
         return True
     if not entry.active:
         return entry.key != "added_mass_kg" or _number(entry) == 0.0

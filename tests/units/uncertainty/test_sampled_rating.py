@@ -47,7 +47,7 @@ def test_probability_is_the_weight_of_samples_that_meet_the_limit(results):
 def test_the_section_answers_first(results):
     words = rating_sentence(results, "office")
     assert words.startswith("Rating level at window office: ")
-    assert ". Night limit of 50: met with " in words
+    assert ". Night limit 50: met with " in words
     table = rating_table(results, "office")
     shares = [float(row[1].split()[0]) for row in table.rows]
     assert shares == sorted(shares, reverse=True)

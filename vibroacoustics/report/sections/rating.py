@@ -51,7 +51,7 @@ def rating_sentence(results: xr.Dataset, window: str, among: str = "") -> str:
     limit = results["rating_limit"].sel(rating_window=window).item()
     return (
         f"Rating level at window {window}{among}: {level} dB(A){_tone_words(results, window)}. "
-        f"{_PERIOD[period]} limit of {limit:g}: {_verdict(results, case)}."
+        f"{_PERIOD[period]} limit {limit:g}: {_verdict(results, case)}."
     )
 
 
@@ -109,7 +109,7 @@ def _tone_words(results: xr.Dataset, window: str) -> str:
         return ", nothing for tones"
     added = band(results, "rating_adjustment", **case).middle_text(_step)
     tone = name.replace("×", "× shaft speed")
-    return f", with {added} dB for the tone at {tone}"
+    return f", including {added} dB for the tone at {tone}"
 
 
 def _step(adjustment_db: float) -> str:
