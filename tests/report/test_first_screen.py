@@ -309,7 +309,9 @@ def test_the_best_option_for_the_feet_is_that_of_the_median_changes(
     text = next(
         one
         for one in sentences(sampled)
-        if one.startswith("Largest reduction of force on the feet at shaft speed (1×): option ")
+        if one.startswith(
+            "Largest reduction of force on the most loaded foot at shaft speed (1×): option "
+        )
     )
     name, _, size = text.partition(": option ")[2].partition(", ")
     assert name == best

@@ -79,8 +79,8 @@ def contributions(results: xr.Dataset) -> Intervals:
     caption = f"Contributions to the level at {where}"
     medians = ", nor do medians" if has_samples(results) else ""
     note = (
-        f"Each source alone: the largest always, others if within {_QUIETEST_DB:g} dB of the "
-        f"machine. Levels in dB do not add up{medians}.{scatter}"
+        "Each modelled source alone: the largest always, others if within "
+        f"{_QUIETEST_DB:g} dB of the machine. Levels in dB do not add up{medians}.{scatter}"
     )
     return Intervals(caption, ("", f"dB(A){of}"), tuple(rows), scale, None, note)
 
@@ -178,7 +178,9 @@ def _room(results: xr.Dataset) -> str:
     names = results["listener"].values.tolist()
     level_at = {name: band(results, "room_level", **coordinates, listener=name) for name in names}
     name = max(level_at, key=lambda listener: level_at[listener].middle)
-    return f"In the room, at {name}: {level_at[name].middle_and_ends(rounding.level)} dB(A)."
+    return (
+        f"In the room, at listener {name}: {level_at[name].middle_and_ends(rounding.level)} dB(A)."
+    )
 
 
 def _source(results: xr.Dataset) -> str:
@@ -254,9 +256,10 @@ def _vibration(results: xr.Dataset) -> str:
     if not best:
         return "No option measurably reduces the force on the feet at shaft speed (1×)."
     change = _largest_change(results, shift(results, FOOT_FORCE, best), "%")
+    force = "force on the most loaded foot at shaft speed (1×)"
     if not sure:
-        return f"Option {best} may reduce the force on the feet at shaft speed (1×): {change}."
-    return f"Largest reduction of force on the feet at shaft speed (1×): option {best}, {change}."
+        return f"Option {best} may reduce the {force}: {change}."
+    return f"Largest reduction of {force}: option {best}, {change}."
 
 
 def best_for_feet(results: xr.Dataset) -> tuple[str, bool]:
