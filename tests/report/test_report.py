@@ -339,10 +339,10 @@ def test_every_option_has_one_short_row(results: xr.Dataset) -> None:
         (
             ["Foot force", "Cost", "Added mass"],
             [[4.0, 0.0, 0.0], [2.0, 9.0, 3.0]],
-            "none, which scores better in cost and added mass.",
+            "below none, mainly by cost.",
         ),
-        (["Foot force", "Added mass"], [[4.0, 0.0], [3.0, 5.0]], "better in added mass."),
-        (["Foot force", "Risk, 1 to 9"], [[4.0, 1.0], [3.0, 5.0]], "better in risk, 1 to 9."),
+        (["Foot force", "Added mass"], [[4.0, 0.0], [3.0, 5.0]], "mainly by added mass."),
+        (["Foot force", "Risk, 1 to 9"], [[4.0, 1.0], [3.0, 5.0]], "mainly by risk, 1 to 9."),
         (["Foot force", "Risk"], [[4.0, 1.0], [1.0, 1.0]], ""),
     ],
 )
@@ -362,7 +362,7 @@ def test_why_a_better_option_ranks_behind_is_told_by_the_criteria_that_decide(
     scored = score(results, Scoring(criteria=scales))
     merged = results.merge(scored)
     text = ranking_sentence(merged, option_verdicts(merged))
-    assert ("ranks below none, which scores better" in text) == bool(told)
+    assert ("ranks below none" in text) == bool(told)
     assert told in text
 
 

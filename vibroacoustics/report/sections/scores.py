@@ -153,20 +153,16 @@ def ranking_sentence(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> 
         if each.judgement == BETTER and rank[each.option] > rank[REFERENCE_OPTION]
     )
     return (
-        f"By the study's weights {' and '.join(winners)} {verb} first "
+        f"By the study's weights option {' and '.join(winners)} {verb} first "
         f"({labels.name(method).lower()}, score {score} of 1)"
         f"{acceptability_words(results, winners)}.{behind}{scope_words(results)}"
     )
 
 
 def _behind(results: xr.Dataset, option: str) -> str:
-    """Name the criteria by which an option that betters forces or sound falls behind the
-    reference."""
-    criteria = criteria_of_advantage(results, REFERENCE_OPTION, option)
-    return (
-        f" {option} ranks below {REFERENCE_OPTION}, which scores better in "
-        f"{' and '.join(map(_inside_a_sentence, criteria))}."
-    )
+    """Name the criterion that puts an option that betters forces or sound below the reference."""
+    first = criteria_of_advantage(results, REFERENCE_OPTION, option)[0]
+    return f" Option {option} ranks below {REFERENCE_OPTION}, mainly by {_inside_a_sentence(first)}."
 
 
 def _inside_a_sentence(label: str) -> str:
