@@ -162,7 +162,8 @@ def ranking_sentence(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> 
 def _behind(results: xr.Dataset, option: str) -> str:
     """Name the criterion that puts an option that betters forces or sound below the reference."""
     first = criteria_of_advantage(results, REFERENCE_OPTION, option)[0]
-    return f" Option {option} ranks below {REFERENCE_OPTION}, mainly by {_inside_a_sentence(first)}."
+    why = _inside_a_sentence(first)
+    return f" Option {option} ranks below {REFERENCE_OPTION}, mainly by {why}."
 
 
 def _inside_a_sentence(label: str) -> str:
