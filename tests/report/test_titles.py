@@ -45,6 +45,9 @@ def test_the_report_shows_titles(results, monkeypatch):
         shown = str(part.blocks)
         assert TITLE in shown, part.name
         assert NAME not in page_of(part).html().decode(), part.name
+    for text in (page.text(), *page.summary):
+        assert NAME not in text
+    assert TITLE in page.text()
     assert results["criterion_label"].item() == CRITERION
     assert CRITERION in str(criteria_table(results).rows)
 
@@ -64,6 +67,9 @@ def test_figures_show_titles_and_take_names(results):
     shown = titled(results)
     assert titled(shown).identical(shown)
     assert chosen(shown, "option", NAME) == TITLE
+    assert chosen(results, "option", TITLE) == NAME
+    drawn = titled(results.assign_coords(shown_option=["none", NAME]))
+    assert drawn["shown_option"].values.tolist() == ["none", TITLE]
     assert option_titles(results) == {NAME: TITLE}
 
 
