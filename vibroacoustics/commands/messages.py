@@ -107,11 +107,14 @@ def collected(quiet: bool) -> Iterator[list[str]]:
 @contextmanager
 def warnings_in_one_line() -> Iterator[None]:
     """Print each of Python's warnings as one line; one that says the same comes once."""
+    said: set[str] = set()
+
+    def show(message: Warning | str, *_: Any, **__: Any) -> None:
+        if str(message) not in said:
+            said.add(str(message))
+            warn([str(message)])
+
     with warnings.catch_warnings():
-        warnings.simplefilter("once", UserWarning)
-        warnings.showwarning = _show
+        warnings.simplefilter("always", UserWarning)  # "once" is once for each module
+        warnings.showwarning = show
         yield
-
-
-def _show(message: Warning | str, *_: Any, **__: Any) -> None:
-    warn([str(message)])

@@ -2,6 +2,7 @@
 
 import os
 import stat
+import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from fnmatch import fnmatch
@@ -216,3 +217,10 @@ def _remove_any(cache_folder: Folder, name: str) -> None:
 
 def _hash_of(name: str) -> str:
     return hash_path(Path(name)).name
+
+
+def warn(error: StorageError) -> None:
+    """Say once that a run goes on without the cache, however many entries cannot be written."""
+    _, failure, reason = str(error).rpartition("cannot be written: ")
+    words = f"{folder()}: {failure}{reason}" if failure else str(error)
+    warnings.warn(f"cache {words}; the run goes on without it", stacklevel=4)

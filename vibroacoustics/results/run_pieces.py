@@ -2,7 +2,6 @@
 
 import platform
 import time
-import warnings
 import zlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
@@ -66,7 +65,7 @@ class RunPieces(PieceFiles):
                 super().keep(key, content)
             except StorageError as error:
                 self._free_bytes = -1
-                _warn(error)
+                cache.warn(error)
 
 
 @contextmanager
@@ -92,7 +91,7 @@ def resumable(
             folder = stack.enter_context(cache.opened())
             store = _opened(stack, folder, name)
         except StorageError as error:
-            _warn(error)
+            cache.warn(error)
             store = None
         if store is None:
             yield
@@ -128,7 +127,3 @@ def _hash_of_sources() -> str:
     """Hash of this package's files: a change of the code never meets older pieces."""
     files = sorted(Path(__file__).parent.parent.rglob("*"))
     return sha256(b"".join(file.read_bytes() for file in files if file.suffix in _SOURCES))
-
-
-def _warn(error: StorageError) -> None:
-    warnings.warn(f"cache {error}; the run could not resume", stacklevel=3)

@@ -5,7 +5,6 @@ written beside its name, gets its hash as the last line, and then takes its name
 """
 
 import os
-import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from contextvars import ContextVar
@@ -133,7 +132,7 @@ def cached(
         try:
             folder = stack.enter_context(cache.opened())
         except StorageError as error:
-            _warn(error)
+            cache.warn(error)
             return compute(), False
         if (result := _known(folder, name)) is not None:
             return result, True
@@ -179,7 +178,7 @@ def _locked_entry(stack: ExitStack, folder: Folder, name: str) -> bool:
         with naming(folder.path):
             stack.enter_context(locked(folder, cache.lock_of(name), what))
     except StorageError as error:
-        _warn(error)
+        cache.warn(error)
         return False
     return True
 
@@ -195,11 +194,4 @@ def _keep(result: xr.Dataset, folder: Folder, name: str, study: str) -> None:
         with naming(folder.path):
             cache.tidy(folder)
     except StorageError as error:
-        _warn(error)
-
-
-def _warn(error: StorageError) -> None:
-    """One warning, however many entries cannot be written for the same reason."""
-    _, failure, reason = str(error).rpartition("cannot be written: ")
-    words = f"{cache.folder()}: {failure}{reason}" if failure else str(error)
-    warnings.warn(f"cache {words}; the run goes on without it", stacklevel=4)
+        cache.warn(error)

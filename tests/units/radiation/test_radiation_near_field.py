@@ -286,6 +286,7 @@ def test_predicted_memory_is_what_it_takes(spacing_m, frequencies, patterns):
         os.sched_setaffinity(0, {{min(os.sched_getaffinity(0))}})
         import numpy as np
         from vibroacoustics.radiation import near_run
+        from vibroacoustics.base.revolution import capped_cylinder
         from vibroacoustics.radiation.bodies import turned
         from vibroacoustics.radiation.machine_side import MachineSide, near_fields
         from vibroacoustics.radiation.near_memory import memory_bytes
