@@ -42,6 +42,7 @@ from vibroacoustics.report.sections.comparison import (
 from vibroacoustics.report.sections.mounts import isolation_sentence, shape_words
 from vibroacoustics.report.sections.radiation import grid_error_sentence
 from vibroacoustics.report.sections.reasons import options_table
+from vibroacoustics.report.sections import scores
 from vibroacoustics.report.sections.scores import ranking_sentence, scores_data, wrong_sums
 from vibroacoustics.report.sections.verdict.words import sentences
 from vibroacoustics.report.tables import to_csv
@@ -364,6 +365,8 @@ def test_why_a_better_option_ranks_behind_is_told_by_the_criteria_that_decide(
     text = ranking_sentence(merged, option_verdicts(merged))
     assert ("ranks below none" in text) == bool(told)
     assert told in text
+    if not told:  # ranked below by rounding alone, it has no sentence
+        assert not scores._behind(merged, "halved")
 
 
 def test_a_line_that_rises_elsewhere_makes_the_verdict_mixed() -> None:

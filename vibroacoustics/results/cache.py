@@ -220,7 +220,7 @@ def _hash_of(name: str) -> str:
 
 
 def warn(error: StorageError) -> None:
-    """Say once that a run goes on without the cache, however many entries cannot be written."""
+    """Warn that a run goes on without the cache, in one text for all entries not written."""
     _, failure, reason = str(error).rpartition("cannot be written: ")
     words = f"{folder()}: {failure}{reason}" if failure else str(error)
     warnings.warn(f"cache {words}; the run goes on without it", stacklevel=4)

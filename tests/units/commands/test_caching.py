@@ -2,6 +2,7 @@
 
 import json
 import os
+import warnings
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from support import ROOT, TINY, assert_refused, command_here, tiny_run
 
 from vibroacoustics import open_results, report, write_report
 from vibroacoustics.base.hashing import sha256
+from vibroacoustics.commands import messages
 from vibroacoustics.results import cache, storage
 
 
@@ -91,6 +93,14 @@ def test_a_cache_that_cannot_be_written_costs_one_line(study, tmp_path, monkeypa
     (line,) = outcome.stderr.splitlines()
     assert line.startswith("warning: cache ")
     assert line.endswith("the run goes on without it")
+
+
+def test_a_warning_of_two_modules_comes_once(capsys):
+    with messages.warnings_in_one_line():
+        for module in ("one", "two"):
+            warnings.warn_explicit("cache full", UserWarning, f"{module}.py", 1, module, {})
+        warnings.warn("cache empty", stacklevel=1)
+    assert capsys.readouterr().err == "warning: cache full\nwarning: cache empty\n"
 
 
 # --- files of one run ----------------------------------------------------------------------------

@@ -411,6 +411,7 @@ def test_the_local_scheme_agrees_in_a_kitchen():
     ]
     frequency = np.arange(55.0, 450.1, 1.0)
     source = np.array([2.05, 1.45, 0.75])
+    # Cells of 50 and 33 mm would themselves err by 0.45 dB in the highest third octave.
     rms = _second_method_db(room, settings, frequency, points, source, (1.0 / 30.0, 0.025))
     assert _rms(rms) <= 0.2
 

@@ -44,11 +44,7 @@ def stacked_third_octaves(results: xr.Dataset, receiver: str | None = None) -> C
     ticks = tuple((float(row), word) for row, word in enumerate(words) if row % 3 == 2)
     axis = Axis("Third-octave band, Hz", ticks=ticks)
     panels = _panels(results, energy, np.arange(len(bands), dtype=float), axis, 0.9)
-    reading = (
-        "The height of a bar is the level of the sum. Its colours are shares of the energy; "
-        "sources that are not seen, or work against the others, are omitted."
-    )
-    return _chart("stacked_third_octaves", f"third octaves at {mic}", results, panels, reading)
+    return _chart("stacked_third_octaves", f"third octaves at {mic}", results, panels)
 
 
 @needs("line_energy")
@@ -68,8 +64,7 @@ def stacked_lines(results: xr.Dataset, receiver: str | None = None) -> Chart:
     shaft_hz = shaft_frequency_hz(float(results["shown_speed"]))
     frequency = shaft_hz * energy["line_order"].values
     panels = _panels(results, energy, frequency, Axis("Frequency, Hz"), 0.8 * shaft_hz)
-    what = f"lines of the shaft orders at {mic}"
-    return _chart("stacked_lines", what, results, panels, "Read as the third octaves.")
+    return _chart("stacked_lines", f"lines of the shaft orders at {mic}", results, panels)
 
 
 def divided(energy: Array, bottom_db: float) -> tuple[Array, Array]:
@@ -117,14 +112,14 @@ def _panels(
     return tuple(panels)
 
 
-def _chart(
-    name: str, what: str, results: xr.Dataset, panels: tuple[Panel, ...], reading: str
-) -> Chart:
+def _chart(name: str, what: str, results: xr.Dataset, panels: tuple[Panel, ...]) -> Chart:
     levels = f"A-weighted {what}, {float(results['shown_speed']):g} rpm"
     return Chart(
         name,
         f"{levels}, divided among the sources.",
-        f"{levels}, of the representative sample. {reading}",
+        f"{levels}, of the representative sample. The height of a bar is the "
+        "level of the sum. Its colours are shares of the energy; sources that are not seen, or "
+        "work against the others, are omitted.",
         panels,
     )
 

@@ -160,9 +160,14 @@ def ranking_sentence(results: xr.Dataset, verdicts: Sequence[OptionVerdict]) -> 
 
 
 def _behind(results: xr.Dataset, option: str) -> str:
-    """Name the criterion that puts an option that betters forces or sound below the reference."""
-    first = criteria_of_advantage(results, REFERENCE_OPTION, option)[0]
-    why = _inside_a_sentence(first)
+    """Name the criterion that puts an option that betters forces or sound below the reference.
+
+    Empty where they are apart by rounding alone.
+    """
+    criteria = criteria_of_advantage(results, REFERENCE_OPTION, option)
+    if not criteria:
+        return ""
+    why = _inside_a_sentence(criteria[0])
     return f" Option {option} ranks below {REFERENCE_OPTION}, mainly by {why}."
 
 
