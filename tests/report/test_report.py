@@ -33,6 +33,7 @@ from vibroacoustics.base.vocabulary import (
 from vibroacoustics.report import render
 from vibroacoustics.report.figures.scores import contributions
 from vibroacoustics.report.option_verdict import option_verdict, option_verdicts
+from vibroacoustics.report.sections import scores
 from vibroacoustics.report.sections.assumptions import records_table
 from vibroacoustics.report.sections.comparison import (
     comparison,
@@ -42,7 +43,6 @@ from vibroacoustics.report.sections.comparison import (
 from vibroacoustics.report.sections.mounts import isolation_sentence, shape_words
 from vibroacoustics.report.sections.radiation import grid_error_sentence
 from vibroacoustics.report.sections.reasons import options_table
-from vibroacoustics.report.sections import scores
 from vibroacoustics.report.sections.scores import ranking_sentence, scores_data, wrong_sums
 from vibroacoustics.report.sections.verdict.words import sentences
 from vibroacoustics.report.tables import to_csv
