@@ -4,7 +4,7 @@
 # make torture COUNT=200  those so often each; a later call goes on; ONLY=damage for those trials alone
 # make coverage  400 synthetic machines a world: how often intervals hold the truth; half an hour
 # make faults  200 changes of formulas, signs, factors and thresholds: which do the tests see; about an hour
-# make evidence  evidence.json and docs/evidence.md from what the tests claim; LONG=1 with the long tests
+# make evidence  evidence.json from what the tests claim; LONG=1 with the long tests; make docs shows it
 # make docs  sets up and builds the site into docs/_build/html
 # Compiled modules are kept: without them each start takes two seconds more.
 unexport PYTHONDONTWRITEBYTECODE

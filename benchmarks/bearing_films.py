@@ -1,6 +1,10 @@
-"""Loss factors of pin and journals and oil whirl over the samples, for docs/load_path.md."""
+"""Loss factors of pin and journals and oil whirl over the samples, for docs/load_path.md.
+
+python benchmarks/bearing_films.py [--quick]
+"""
 
 import numpy as np
+from quick import ROOT, parser
 
 import vibroacoustics as va
 from vibroacoustics.base.units import shaft_frequency_hz
@@ -19,7 +23,9 @@ MIRROR = np.diag([1.0, -1.0])
 
 def main() -> None:
     """Print eccentricity ratio, loss factor and share of samples with oil whirl."""
-    study = va.load_study("pipelines/copeland_sources.toml")
+    study = va.load_study(ROOT / "pipelines" / "copeland_sources.toml")
+    if parser(__doc__).parse_args().quick:
+        study = study.replace({"uncertainty.random_samples": 4})
     machines = [study.machine]
     samples = samples_of(study).samples
     machines += [with_sample(study.machine, study.machine, sample) for sample in samples]

@@ -7,7 +7,6 @@ coarsest mesh that stays within `MEAN_DB` and `MICROPHONE_DB` of the finest resu
     NUMBA_NUM_THREADS=2 OMP_NUM_THREADS=2 python benchmarks/boundary_elements.py
 """
 
-import argparse
 import csv
 import statistics
 import sys
@@ -17,11 +16,13 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
+from quick import parser, require
 
+require(("bempp_cl",))
 ORACLE: Final = Path(__file__).parents[1] / "tests" / "oracles" / "boundary_elements"
 sys.path.insert(0, str(ORACLE))
 
-import run  # noqa: E402
+import run
 
 BODY: Final = replace(run.CYLINDER, rim=0.35)
 """Coarse meshes need less refinement at the rims."""
@@ -46,8 +47,10 @@ def results_on_file(names: list[str]) -> run.ComplexArray:
     return pressure
 
 
-def coarsest_mesh(rigid_only: bool) -> run.Mesh:
-    """Coarsest mesh that is accurate enough at all frequencies up to 2 kHz."""
+def coarsest_mesh(rigid_only: bool, quick: bool) -> run.Mesh:
+    """Coarsest mesh that is accurate enough at all frequencies up to 2 kHz; quickly, any."""
+    if quick:
+        return run.mesh(BODY, SIZES_M[0])
     motions = run.patterns(BODY)
     names = [name for name in motions if not rigid_only or name in run.rigid_motions()]
     reference = results_on_file(names)
@@ -71,13 +74,14 @@ def coarsest_mesh(rigid_only: bool) -> run.Mesh:
 
 def main() -> None:
     """Choose the mesh, time the sampled frequencies and extrapolate to all of them."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--all-patterns", action="store_true", help="also beam and oval accurate")
-    parser.add_argument("--quadrature", type=int, default=run.QUADRATURE_ORDER, help="order")
-    arguments = parser.parse_args()
+    options = parser(__doc__)
+    options.add_argument("--repeats", type=int, default=3)
+    options.add_argument("--all-patterns", action="store_true", help="also beam and oval accurate")
+    options.add_argument("--quadrature", type=int, default=run.QUADRATURE_ORDER, help="order")
+    arguments = options.parse_args()
     run.QUADRATURE_ORDER = arguments.quadrature
-    shape = coarsest_mesh(rigid_only=not arguments.all_patterns)
+    repeats = 1 if arguments.quick else arguments.repeats
+    shape = coarsest_mesh(rigid_only=not arguments.all_patterns, quick=arguments.quick)
     motions = list(run.rigid_motions().values())
     for by_sectors in (False, True):
         radiation = run.Radiation(shape, by_sectors)
@@ -85,7 +89,7 @@ def main() -> None:
         medians = []
         for frequency_hz in SAMPLED_HZ:
             seconds = []
-            for _ in range(arguments.repeats):
+            for _ in range(repeats):
                 start = time.perf_counter()
                 radiation.pressures(motions, frequency_hz)
                 seconds.append(time.perf_counter() - start)

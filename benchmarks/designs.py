@@ -1,6 +1,6 @@
 """Designs by linear algebra beside the plain pipeline, in one run.
 
-    OMP_NUM_THREADS=1 python benchmarks/designs.py
+    OMP_NUM_THREADS=1 python benchmarks/designs.py [--quick]
 
 The printed Copeland with four microphones and 40 orders, radiation made up: 10⁵ counterweights on
 free mounts at 8 speeds, 10⁷ cases (designs x speeds) of counterweights on the mounts as given, and
@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from quick import parser
 
 import vibroacoustics as va
 from vibroacoustics.design.problem import Problem
@@ -38,6 +39,8 @@ MOUNTS = {
     "machine.mounts.pitch_mm": {"range": [150, 250]},
 }
 PIPELINE_DESIGNS = 5
+COUNTS, QUICK_COUNTS = (100_000, 1_250_000), (200, 400)
+"""Designs on free and on fixed mounts."""
 
 
 def study_of(speeds: list[float], variables: dict[str, dict[str, list[float]]]) -> Study:
@@ -65,7 +68,7 @@ def made_up(study: Study) -> Radiation:
     return va.given_radiation(0.01 * (size[0] + 1j * size[1]) * frequency, frequency)
 
 
-def measured(name: str, study: Study, count: int) -> None:
+def measured(name: str, study: Study, count: int, by_pipeline: int = PIPELINE_DESIGNS) -> None:
     """Print what so many designs take, by the engine and by the pipeline."""
     radiation = made_up(study)
     begin = time.process_time()
@@ -79,7 +82,7 @@ def measured(name: str, study: Study, count: int) -> None:
     print(f"  set up {ready - begin:.1f} s, computed {done - ready:.1f} s,", end=" ")
     cases = count * len(study.operation.speed_rpm)
     print(f"{1e6 * (done - ready) / cases:.2f} µs a design x speed")
-    beside_pipeline(problem, study, designs[:PIPELINE_DESIGNS], judged.values, radiation)
+    beside_pipeline(problem, study, designs[:by_pipeline], judged.values, radiation)
 
 
 def beside_pipeline(
@@ -98,8 +101,11 @@ def beside_pipeline(
 
 
 if __name__ == "__main__":
-    speeds = [float(speed) for speed in range(2000, 3600, 200)]
-    measured("free mounts", study_of(speeds, VARIABLES | MOUNTS), 100_000)
-    measured("fixed mounts", study_of(speeds, VARIABLES), 1_250_000)
+    quick = parser(__doc__).parse_args().quick
+    speeds = [float(speed) for speed in range(2000, 3600, 1000 if quick else 200)]
+    free, fixed = QUICK_COUNTS if quick else COUNTS
+    by_pipeline = 1 if quick else PIPELINE_DESIGNS
+    measured("free mounts", study_of(speeds, VARIABLES | MOUNTS), free, by_pipeline)
+    measured("fixed mounts", study_of(speeds, VARIABLES), fixed, by_pipeline)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
     print(f"largest memory {peak:.2f} GB")

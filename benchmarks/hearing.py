@@ -1,6 +1,6 @@
 """Loudness and audibility of many designs: processor time a spectrum, and a front of four figures.
 
-    OMP_NUM_THREADS=1 python benchmarks/hearing.py
+    OMP_NUM_THREADS=1 python benchmarks/hearing.py [--quick]
 
 Loudness of random spectra alone, then 10⁵ counterweights of the printed Copeland at 7200 rpm and
 four microphones, whose 1x line is a tone: level, loudness, audibility and added mass.
@@ -10,6 +10,7 @@ import time
 
 import numpy as np
 from designs import STUDY, VARIABLES, WEIGHT
+from quick import parser
 
 import vibroacoustics as va
 from vibroacoustics.design.search.front import nondominated
@@ -25,17 +26,17 @@ OBJECTIVES = {
 }
 
 
-def loudness_alone() -> None:
+def loudness_alone(spectra: int = SPECTRA) -> None:
     """Print the processor time of the loudness of a spectrum."""
     rng = np.random.default_rng(2)
-    level_db = 40.0 + np.cumsum(rng.normal(0.0, 4.0, (SPECTRA, 28)), axis=1)
+    level_db = 40.0 + np.cumsum(rng.normal(0.0, 4.0, (spectra, 28)), axis=1)
     begin = time.process_time()
     total_loudness(core_loudness(level_db))
-    took = (time.process_time() - begin) / SPECTRA
-    print(f"loudness of {SPECTRA} spectra: {1e6 * took:.1f} µs a spectrum")
+    took = (time.process_time() - begin) / spectra
+    print(f"loudness of {spectra} spectra: {1e6 * took:.1f} µs a spectrum")
 
 
-def front() -> None:
+def front(count: int = DESIGNS) -> None:
     """Print what the front takes."""
     study = va.load_study(STUDY)
     study = study.replace({
@@ -51,15 +52,15 @@ def front() -> None:
     vectors = 0.002 * (parts[0] + 1j * parts[1]) * hertz
     begin = time.process_time()
     problem = va.Problem(study, va.given_radiation(vectors, hertz))
-    designs = problem.space.sample("sobol", DESIGNS)
+    designs = problem.space.sample("sobol", count)
     problem.evaluate(designs[:1])
     ready = time.process_time()
     objectives = problem.evaluate(designs).objectives
     judged = time.process_time()
     members = int(nondominated(objectives).sum())
     done = time.process_time()
-    spectra = DESIGNS * len(study.receivers)
-    print(f"{DESIGNS} designs x {len(study.receivers)} microphones: set up {ready - begin:.1f} s,")
+    spectra = count * len(study.receivers)
+    print(f"{count} designs x {len(study.receivers)} microphones: set up {ready - begin:.1f} s,")
     print(
         f"  computed {judged - ready:.1f} s, {1e6 * (judged - ready) / spectra:.1f} µs a spectrum,"
     )
@@ -67,5 +68,9 @@ def front() -> None:
 
 
 if __name__ == "__main__":
-    loudness_alone()
-    front()
+    if parser(__doc__).parse_args().quick:
+        loudness_alone(200)
+        front(64)
+    else:
+        loudness_alone()
+        front()

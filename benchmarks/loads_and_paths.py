@@ -1,6 +1,6 @@
 """Shell x sources: many designs from few loads and few radiations, and runs of some of them.
 
-    OMP_NUM_THREADS=1 python benchmarks/loads_and_paths.py [DIRECT]
+    OMP_NUM_THREADS=1 python benchmarks/loads_and_paths.py [DIRECT] [--quick]
 
 The calibrated Copeland at one speed with nominal values, four microphones. First the front of
 level, loudness, audibility and mass of 10⁵ designs: 40 shells (thickness, loss factor) times 25
@@ -11,13 +11,13 @@ is counted is computed.
 """
 
 import os
-import sys
 import time
-from pathlib import Path
 
 import numpy as np
 from designs import WEIGHT
 from hearing import OBJECTIVES
+from quick import ROOT, parser
+from sources_study import SOURCES_STUDY, made_up_modes
 
 import vibroacoustics as va
 from vibroacoustics.design.listing import listed_grid
@@ -27,7 +27,7 @@ from vibroacoustics.pipeline.study import chain_with
 from vibroacoustics.results.storage import without_cache
 from vibroacoustics.stages.radiation import transfer_vectors
 
-STUDY = Path(__file__).parents[1] / "pipelines" / "copeland_sources.toml"
+STUDY = ROOT / "pipelines" / "copeland_sources.toml"
 SHELL = {
     "machine.structure.thickness_mm": {"range": [2.5, 4.0], "points": 10},
     "machine.structure.loss_factor_ratio": {"list": [0.003, 0.006, 0.01, 0.02, 0.03]},
@@ -43,21 +43,21 @@ FRONT = {
     "options.weight.mass_g": {"range": [1, 100], "points": 10},
     "options.weight.angle_deg": {"range": [-180, 162], "points": 10},
 }
+QUICK = {"machine.keys.clearance_um": {"range": [8.0, 40.0], "points": 2}}
+OUT = {"scoring.published_table": None, "evidence": None, "operation.point": None}
 PUBLISHED_DBA = 66.0
 """Louder than the model with nominal values, which leaves no unmodelled noise of 56 dB(A)."""
 
 
-def study_of(variables: dict, objectives: dict, option: str = "none"):
+def study_of(variables: dict, objectives: dict, option: str = "none", file=STUDY):
     """The study at one speed with a counterweight and a table of designs."""
-    study = va.load_study(STUDY)
+    study = va.load_study(file)
     others = {f"options.{name}": None for name in study.options if name != "none"}
     return study.replace({
         **others,
-        "scoring.published_table": None,
-        "evidence": None,
+        **(OUT if file == STUDY else {}),
         "operation.speed_rpm": [2900.0],
         "operation.supply_frequency_hz": [50.0],
-        "operation.point": None,
         **({} if option == "none" else WEIGHT),
         "design": {"option": option, "variables": variables, "objectives": objectives},
     })  # fmt: skip
@@ -70,16 +70,16 @@ def nominal(study):
 
 
 class Counted:
-    """Radiation that counts how often it is computed."""
+    """Radiation that counts how often it is computed; quickly, it is made up."""
 
-    def __init__(self) -> None:
-        self.number, self.seconds = 0, 0.0
-        self._known: dict = {}
+    def __init__(self, quick: bool) -> None:
+        self.number, self.seconds, self._quick = 0, 0.0, quick
 
     def __call__(self, study, progress, motions=()):
         begin = time.process_time()
         with without_cache():
-            result = transfer_vectors(study, progress, motions)
+            made_up = (made_up_modes(study), False) if self._quick else None
+            result = made_up or transfer_vectors(study, progress, motions)
         self.number += 1
         self.seconds += time.process_time() - begin
         return result
@@ -105,10 +105,11 @@ def front() -> None:
     print(f"  clock {end_wall - wall:.1f} s, load {os.getloadavg()[0]:.1f}")
 
 
-def grid(direct: int) -> None:
+def grid(direct: int, quick: bool) -> None:
     """Print what designs of shell and sources take, and how they differ from runs."""
-    study = study_of(SHELL | SOURCES, {"quiet": {"figure": "level_dba"}})
-    radiation = Counted()
+    variables, file = (QUICK, SOURCES_STUDY) if quick else (SHELL | SOURCES, STUDY)
+    study = study_of(variables, {"quiet": {"figure": "level_dba"}}, file=file)
+    radiation = Counted(quick)
     problem = va.Problem(nominal(study), radiation)
     listing = listed_grid(problem.space.axes(), ())
     designs = listing.designs(np.arange(listing.count))
@@ -138,11 +139,15 @@ def grid(direct: int) -> None:
 def run(problem, design) -> float:
     """Level of a design by the stages of a run, mean over microphones, dB(A)."""
     changed = problem.study.replace(problem.space.written(design))
-    level = chain_with(changed, NominalSound).results["level_modelled"]
+    level = chain_with(changed, NominalSound, radiation=problem.radiation).results["level_modelled"]
     at = level.sel(weighting="A", option="none").values.ravel()
     return float(10.0 * np.log10(np.mean(10.0 ** (0.1 * at))))
 
 
 if __name__ == "__main__":
-    front()
-    grid(int(sys.argv[1]) if len(sys.argv) > 1 else 50)
+    options = parser(__doc__)
+    options.add_argument("direct", type=int, nargs="?", default=50)
+    chosen = options.parse_args()
+    if not chosen.quick:
+        front()
+    grid(1 if chosen.quick else chosen.direct, chosen.quick)

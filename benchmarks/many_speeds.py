@@ -1,6 +1,6 @@
 """Time, memory and disk of a study at many speeds, its radiation from the cache.
 
-    python benchmarks/many_speeds.py [--study FILE] [--speeds 2 200 1000]
+    python benchmarks/many_speeds.py [--study FILE] [--speeds 2 200 1000] [--quick]
 
 Each number of speeds from 2000 to 3700 rpm runs in a process of its own. The first run of a study
 fills the cache, which takes minutes; its time does not count.
@@ -15,7 +15,11 @@ import time
 from pathlib import Path
 from typing import Final
 
-STUDY: Final = Path(__file__).parents[1] / "pipelines" / "copeland_thesis.toml"
+from quick import ROOT, parser
+
+STUDY: Final = ROOT / "pipelines" / "copeland_thesis.toml"
+QUICK: Final = ROOT / "tests" / "studies" / "tiny.toml"
+QUICK_RADIATION: Final = "maximum_order = 3\n[radiation]\nmaximum_frequency_hz = 200.0\n"
 LOWEST_RPM: Final = 2000.0
 HIGHEST_RPM: Final = 3700.0
 
@@ -49,15 +53,21 @@ def measure(file: Path, folder: Path) -> str:
 
 def main() -> None:
     """Print a line for each number of speeds."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--study", type=Path, default=STUDY)
-    parser.add_argument("--speeds", type=int, nargs="+", default=[2, 200, 1000])
-    parser.add_argument("--measure", type=Path, help=argparse.SUPPRESS)
-    given = parser.parse_args()
+    options = parser(__doc__)
+    options.add_argument("--study", type=Path, default=STUDY)
+    options.add_argument("--speeds", type=int, nargs="+", default=[2, 200, 1000])
+    options.add_argument("--measure", type=Path, help=argparse.SUPPRESS)
+    given = options.parse_args()
     if given.measure:
         print(measure(given.measure, given.measure.parent))
         return
     print("speeds  compute, s   write, s   peak, MB   disk, MB", flush=True)
+    if given.quick:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "few.toml"
+            file.write_text(text_of(QUICK, 2) + QUICK_RADIATION, encoding="utf-8")
+            print(measure(file, Path(folder)))
+        return
     for speeds in given.speeds:
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "many.toml"

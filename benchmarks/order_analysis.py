@@ -1,9 +1,9 @@
 """COT-60: from a tacho and four channels over 60 s to an order map, beside the open peer.
 
-`python benchmarks/order_analysis.py [--rota-python PATH] [--rounds N] [--skip-rota]` prints a
-Markdown table. Run-up from 1200 to 6000 rpm with a swing of 30 rpm every 2 s, 51.2 kHz, float64;
-pulses of the tacho, crank motion, angular resampling, order map to order 120 in Hann blocks of 8
-revolutions, half overlapping.
+`python benchmarks/order_analysis.py [--rota-python PATH] [--rounds N] [--skip-rota] [--quick]`
+prints a Markdown table. Run-up from 1200 to 6000 rpm with a swing of 30 rpm every 2 s, 51.2 kHz,
+float64; pulses of the tacho, crank motion, angular resampling, order map to order 120 in Hann
+blocks of 8 revolutions, half overlapping.
 
 The tacho gives one pulse a revolution whose flank lasts 80 µs, four samples, and every sample of it
 has white noise of 5 % of the pulse height. It crosses half the height with a jitter of 3.3 µs, 0.25
@@ -31,9 +31,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from quick import parser
 
 SAMPLE_RATE_HZ = 51_200
-DURATION_S = 60.0
+DURATION_S, QUICK_DURATION_S = 60.0, 4.0
 SPEED_HZ = (20.0, 100.0)
 SWING_HZ = 0.5
 """Of the speed about the even run-up, peak."""
@@ -55,14 +56,14 @@ Map = tuple[np.ndarray, np.ndarray]
 """Complex peak amplitude (channel, block, line) and order (line,)."""
 
 
-def write_signals(folder: Path) -> None:
+def write_signals(folder: Path, duration_s: float) -> None:
     """Channels: orders of known amplitude, two tones above them, noise with orders."""
     generator = np.random.default_rng(60)
-    time_s = np.arange(int(DURATION_S * SAMPLE_RATE_HZ)) / SAMPLE_RATE_HZ
+    time_s = np.arange(int(duration_s * SAMPLE_RATE_HZ)) / SAMPLE_RATE_HZ
     low, high = SPEED_HZ
     swing = 2.0 * np.pi / SWING_PERIOD_S * time_s
-    speed_hz = low + (high - low) * time_s / DURATION_S + SWING_HZ * np.cos(swing)
-    revolution = low * time_s + (high - low) / (2.0 * DURATION_S) * time_s**2
+    speed_hz = low + (high - low) * time_s / duration_s + SWING_HZ * np.cos(swing)
+    revolution = low * time_s + (high - low) / (2.0 * duration_s) * time_s**2
     revolution += SWING_HZ * SWING_PERIOD_S / (2.0 * np.pi) * np.sin(swing)
     orders = sum(
         peak * np.cos(2.0 * np.pi * order * revolution + order)
@@ -173,10 +174,21 @@ def work(method: str, folder: Path) -> None:
 
 
 def rota_environment(folder: Path) -> str:
-    """Interpreter of a new virtual environment with rota-order."""
+    """Interpreter of a new virtual environment with rota-order.
+
+    Raises
+    ------
+    SystemExit
+        It cannot be installed; the exit code is 2.
+    """
     venv.create(folder, with_pip=True)
     python = str(folder / "bin" / "python")
-    subprocess.run([python, "-m", "pip", "install", "--quiet", "rota-order"], check=True)
+    command = [python, "-m", "pip", "install", "--quiet", "rota-order"]
+    if subprocess.run(command, check=False, stderr=subprocess.DEVNULL).returncode:
+        print(
+            "order_analysis.py: rota-order: cannot be installed; use --skip-rota", file=sys.stderr
+        )
+        raise SystemExit(2)
     return python
 
 
@@ -205,23 +217,25 @@ def compare(pythons: dict[str, str], folder: Path, rounds: int) -> dict[str, Any
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--rota-python", help="interpreter of an environment with rota-order")
-    parser.add_argument("--skip-rota", action="store_true")
-    parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--work", choices=METHODS, help=argparse.SUPPRESS)
-    parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
-    options = parser.parse_args()
+    made = parser(__doc__)
+    made.add_argument("--rota-python", help="interpreter of an environment with rota-order")
+    made.add_argument("--skip-rota", action="store_true")
+    made.add_argument("--rounds", type=int, default=3)
+    made.add_argument("--work", choices=METHODS, help=argparse.SUPPRESS)
+    made.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
+    options = made.parse_args()
     if options.work:
         return work(options.work, options.folder)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        write_signals(folder)
-        pythons = {"vibroacoustics": sys.executable, "scipy": sys.executable}
-        if not options.skip_rota:
+        write_signals(folder, QUICK_DURATION_S if options.quick else DURATION_S)
+        pythons = {"vibroacoustics": sys.executable}
+        if not options.quick:
+            pythons["scipy"] = sys.executable
+        if not (options.skip_rota or options.quick):
             pythons["rota-order"] = options.rota_python or rota_environment(folder / "venv")
         load = os.getloadavg()[0]
-        results = compare(pythons, folder, options.rounds)
+        results = compare(pythons, folder, 1 if options.quick else options.rounds)
     print(f"{os.cpu_count()} processors; load before {load:.1f}, after {os.getloadavg()[0]:.1f}\n")
     print(table(results))
     return None

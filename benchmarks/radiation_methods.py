@@ -3,15 +3,15 @@
 And what boundary elements cost against highest frequency, patterns and microphones. Seconds of the
 processors, so that other work on the machine changes little.
 
-    python benchmarks/radiation_methods.py
+    python benchmarks/radiation_methods.py [--quick]
 """
 
-import argparse
 import time
 from collections.abc import Callable
 from typing import Final
 
 import numpy as np
+from quick import parser
 
 from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS
@@ -115,10 +115,14 @@ def scale(what: str, cases: dict[str, tuple[float, int, int]]) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("--spacings-mm", type=float, nargs="+", default=[12.0, 8.0])
-    parser.add_argument("--highest-hz", type=float, nargs="+", default=[1e3, 2e3, 4e3, 1e4])
-    arguments = parser.parse_args()
+    options = parser(__doc__)
+    options.add_argument("--spacings-mm", type=float, nargs="+", default=[12.0, 8.0])
+    options.add_argument("--highest-hz", type=float, nargs="+", default=[1e3, 2e3, 4e3, 1e4])
+    arguments = options.parse_args()
+    if arguments.quick:
+        compare(100.0, [0.04])
+        scale("frequency", {"100 Hz": (100.0, 6, 1), "200 Hz": (200.0, 7, 2)})
+        return
     by_elements(100.0, RIGID, microphones(1))  # compile
     by_cells(100.0, RIGID, microphones(1), 0.03)
     compare(2000.0, [1e-3 * spacing for spacing in arguments.spacings_mm])

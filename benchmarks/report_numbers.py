@@ -1,6 +1,6 @@
 """Whether every number of one report is in another, or in a CSV beside it.
 
-    python benchmarks/report_numbers.py BEFORE_FOLDER AFTER_FOLDER [--show 40]
+    python benchmarks/report_numbers.py BEFORE_FOLDER AFTER_FOLDER [--show 40] [--quick]
 
 CSV files: each value of a column that both files have, row by row, to 1e-12 of its size. Tables of
 the page: each number of a row is searched for in the rows of the report after, of tables and CSV
@@ -10,15 +10,17 @@ are searched for in the whole page and all CSV files. As a control the same sear
 numbers that are 37 % larger: that share is found by chance.
 """
 
-import argparse
 import csv
 import html
 import re
 import sys
+import tempfile
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
+
+from quick import parser
 
 NUMBER = re.compile(r"(?<![\w.])[−-]?\d+(?:\.\d+)?(?:e[−-]?\d+)?(?![\w])")
 HIDDEN = re.compile(r"<(script|style|svg)\b.*?</\1>", re.DOTALL)
@@ -124,14 +126,27 @@ def same(before: str, after: str) -> bool:
 
 def main() -> int:
     """Print what is missing; the exit code is 1 where something is."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("before", type=Path)
-    parser.add_argument("after", type=Path)
-    parser.add_argument("--show", type=int, default=40)
-    asked = parser.parse_args()
-    broken = list(differing_files(asked.before, asked.after))
+    options = parser(__doc__)
+    options.add_argument("before", type=Path, nargs="?")
+    options.add_argument("after", type=Path, nargs="?")
+    options.add_argument("--show", type=int, default=40)
+    asked = options.parse_args()
+    if asked.quick:
+        with tempfile.TemporaryDirectory() as folder:
+            page = "<p>3 options</p><table><tr><td>level</td><td>54.2 dB</td></tr></table>"
+            (Path(folder) / "report.html").write_text(page, "utf-8")
+            (Path(folder) / "levels.csv").write_text("option,level_dba\nnone,54.21\n", "utf-8")
+            return compared(Path(folder), Path(folder), asked.show)
+    if asked.after is None:
+        options.error("two folders must be given")
+    return compared(asked.before, asked.after, asked.show)
+
+
+def compared(before_folder: Path, after_folder: Path, show: int) -> int:
+    """Print what is missing of a report in another; 1 where something is."""
+    broken = list(differing_files(before_folder, after_folder))
     print("\n".join(broken) or "CSV files: every value equal to 1e-12")
-    before, after = report(asked.before), report(asked.after)
+    before, after = report(before_folder), report(after_folder)
     of_tables = [number for number in before.printed if number.label]
     others = [number for number in of_tables if not is_in(number, after)]
     of_sentences = [number for number in before.printed if not number.label]
@@ -145,7 +160,7 @@ def main() -> int:
         chance = sum(is_in(number, after, CONTROL) for number in some)
         print(f"numbers {name}: {len(some) - len(lost)} of {len(some)}; control: {chance}")
         missing += [] if some is of_tables else lost
-    for number in missing[: asked.show]:
+    for number in missing[:show]:
         print(f"  missing: {number.text} of {number.label or 'a sentence'}")
     return int(bool(broken or missing))
 

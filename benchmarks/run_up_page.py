@@ -1,6 +1,6 @@
 """Page of a 60 s run-up with sound: bytes, opening and cursor in headless Chromium and Firefox.
 
-    python benchmarks/run_up_page.py
+    python benchmarks/run_up_page.py [--quick]
 
 The largest page that is usual: 16 channels at 51.2 kHz, map and sound of one.
 """
@@ -13,7 +13,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "helpers"))
+from quick import parser, require
+
+require(("selenium", "websocket"), ("chromium", "chromedriver", "firefox"))
 
 from browsers import chromium, firefox
 from large_recording import SPEEDS_HZ, write_recording
@@ -36,10 +38,12 @@ times.sort((one, other) => one - other);
 return [times[150], times[285], times[299]];"""
 
 
-def measured(name: str, run: Callable[[str], Any], open_page: Callable[[], None]) -> None:
-    """Print how long a browser takes to open the page, thrice, and to move the cursor."""
+def measured(
+    name: str, run: Callable[[str], Any], open_page: Callable[[], None], times: int = 3
+) -> None:
+    """Print how long a browser takes to open the page, some times, and to move the cursor."""
     openings = []
-    for _ in range(3):
+    for _ in range(times):
         open_page()
         openings.append(run(OPENED) / 1e3)
     median, most, longest = run(CURSOR)
@@ -52,10 +56,11 @@ def measured(name: str, run: Callable[[str], Any], open_page: Callable[[], None]
 
 
 def main() -> None:
-    """Print size and times."""
+    """Print size and times; quickly, of a short recording in Chromium alone."""
+    quick = parser(__doc__).parse_args().quick
     with tempfile.TemporaryDirectory() as folder:
         file, page = Path(folder) / "run_up.h5", Path(folder) / "out" / "orders.html"
-        write_recording(file, *SPEEDS_HZ["run-up"])
+        write_recording(file, *SPEEDS_HZ["run-up"], quick)
         command = [sys.executable, "-m", "vibroacoustics", "orders", str(file)]
         command += ["--speed-channel", "tacho", "--out", str(page.parent)]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
@@ -66,8 +71,10 @@ def main() -> None:
                 body = f"const done = arguments[0]; (async () => {{{script}}})().then(done)"
                 return browser.execute_async_script(body)
 
-            measured("Chromium", run, lambda: browser.get(page.as_uri()))
+            measured("Chromium", run, lambda: browser.get(page.as_uri()), 1 if quick else 3)
             print(f"  console: {browser.get_log('browser')}")
+        if quick:
+            return
         with firefox(Path(folder)) as fox:
             time.sleep(1.0)
             measured("Firefox", fox.run, lambda: fox.open(page.as_uri(), 1280))

@@ -1,18 +1,18 @@
 """Samples and effective samples a second, and their error against fine settings.
 
-    .venv/bin/python benchmarks/samples.py [number of samples]
+    .venv/bin/python benchmarks/samples.py [number of samples] [--quick]
 
 The transfer vectors are read from the cache: run the study before. Fine settings have steps of
-contact a fifth as long, four times the steps of the gas, and repeat ten times as closely.
+contact a fifth as long, four times the steps of leakage, and repeat ten times as closely.
 """
 
 import os
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import numpy as np
+from quick import ROOT, parser
 from scipy.special import logsumexp
 
 import vibroacoustics as va
@@ -20,8 +20,9 @@ from vibroacoustics.base.threads import processors
 from vibroacoustics.levels.agreement import effective_samples
 from vibroacoustics.levels.nominal import NominalSound
 from vibroacoustics.machine.cases import Cases
+from vibroacoustics.radiation.given import Radiation
 from vibroacoustics.sources.oldham_keys import rattle
-from vibroacoustics.sources.scroll_gas import leakage, opening
+from vibroacoustics.sources.scroll_gas import leakage
 from vibroacoustics.stages.chain import Chain
 from vibroacoustics.stages.forces import with_published
 from vibroacoustics.stages.radiation import transfer_vectors
@@ -31,21 +32,29 @@ from vibroacoustics.study.samples import batches_of_samples, with_sample
 from vibroacoustics.transfer.received import Transmission
 from vibroacoustics.uncertainty.evidence import Evidence
 
-STUDY = "pipelines/copeland_sources.toml"
+STUDY = ROOT / "pipelines" / "copeland_sources.toml"
+QUICK_COUNT = 4
 FINE = (
     (rattle, "LOADED_STEP_RATIO", lambda value: value / 5.0),
     (rattle, "REPEATED", lambda value: value / 10.0),
-    (opening, "STEPS", lambda value: 4 * value),
     (leakage, "STEPS", lambda value: 4 * value),
 )
 OTHER_START = ((rattle, "SETTLING_REVOLUTIONS", lambda value: value + 3),)
 """Impacts that are kept are then others of the same motion."""
 
 
-def main(count: int) -> None:
+def main(count: int, quick: bool) -> None:
     """Print the rates at the published level and for all cases, and differences of levels."""
-    study = va.load_study(STUDY)
-    chain = chain_of(study)
+    if quick:
+        from sources_study import SOURCES_STUDY, made_up_modes
+
+        study, count = va.load_study(SOURCES_STUDY), QUICK_COUNT
+        others = {f"options.{name}": None for name in study.options if name != "none"}
+        study = study.replace({**others, "operation.stopping": False})
+        chain = chain_of(study, lambda study, *_: (made_up_modes(study), False))
+    else:
+        study = va.load_study(STUDY)
+        chain = chain_of(study, transfer_vectors)
     samples = next(batches_of_samples(study))[:count]
     print(f"{processors()} processors, {count} samples at the published level, {count // 4} of all")
     published = at_published(chain)
@@ -70,9 +79,9 @@ def main(count: int) -> None:
     print_differences("own scatter, all cases", all_levels - other, impacts)
 
 
-def chain_of(study: va.Study) -> Chain:
+def chain_of(study: va.Study, radiation: Radiation) -> Chain:
     """All stages before the samples, at the receiver of the published level."""
-    chain = Chain(study, transfer_vectors)
+    chain = Chain(study, radiation)
     for stage in applying(study):
         chain = advanced(chain, stage)
         if stage.name == "levels":
@@ -97,7 +106,7 @@ def timed(chain: Chain, samples: list) -> tuple[float, np.ndarray, float]:
 def levels_of(chain: Chain, samples: list) -> np.ndarray:
     """A-weighted levels of all sources, shape (sample, case), dB."""
     receiver = chain[NominalSound].axes.receivers.index(chain.study.catalogue_receiver)
-    sounds = [sampled.sound for sampled in sounds_of(chain, samples, lambda _: None)]
+    sounds = sounds_of(chain, samples, lambda _: None)
     square = [[each.total[0, receiver] for each in sound.values()] for sound in sounds]
     return 10.0 * np.log10(np.array(square) / 4e-10)
 
@@ -122,7 +131,7 @@ def effective_share(chain: Chain, samples: list) -> float:
     """Effective over all samples, with the published level and the first prior."""
     evidence = Evidence(chain[NominalSound])
     published = evidence.published._replace(priors=evidence.published.priors[:1])
-    sounds = [sampled.sound for sampled in sounds_of(chain, samples, lambda _: None)]
+    sounds = sounds_of(chain, samples, lambda _: None)
     machine = chain.study.machine
     weights = [
         logsumexp(
@@ -156,4 +165,7 @@ def changed(*constants: tuple[object, str, Callable]) -> Iterator[None]:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 100)
+    options = parser(__doc__)
+    options.add_argument("count", type=int, nargs="?", default=100)
+    chosen = options.parse_args()
+    main(chosen.count, chosen.quick)

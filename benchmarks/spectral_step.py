@@ -1,15 +1,17 @@
 """Time and memory of a k-Wave step: stock (NumPy backend) against the fused engine.
 
-`python benchmarks/spectral_step.py [side ...]` prints a Markdown table; the sides default to 96
-and 128 nodes. Stock and fused steps take turns in one run, with the pulse on; medians.
+`python benchmarks/spectral_step.py [side ...] [--quick]` prints a Markdown table; the sides default
+to 96 and 128 nodes. Stock and fused steps take turns in one run, with the pulse on; medians.
 """
 
-import sys
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+from quick import parser, require
+
+require(("kwave",))
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.radiation import kwave
@@ -20,7 +22,8 @@ from vibroacoustics.radiation.spectral_step import SpectralStep, step_bytes
 ROUNDS = 5
 FUSED_STEPS_A_ROUND = 4
 THREADS = 2
-BOX_NODES = slice(35, 75)
+BOX_NODES, QUICK_BOX_NODES = slice(35, 75), slice(20, 28)
+QUICK_SIDE = 48
 VALUES_MOVED = 8 + 12 + 3 + 1.5
 """Real numbers a node and step: pressure (read thrice, written once, updated twice), velocities and
 parts of three axes (read and written), footprints, k-space corrections."""
@@ -57,10 +60,9 @@ def transform_seconds(engine: SpectralStep) -> float:
 
 def compare(side: int, dtype: type, bandwidth: float) -> str:
     """One row of the table."""
+    box = QUICK_BOX_NODES if side == QUICK_SIDE else BOX_NODES
     middle = (side // 2, side // 2, side // 2)
-    grid = RoomGrid(
-        np.full(3, 0.03), np.zeros(3), (side,) * 3, (middle,), np.ones(1), (BOX_NODES,) * 3
-    )
+    grid = RoomGrid(np.full(3, 0.03), np.zeros(3), (side,) * 3, (middle,), np.ones(1), (box,) * 3)
     source = kwave.pressure_source(grid, np.sin(np.arange(200) / 3.0))
     fused = SpectralStep(
         kwave.axis_operators(grid),
@@ -108,4 +110,7 @@ def main(sides: list[int]) -> None:
 
 
 if __name__ == "__main__":
-    main([int(side) for side in sys.argv[1:]] or [96, 128])
+    options = parser(__doc__)
+    options.add_argument("side", type=int, nargs="*", default=[96, 128])
+    chosen = options.parse_args()
+    main([QUICK_SIDE] if chosen.quick else chosen.side)

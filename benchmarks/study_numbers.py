@@ -2,6 +2,7 @@
 
     python benchmarks/study_numbers.py run before.h5 [--study NAME …] [--full]
     python benchmarks/study_numbers.py compare before.h5 after.h5 [--tolerance 1e-9] [--reasons F]
+    python benchmarks/study_numbers.py --quick
 
 `run` computes each study of `pipelines/` in a process of its own with an empty cache. Studies that
 take minutes are computed coarsely unless `--full` is given. `compare` lists each variable whose
@@ -31,8 +32,10 @@ from typing import Any, Final
 
 import h5py
 import numpy as np
+from quick import ROOT, parser
 
-PIPELINES: Final = Path(__file__).parents[1] / "pipelines"
+PIPELINES: Final = ROOT / "pipelines"
+TINY: Final = ROOT / "tests" / "studies" / "tiny.toml"
 MINUTES: Final = ("copeland_sources", "copeland_cabinet", "copeland_inverter", "kitchen")
 """Studies that take minutes at full resolution."""
 UNLIKE: Final = np.inf
@@ -73,14 +76,23 @@ class Reason:
         return named and difference.relative <= self.within
 
 
-def compute(study: Path, coarsely: bool, file: Path) -> None:
-    """Run one study in this process and add its variables to the file as a group."""
+def compute(study: Path, coarsely: bool, file: Path, radiation: Any = None) -> None:
+    """Run one study in this process and add its variables to the file as a group.
+
+    Parameters
+    ----------
+    study : file of the study
+    coarsely : whether it is made coarse
+    file : HDF5 file
+    radiation : argument of `run`; by default that of the study
+    """
     import vibroacoustics as va
     from vibroacoustics.study.coarse import coarse
 
     start = time.process_time()
     loaded = va.load_study(study)
-    results = va.run(coarse(loaded) if coarsely else loaded)
+    given = {} if radiation is None else {"radiation": radiation}
+    results = va.run(coarse(loaded) if coarsely else loaded, **given)
     with h5py.File(file, "a") as table:
         group = table.create_group(study.stem)
         group.attrs["processor_seconds"] = time.process_time() - start
@@ -173,12 +185,21 @@ def compare(before: Path, after: Path, tolerance: float, reasons: list[Reason]) 
     return len(unexcused) + len(idle)
 
 
+def quickly() -> int:
+    """Compute a tiny study with made-up radiation twice, and compare the numbers; 0 if equal."""
+    from support import made_up_radiation
+
+    with tempfile.TemporaryDirectory() as folder:
+        files = [Path(folder) / f"{number}.h5" for number in range(2)]
+        for file in files:
+            compute(TINY, False, file, made_up_radiation)
+        return int(compare(*files, 0.0, []) > 0)
+
+
 def main() -> int:
     """Run or compare; the exit code is 1 where something failed or differs without a reason."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
-    )
-    verbs = parser.add_subparsers(dest="verb", required=True)
+    options = parser(__doc__)
+    verbs = options.add_subparsers(dest="verb")
     running = verbs.add_parser("run")
     running.add_argument("file", type=Path)
     running.add_argument("--study", nargs="+", default=[])
@@ -190,7 +211,11 @@ def main() -> int:
     comparing.add_argument("after", type=Path)
     comparing.add_argument("--tolerance", type=float, default=1e-9)
     comparing.add_argument("--reasons", type=Path)
-    chosen = parser.parse_args()
+    chosen = options.parse_args()
+    if chosen.quick:
+        return quickly()
+    if chosen.verb is None:
+        options.error("run or compare must be given")
     if chosen.verb == "compare":
         text = chosen.reasons.read_text() if chosen.reasons else ""
         reasons = [Reason(**entry) for entry in tomllib.loads(text).get("reason", [])]

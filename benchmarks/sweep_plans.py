@@ -1,6 +1,6 @@
 """Plans of six sweeps beside what the sweeps take: processor time, memory and disk.
 
-    OMP_NUM_THREADS=1 python benchmarks/sweep_plans.py [NAME …]
+    OMP_NUM_THREADS=1 python benchmarks/sweep_plans.py [NAME …] [--quick]
 
 Each sweep is the command `sweep` in a process of its own; the radiation of its base study is cached
 before. Time is the processor time of all processes after the plan, divided by their number. Memory
@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 import psutil
+from quick import parser
 
 STUDIES: Final = Path(__file__).parents[1] / "docs" / "gallery" / "studies"
 MEMORY_UNIT_BYTES: Final = 1024
@@ -105,6 +106,21 @@ machine.opening.port_diameter_mm = {{ range = [8.0, 16.0], points = 6 }}
 figure = "residual_moment_nm"
 {LEVEL_AND_FOOT}""", 2),
 }  # fmt: skip
+QUICK: Final = Sweep(
+    "../../../tests/studies/tiny",
+    f"""{WEIGHT}
+[operation]
+maximum_order = 3
+[radiation]
+maximum_frequency_hz = 200.0
+[design]
+option = "weight"
+sampling = "latin-hypercube"
+samples = 64
+[design.variables]
+options.weight.mass_g = {{ range = [1, 100] }}
+{LEVEL_AND_FOOT}""",
+)
 PLAN: Final = re.compile(
     r"about (?P<time>[\d.e+]+) (?P<unit>s|min|h), (?P<memory>[\d.e+]+) MB of memory, "
     r"(?P<disk>[\d.e+]+) MB on disk"
@@ -157,15 +173,20 @@ def planned_and_taken(sweep: Sweep, folder: Path) -> tuple[Taken, Taken]:
     return plan, figures._replace(seconds=figures.seconds / max(sweep.workers, 1))
 
 
-def main(names: list[str]) -> None:
+def main(sweeps: dict[str, Sweep]) -> None:
     """Print plan, what was taken, and their ratio."""
-    for name in names or SWEEPS:
+    for name, sweep in sweeps.items():
         with tempfile.TemporaryDirectory() as folder:
-            plan, taken = planned_and_taken(SWEEPS[name], Path(folder))
+            plan, taken = planned_and_taken(sweep, Path(folder))
         print(name)
         for unit, expected, measured in zip(("s", "MB", "MB on disk"), plan, taken, strict=True):
             print(f"  {expected:10.3g} {measured:10.3g} {unit:12} {expected / measured - 1.0:+.0%}")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    options = parser(__doc__)
+    options.add_argument("name", nargs="*", choices=[*SWEEPS, []], metavar="NAME")
+    chosen = options.parse_args()
+    main(
+        {"quick": QUICK} if chosen.quick else {name: SWEEPS[name] for name in chosen.name or SWEEPS}
+    )

@@ -1,5 +1,7 @@
 """Flank contact that turns with the crank, for docs/load_path.md.
 
+    python benchmarks/turning_flank.py [--quick]
+
 The contact is a spring between the scrolls along the crank: k e eᵀ. On parts that are alike in all
 directions it couples a forward line to the backward line two orders below, and nothing else. With
 C± the flexibility between the scrolls at orders n ± 1 and P± the loads there, its force at order n
@@ -7,6 +9,7 @@ along the crank is exactly N = k (C₊ P₊ + C₋ P₋) / (1 + k (C₊ + C₋) 
 """
 
 import numpy as np
+from quick import ROOT, parser
 from scipy.linalg import block_diag
 
 import vibroacoustics as va
@@ -22,19 +25,25 @@ from vibroacoustics.transfer.frame.of_machine import SHAFT_ELEMENT_M
 
 ORDERS = 82
 SAMPLES = 40
+STEPS, QUICK_STEPS = 4000, 400
+"""Steps of a turn of the small model."""
 STIFFNESS_N_PER_M = 1e7, 3e7, 1e8, 3e8, 1e9
 BANDS_HZ = (150.0, 355.0), (355.0, 710.0), (710.0, 1420.0), (1420.0, 3550.0), (150.0, 3550.0)
 
 
 def main() -> None:
     """Print the error in decibel of two models without turning contact, over samples."""
-    print("exact solution beside a turn integrated by Runge and Kutta:", check())
-    study = va.load_study("pipelines/copeland_sources.toml")
-    samples = samples_of(study).samples[:SAMPLES]
+    quick = parser(__doc__).parse_args().quick
+    steps = QUICK_STEPS if quick else STEPS
+    print("exact solution beside a turn integrated by Runge and Kutta:", check(steps))
+    study = va.load_study(ROOT / "pipelines" / "copeland_sources.toml")
+    if quick:
+        study = study.replace({"uncertainty.random_samples": 4})
+    samples = samples_of(study).samples[: 2 if quick else SAMPLES]
     random = np.random.default_rng(1)
-    speeds = 2.0 * np.pi * random.uniform(45.0, 60.0, SAMPLES)
+    speeds = 2.0 * np.pi * random.uniform(45.0, 60.0, len(samples))
     machines = [with_sample(study.machine, study.machine, sample) for sample in samples]
-    for stiffness in STIFFNESS_N_PER_M:
+    for stiffness in STIFFNESS_N_PER_M[: 1 if quick else None]:
         errors = np.array(
             [of_sample(*each, stiffness, random) for each in zip(machines, speeds, strict=True)]
         )
@@ -107,12 +116,12 @@ def responses(machine: Machine, omega: np.ndarray, stiffness: float) -> np.ndarr
     return result
 
 
-def check() -> float:
+def check(steps: int) -> float:
     """Largest difference of the motion of a small model from its Floquet solution, relative.
 
     Two masses one behind the other, 500 and 710 Hz, viscous; a tangential load of orders 3 to 14.
     """
-    speed, stiffness, steps = 304.0, 6e6, 4000
+    speed, stiffness = 304.0, 6e6
     mass = np.diag([1.25, 3.0])
     springs = np.array([[2e7, -2e7], [-2e7, 5.2e7]])
     viscous = springs * 0.03 / 3600.0

@@ -3,8 +3,9 @@
     python score.py SUBMISSION [CASE ...] [--json]
 
 Needs Python 3.11 or later and nothing else. SUBMISSION is a CSV file with the columns case, key,
-unit and value, or a JSON list of objects with these names; the order of rows has no meaning. Named
-cases alone are scored; without names all are. A case passes where every expected row is met.
+unit and value, or a JSON list of objects with these names, of at most 1 MB; the order of rows has
+no meaning. Named cases alone are scored; without names all are. A case passes where every expected
+row is met. Characters that a terminal would obey are printed as escapes.
 
 Exit code 0: all pass; 1: a case fails; 2: the submission or a case cannot be read.
 """
@@ -13,12 +14,18 @@ import argparse
 import csv
 import json
 import math
+import os
+import stat
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
 CASES = Path(__file__).resolve().parent / "cases"
 FIELDS = ("case", "key", "unit", "value")
+LARGEST_BYTES = 1_000_000
+LONGEST_WORDS = 200
+"""Characters of a submitted text that a message repeats."""
 RATIOS = {
     "the sign is reversed": -1.0,
     "a factor of 2 too large": 2.0,
@@ -62,16 +69,30 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("case", nargs="*")
     parser.add_argument("--json", action="store_true", help="print verdicts as JSON")
     asked = parser.parse_args(words)
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
     try:
         verdicts = score(read_submission(asked.submission), asked.case or case_names())
     except RefusedError as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {harmless(str(error))}", file=sys.stderr)
         return 2
     if asked.json:
         print(json.dumps([verdict._asdict() for verdict in verdicts], indent=1))
     else:
-        print("\n".join(summary(verdicts)))
+        print("\n".join(map(harmless, summary(verdicts))))
     return 0 if all(verdict.passed for verdict in verdicts) else 1
+
+
+def harmless(line: str) -> str:
+    """Return a line with escapes for characters that a terminal would obey or not show."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line)
+
+
+def shortened(text: Any) -> str:
+    """Return the beginning of a submitted text, for a message."""
+    words = str(text)
+    return words if len(words) <= LONGEST_WORDS else f"{words[:LONGEST_WORDS]}…"
 
 
 def case_names() -> list[str]:
@@ -88,7 +109,7 @@ def score(answers: list[dict[str, Any]], names: list[str]) -> list[Verdict]:
         There is no such case, or its expected values cannot be read.
     """
     unknown = sorted({str(answer["case"]) for answer in answers} - set(case_names()))
-    verdicts = [Verdict(name, "", False, "there is no such case") for name in unknown]
+    verdicts = [Verdict(shortened(name), "", False, "there is no such case") for name in unknown]
     for name in names:
         rows = expected(name)
         given: dict[str, list[dict[str, Any]]] = {}
@@ -98,7 +119,9 @@ def score(answers: list[dict[str, Any]], names: list[str]) -> list[Verdict]:
         for row in rows:
             reason = fault(row, given.pop(row.key, []), rows)
             verdicts.append(Verdict(name, row.key, not reason, reason))
-        verdicts += [Verdict(name, key, False, "no such key is expected") for key in given]
+        verdicts += [
+            Verdict(name, shortened(key), False, "no such key is expected") for key in given
+        ]
     return verdicts
 
 
@@ -129,11 +152,11 @@ def fault(row: Row, answers: list[dict[str, Any]], rows: list[Row]) -> str:
         return "is missing" if not answers else f"is given {len(answers)} times"
     unit = str(answers[0]["unit"]).strip()
     if unit != row.unit:
-        return f"unit = {unit or 'none'}: must be {row.unit or 'none'}"
+        return f"unit = {shortened(unit) or 'none'}: must be {row.unit or 'none'}"
     try:
         value = number(answers[0]["value"])
     except ValueError:
-        return f"value = {answers[0]['value']}: must be a finite number"
+        return f"value = {shortened(answers[0]['value'])}: must be a finite number"
     if abs(value - row.value) <= row.tolerance:
         return ""
     words = f"value = {value:.6g} {row.unit}: must be {row.value:.6g} ± {row.tolerance:.2g}"
@@ -151,7 +174,10 @@ def number(value: Any) -> float:
     """
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise ValueError
-    result = float(value)
+    try:
+        result = float(value)
+    except OverflowError:
+        raise ValueError from None
     if not math.isfinite(result):
         raise ValueError
     return result
@@ -171,14 +197,15 @@ def usual_mistake(value: float, row: Row, rows: list[Row]) -> str:
 def summary(verdicts: list[Verdict]) -> list[str]:
     """Return lines for a terminal: each fault, then each case, then the count."""
     lines = [f"{v.case}: {v.key}: {v.reason}" for v in verdicts if not v.passed]
-    names = list(dict.fromkeys(verdict.case for verdict in verdicts))
+    cases: dict[str, list[bool]] = {}
+    for verdict in verdicts:
+        cases.setdefault(verdict.case, []).append(verdict.passed)
     passed = 0
-    for name in names:
-        rows = [verdict.passed for verdict in verdicts if verdict.case == name]
+    for name, rows in cases.items():
         passed += all(rows)
         word = "passed" if all(rows) else "FAILED"
         lines.append(f"{word}  {name}: {sum(rows)} of {len(rows)} values")
-    return [*lines, f"{passed} of {len(names)} cases passed"]
+    return [*lines, f"{passed} of {len(cases)} cases passed"]
 
 
 def read_submission(path: Path) -> list[dict[str, Any]]:
@@ -187,24 +214,59 @@ def read_submission(path: Path) -> list[dict[str, Any]]:
     Raises
     ------
     RefusedError
-        It cannot be read, is neither CSV nor JSON, or lacks a column.
+        It cannot be read, is no regular file, is too large or nested too deeply, is neither CSV
+        nor JSON, or lacks a column.
     """
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_bytes(path).decode("utf-8-sig")
         if path.suffix.lower() == ".json":
             rows = json.loads(text)
         else:
             rows = list(csv.DictReader(text.splitlines()))
-    except (OSError, ValueError, csv.Error) as error:
+    except RecursionError:
+        raise RefusedError(f"{path}: cannot be read: lists or objects nest too deeply") from None
+    except OSError as error:
+        raise RefusedError(f"{path}: cannot be read: {error.strerror}") from None
+    except (ValueError, csv.Error) as error:
         raise RefusedError(f"{path}: cannot be read: {error}") from None
     if not isinstance(rows, list) or not rows:
         raise RefusedError(f"{path}: must have at least one row")
     for place, row in enumerate(rows, 1):
-        held = row if isinstance(row, dict) else {}
-        lacking = [n for n in FIELDS if n not in held or (held[n] is None and n != "value")]
-        if lacking:
-            raise RefusedError(f"{path}: row {place}: {lacking[0]} = missing: must be given")
+        for reason in faults_of(row):
+            raise RefusedError(f"{path}: row {place}: {reason}")
     return rows
+
+
+def read_bytes(path: Path) -> bytes:
+    """Return the content of a regular file of a limited size; pipes are not waited for.
+
+    Raises
+    ------
+    RefusedError
+        It is no regular file, or larger.
+    OSError
+        It cannot be opened.
+    """
+    with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise RefusedError(f"{path}: is no regular file")
+        content = file.read(LARGEST_BYTES + 1)
+    if len(content) > LARGEST_BYTES:
+        raise RefusedError(f"{path}: must have at most {LARGEST_BYTES} bytes")
+    return content
+
+
+def faults_of(row: Any) -> Iterable[str]:
+    """Say which field of a row is missing or of another type."""
+    held = row if isinstance(row, dict) else {}
+    for name in FIELDS:
+        value = held.get(name)
+        if name not in held or (value is None and name != "value"):
+            yield f"{name} = missing: must be given"
+        elif name != "value" and not isinstance(value, str):
+            yield f"{name}: must be text"
+        elif isinstance(value, dict | list):
+            yield f"{name}: must be a number"
 
 
 if __name__ == "__main__":

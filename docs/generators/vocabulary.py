@@ -94,13 +94,12 @@ def place(file: Path) -> tuple[int, str]:
 
 @cache
 def sources() -> dict[str, str]:
-    """Text of every file of the package but those of the base and of older versions."""
+    """Text of every file of the package but those of the base."""
     files = [file for file in sorted(PACKAGE.rglob("*.py")) if PACKAGE / "base" not in file.parents]
     texts = {file.relative_to(PACKAGE): file.read_text(encoding="utf-8") for file in files}
     return {
         file.as_posix(): re.sub(r"^ *>>> .*$", "", text, flags=re.MULTILINE)
         for file, text in texts.items()
-        if not file.stem.startswith("version_")
     }
 
 

@@ -1,4 +1,4 @@
-"""evidence.json and docs/evidence.md, written from claims."""
+"""evidence.json, written from claims."""
 
 import json
 from collections.abc import Collection, Iterable
@@ -7,17 +7,15 @@ from pathlib import Path
 from typing import Final
 
 import documents
-from evidence_page import page
 
 from vibroacoustics.results.claims import EVIDENCE_FILE, Claim, Document, claims
 
 ROOT: Final = Path(__file__).parents[2]
 FILE: Final = ROOT / "vibroacoustics" / "results" / EVIDENCE_FILE
-PAGE: Final = ROOT / "docs" / "evidence.md"
 
 
 def write(made: Iterable[Claim], passed: Collection[str]) -> None:
-    """Write both files: claims that were made, and committed ones of tests that did not pass.
+    """Write the file: claims that were made, and committed ones of tests that did not pass.
 
     A committed claim goes where its test passed without it, or is no more.
     """
@@ -29,7 +27,6 @@ def write(made: Iterable[Claim], passed: Collection[str]) -> None:
     rows = sorted([*by_name.values(), *(row for row in kept if row.what not in by_name)],
                   key=lambda row: (row.test, row.what))  # fmt: skip
     FILE.write_text(written(rows), encoding="utf-8")
-    PAGE.write_text(page(rows, cited(rows)), encoding="utf-8")
 
 
 def written(rows: Iterable[Claim]) -> str:

@@ -1,6 +1,6 @@
 """Hooks of pytest that collect claims, write them down and move their references.
 
---evidence           write evidence.json and docs/evidence.md from the claims of the tests that run
+--evidence           write evidence.json from the claims of the tests that run
 --shifted-claims F   move the references of the claims that file F names, one a line
 """
 
@@ -19,7 +19,7 @@ PROPERTY = "claim"
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the two options."""
     group = parser.getgroup("evidence")
-    group.addoption("--evidence", action="store_true", help="write evidence.json and its page")
+    group.addoption("--evidence", action="store_true", help="write evidence.json")
     group.addoption("--shifted-claims", metavar="FILE", help="claims whose references are moved")
 
 
@@ -55,7 +55,7 @@ def pytest_runtest_logreport(report: pytest.TestReport) -> None:
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """Write the files, in the process that has the claims of all workers."""
+    """Write the file, in the process that has the claims of all workers."""
     if SETTINGS.writes and not hasattr(session.config, "workerinput"):
         write(COLLECTED, PASSED)
 

@@ -1,6 +1,7 @@
 """Docstrings that list parameters or attributes list those of the code, in their order."""
 
 import ast
+import inspect
 import re
 from functools import cache
 from pathlib import Path
@@ -9,11 +10,18 @@ from support import ROOT
 
 PACKAGE = ROOT / "vibroacoustics"
 FILES = sorted(PACKAGE.rglob("*.py"))
+HOLDERS = (ast.mod, ast.stmt, ast.excepthandler, ast.match_case)
+"""Nodes that a definition may be in."""
 
 
 @cache
 def _tree(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
+def _nodes(path: Path) -> tuple[ast.AST, ...]:
+    return tuple(ast.walk(_tree(path)))
 
 
 def _section(docstring: str, title: str) -> list[str] | None:
@@ -38,10 +46,16 @@ def _section(docstring: str, title: str) -> list[str] | None:
     return names
 
 
+def _documented(node: ast.FunctionDef | ast.ClassDef, title: str) -> list[str] | None:
+    """Names in a section of the docstring of a function or class."""
+    text = ast.get_docstring(node, clean=False) or ""
+    return _section(inspect.cleandoc(text), title) if title in text else None
+
+
 def _functions(path: Path):
     """Public functions and methods with their first, implied argument taken off."""
-    for node in ast.walk(_tree(path)):
-        for child in ast.iter_child_nodes(node):
+    for node in _nodes(path):
+        for child in ast.iter_child_nodes(node) if isinstance(node, HOLDERS) else ():
             if isinstance(child, ast.FunctionDef) and not child.name.startswith("_"):
                 arguments = [*child.args.posonlyargs, *child.args.args, *child.args.kwonlyargs]
                 names = [argument.arg for argument in arguments]
@@ -67,8 +81,7 @@ def test_docstring_parameters_are_those_of_the_signature():
         f"{path.relative_to(ROOT)}: {function.name}: {documented}, has {names}"
         for path in FILES
         for function, names in _functions(path)
-        if (documented := _section(ast.get_docstring(function, clean=True) or "", "Parameters"))
-        not in (None, names)
+        if (documented := _documented(function, "Parameters")) not in (None, names)
     ]
     assert not faults, "\n".join(faults)
 
@@ -77,10 +90,9 @@ def test_docstring_attributes_are_the_fields():
     faults = [
         f"{path.relative_to(ROOT)}: {node.name}: {documented}, has {_fields(node)}"
         for path in FILES
-        for node in ast.walk(_tree(path))
+        for node in _nodes(path)
         if isinstance(node, ast.ClassDef)
-        and (documented := _section(ast.get_docstring(node, clean=True) or "", "Attributes"))
-        not in (None, _fields(node))
+        and (documented := _documented(node, "Attributes")) not in (None, _fields(node))
     ]
     assert not faults, "\n".join(faults)
 

@@ -151,7 +151,6 @@ FEATURES = {
     "tables of a machine of one's own": "va.Parameters",
     "designs judged, in Python": "va.Problem.evaluate",
     "plug-in in a notebook": "va.load_plugin",
-    "open benchmark": "command benchmark",
 }
 BUILT = {"_build", "generated", "examples"}
 PAGES = [

@@ -5,8 +5,8 @@ import ast
 import pytest
 from support import ROOT
 
+from vibroacoustics.base.patterns import is_among
 from vibroacoustics.base.vocabulary import VARIABLES
-from vibroacoustics.stages.chain import is_among
 from vibroacoustics.stages.stage import EVERYTHING, STAGES
 
 FILES = sorted(

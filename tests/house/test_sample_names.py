@@ -12,7 +12,7 @@ NAMES = re.compile(
 )
 """Dimensions, weights and values of samples as variables of a dataset."""
 ALLOWED = (
-    "uncertainty/", "stages/", "base/", "results/estimates.py", "results/version_2.py",
+    "uncertainty/", "stages/", "base/", "results/estimates.py",
     "results/run_variables.py", "recordings/",
 )  # fmt: skip
 CONTRACT = {

@@ -14,11 +14,12 @@ from vibroacoustics.commands import cli
 from vibroacoustics.machine.machine import MACHINES
 from vibroacoustics.machine.option import OPTIONS
 from vibroacoustics.machine.source import SOURCES
+from vibroacoustics.results.claims import claims
 from vibroacoustics.study.criterion import CRITERIA
 
 DOCS = ROOT / "docs"
 MADE = {"generated/" + name for name in (
-    "vocabulary.md", "command_line.md", "registered.md", "errors.md", "changelog.md",
+    "vocabulary.md", "command_line.md", "registered.md", "errors.md", "evidence.md", "changelog.md",
     "contributing.md", "layers.svg",
 )} | {"examples/index", "examples/balancer_of_your_own"}  # fmt: skip
 PAGES = sorted([*DOCS.glob("*.md"), *DOCS.glob("machines/*.md")])
@@ -73,6 +74,18 @@ def test_registered_kinds_are_listed():
             assert f"| `{name}` |" in page, name
 
 
+def test_page_of_evidence_has_every_claim_and_every_known_miss():
+    from generators import evidence, tables
+
+    page = evidence.page()
+    assert all(f"\n| {tables.cell(claim.what)} |" in page for claim in claims())
+    assert all(claim.reason in page for claim in claims())
+    assert all(f"\n| {row['fact']} | {row['source']} |" in page for row in evidence.trends())
+    numbers = [page.count(f" | {kind} | `test_") for kind in evidence.KINDS]
+    assert sum(numbers) == len(claims())
+    assert len({claim.kind for claim in claims()} - set(evidence.KINDS)) == 0
+
+
 def test_every_class_of_error_has_an_example_that_raises_it():
     from generators import errors
 
@@ -113,7 +126,8 @@ def test_docstrings_keep_signs_and_examples():
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
-        assert target in MADE or (page.parent / target).exists(), target
+        file = (page.parent / target).resolve()
+        assert file.exists() or str(file.relative_to(ROOT / "docs")) in MADE, target
 
 
 def test_version_is_one():

@@ -1,4 +1,4 @@
-"""Files are written through `base/folder`: other code opens, makes and removes none by its path."""
+"""Files are written by `base/folder` alone, processes are started by `base/process_start` alone."""
 
 import re
 
@@ -22,15 +22,29 @@ ALLOWED = {
     "results/storage.py": "appends the hash with the opener",
 }
 
+STARTS = re.compile(
+    r"\bsubprocess\.\w|\bimport subprocess|\bPopen\b|[Pp]rocess\w*\.start\("
+    r"|\bos\.(system|popen|fork|forkpty|exec\w+|spawn\w+|posix_spawn\w*)\("
+    r"|\bProcessPoolExecutor|\bcreate_subprocess|\bpty\.(spawn|fork)"
+)
 
-def test_every_writer_is_known():
+
+def files_with(pattern: re.Pattern[str]) -> set[str]:
+    """Files of the package that have the pattern in a line that is no example."""
     package = ROOT / "vibroacoustics"
-    writers = {
+    return {
         str(path.relative_to(package))
         for path in package.rglob("*.py")
         if any(
-            WRITES.search(line) and not line.lstrip().startswith(">>>")
+            pattern.search(line) and not line.lstrip().startswith(">>>")
             for line in path.read_text(encoding="utf-8").splitlines()
         )
     }
-    assert writers == set(ALLOWED)
+
+
+def test_every_writer_is_known():
+    assert files_with(WRITES) == set(ALLOWED)
+
+
+def test_one_file_starts_processes():
+    assert files_with(STARTS) == {"base/process_start.py"}

@@ -247,11 +247,12 @@ def test_every_row_has_a_verdict_and_a_source():
 
 
 def test_the_page_has_the_verdicts():
-    """Counts and facts of docs/benchmark.md are those of the table."""
-    page = (ROOT / "docs" / "benchmark.md").read_text(encoding="utf-8")
-    for row in rows():
-        ours = row["ours"].replace("-", "−") or "–"
-        assert f"| {row['fact']} | {row['printed']} | {ours} | {row['verdict']} |" in page
+    """Counts of docs/benchmark.md are those of the table; figures of what is missed, too."""
+    page = " ".join((ROOT / "docs" / "benchmark.md").read_text(encoding="utf-8").split())
+    verdicts = [row["verdict"] for row in rows()]
+    met, missed, others = (verdicts.count(each) for each in (MET, MISSED, NOT_TESTED))
+    assert f"{met} trends are met, {missed} missed, {others} not tested" in page
+    assert all(row["ours"] in page for row in rows() if row["verdict"] == MISSED)
 
 
 def write() -> None:

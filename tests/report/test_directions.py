@@ -1,6 +1,7 @@
 """Names with bidirectional control characters: pages, pictures and lines show their codes."""
 
 import json
+import re
 
 import pytest
 from support import TINY, command_here, made_up_radiation
@@ -56,3 +57,12 @@ def test_every_direction_has_its_code() -> None:
     assert controls <= set(DIRECTIONS)
     assert set(DIRECTIONS) - controls == {0x061C, 0x200E, 0x200F}  # marks, of letters' classes
     assert visible("a\u200fb") == "a[U+200F]b"
+
+
+def test_control_characters_and_bytes_of_names_become_visible():
+    text = "".join(map(chr, [*range(256), 0xD800, 0xDCFF, 0xDFFF]))
+    shown = visible(f"μ {text}")
+    assert shown.startswith("μ [U+0000]")
+    assert {"[U+001B]", "[U+007F]", "[U+0085]", "[U+DCFF]"} <= set(re.findall(r"\[U\+\w+\]", shown))
+    assert [each for each in shown if not each.isprintable()] == ["\t", "\n", "\r", "\xa0", "\xad"]
+    shown.encode()

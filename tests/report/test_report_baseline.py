@@ -4,6 +4,7 @@ import re
 
 import pytest
 from sound_studies import result_with_baseline
+from tonal_spectra import tonal_spectrum
 
 from vibroacoustics.commands.tone_tables import tone_row
 from vibroacoustics.report.sections import SECTIONS, baseline
@@ -73,7 +74,7 @@ def test_a_prominent_tone_is_named_with_its_ratios(results):
     loud["pressure_line"] = loud["pressure_line"].copy()
     loud["pressure_line"].loc[at_150_hz] = 30.0
     parts = ingredients(loud, "none", "above_1m", 900.0)
-    (tone, *others) = tonality.prominent(tonality.tones(tonality.tonal_spectrum(parts)))
+    (tone, *others) = tonality.prominent(tonality.tones(tonal_spectrum(parts)))
     assert tone.name == "order 1"
     name, hertz, _, over_noise, over_bands = tone_row(tone)
     assert (name, hertz) == ("order 1", "150.0")

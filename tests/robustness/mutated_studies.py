@@ -16,15 +16,15 @@ CONTENTS: Final = {
 }
 
 
-def _leaves(content: Any, prefix: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+def leaves(content: Any, prefix: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
     """Paths of all values, those inside quantities too, and of all tables."""
     items = content.items() if isinstance(content, dict) else []
     for key, value in items:
         yield (*prefix, key)
-        yield from _leaves(value, (*prefix, key))
+        yield from leaves(value, (*prefix, key))
 
 
-PATHS: Final = [(name, path) for name, content in CONTENTS.items() for path in _leaves(content)]
+PATHS: Final = [(name, path) for name, content in CONTENTS.items() for path in leaves(content)]
 
 
 def make_tree(root: Path) -> Path:
@@ -65,12 +65,13 @@ def write_changed(root: Path, place: tuple[str, tuple[str, ...]], value: Any, re
         "study": root / "pipelines" / "study.toml",
     }
     for name, file in files.items():
-        lines = (f"{_quoted(key)} = {_toml(item)}" for key, item in contents[name].items())
+        lines = (f"{_quoted(key)} = {toml(item)}" for key, item in contents[name].items())
         file.write_text("\n".join(lines), encoding="utf-8")
     return files["study"]
 
 
-def _toml(value: Any) -> str:
+def toml(value: Any) -> str:
+    """Return a value as TOML."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, float):
@@ -80,9 +81,9 @@ def _toml(value: Any) -> str:
     if isinstance(value, str):
         return _quoted(value)
     if isinstance(value, list):
-        return "[" + ", ".join(_toml(item) for item in value if item is not None) + "]"
+        return "[" + ", ".join(toml(item) for item in value if item is not None) + "]"
     items = ((key, item) for key, item in value.items() if item is not None)
-    return "{" + ", ".join(f"{_quoted(key)} = {_toml(item)}" for key, item in items) + "}"
+    return "{" + ", ".join(f"{_quoted(key)} = {toml(item)}" for key, item in items) + "}"
 
 
 def _quoted(text: str) -> str:

@@ -131,7 +131,7 @@ def test_units(tmp_path):
     says(refused(path, calibration={"b": 2.0}), "calibration: no channel 'b'")
     says(refused(path, channels=["x"]), "channel 'x': not in the file, which holds 'a'")
     says(refused(path, channels=[]), "no channel is chosen")
-    says(refused(path, sample_rate_hz=0.0), "sample_rate_hz = 0 Hz: must be above zero")
+    says(refused(path, sample_rate_hz=0.0), "sample_rate_hz = 0 Hz: must be 0.001 to 1e+09 Hz")
     unnamed = write(tmp_path / "b.csv", "time [s],a\n0,1\n1,2\n")
     says(refused(unnamed), "states no unit for 'a'", "units={'a': 'Pa'}")
 

@@ -229,7 +229,6 @@ CASES: Final = (
     *cases(".lock", write_run, f"{LINKS} {SPECIAL}", "hard_link"),
     *cases(".writing", write_run, f"{LINKS} {SPECIAL}", "full_of_links"),
     *cases("results.nc", write_run, f"{LINKS} {SPECIAL}", "hard_link"),
-    *cases("results.nc.sha256", write_run, "", "to_file hard_link pipe"),
     *cases("a.csv", write_run, "to_file pipe", "hard_link"),
     *cases("figures", write_run, "to_folder to_folder_by_dots to_nothing to_file pipe"),
     *cases("figures/a.png", write_run, "to_file to_nothing pipe", "hard_link"),

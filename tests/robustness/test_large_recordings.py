@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import zlib
 
 import h5py
 import numpy as np
@@ -101,13 +102,17 @@ def check_results(found, chunks):
     ],
 )
 def test_what_does_not_go_in_blocks_says_so(tmp_path, name, options):
-    """A file that claims 8 GiB: one line that names what helps."""
+    """A file of 8 GiB of silence, packed: one line that names what helps."""
     path = tmp_path / "long.h5"
+    silence = zlib.compress(bytes(8 * CHUNK))
     with h5py.File(path, "w") as file:
         file.attrs["sample_rate_hz"] = RATE_HZ
+        packed = {"chunks": (CHUNK,), "compression": "gzip"}
         for number in range(2):
-            claimed = file.create_dataset(f"microphone {number}", (2**29,), "f8", chunks=(CHUNK,))
-            claimed.attrs["units"] = "Pa"
+            channel = file.create_dataset(f"microphone {number}", (2**29,), "f8", **packed)
+            channel.attrs["units"] = "Pa"
+            for first in range(0, channel.size, CHUNK):
+                channel.id.write_direct_chunk((first,), silence)
     out = tmp_path / ("part.nc" if name == "export" else "out")
     outcome = command_here(name, path, *options, "--out", out)
     assert outcome.returncode == 2

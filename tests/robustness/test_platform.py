@@ -1,5 +1,6 @@
 """Systems and limits that the package refuses: a line, exit code 2, before anything heavy loads."""
 
+import json
 import re
 import subprocess
 import sys
@@ -11,7 +12,7 @@ from support import TINY
 WITHOUT_LOCKS = """
 import sys
 sys.modules["fcntl"] = None  # as on Windows
-sys.argv = ["vibroacoustics", "doctor"]
+sys.argv = ["vibroacoustics", "doctor", "--json"]
 from vibroacoustics.__main__ import main
 main()
 """
@@ -25,6 +26,9 @@ def test_a_system_without_locks_is_refused() -> None:
     assert outcome.returncode == 2
     assert outcome.stderr.startswith("error: vibroacoustics runs on Linux and macOS; on Windows")
     assert outcome.stderr.count("\n") == 1
+    envelope = json.loads(outcome.stdout)
+    assert envelope["command"] == "doctor"
+    assert [f"error: {each['message']}\n" for each in envelope["errors"]] == [outcome.stderr]
 
 
 @pytest.mark.parametrize(

@@ -30,6 +30,8 @@ from vibroacoustics.uncertainty.every_sample import in_every_sample
 
 IMPORTS = "import sys\nimport numpy as np\nimport vibroacoustics as va\n"
 LONG = "raise RuntimeError('x' * 5000)"
+NO_MEMORY = "raise MemoryError('1 TiB')"
+INTERRUPT = "raise KeyboardInterrupt"
 
 
 class Broken(NamedTuple):
@@ -88,6 +90,8 @@ LEFT_OUT = (
     Broken("kind of option", "nothing", "return None", "added returns None, must be Added"),
     Broken("kind of option", "leaving", "sys.exit(7)", "SystemExit: 7"),
     Broken("kind of option", "long-words", LONG, "RuntimeError: xxx"),
+    Broken("kind of option", "memory", NO_MEMORY, "MemoryError: 1 TiB"),
+    Broken("kind of option", "interrupted", INTERRUPT, "KeyboardInterrupt"),
     Broken(
         "kind of option", "text", 'return va.Added((), {"added_mass_kg": "heavy"})',
         "added returns a str in figures, must be float",
@@ -112,16 +116,19 @@ LEFT_OUT = (
     Broken("criterion", "text_n", "return force.astype(str)", "TypeError: ufunc 'isfinite'"),
     Broken("criterion", "wide_n", "return results['force_amplitude']", "has dims ("),
     Broken("criterion", "leaving_n", "sys.exit()", "SystemExit"),
+    Broken("criterion", "memory_n", NO_MEMORY, "MemoryError: 1 TiB"),
     Broken("column", "raising_n", "return results['nothing']", "KeyError:"),
     Broken("column", "nothing_n", "return None", "values returns None, must be DataArray"),
     Broken("column", "nan_n", "return force * np.nan", "ValueError: values are not finite"),
     Broken("column", "text_n", "return force.astype(str)", "TypeError: "),
     Broken("column", "leaving_n", "sys.exit('gone')", "SystemExit: gone"),
+    Broken("column", "memory_n", NO_MEMORY, "MemoryError: 1 TiB"),
     Broken("section", "raising", LONG, "RuntimeError: xxx"),
     Broken("section", "nothing", "return None", "blocks returns None, must be Sequence"),
     Broken("section", "text", "return ['words']", "blocks returns a str, must be "),
     Broken("section", "number", "return [va.blocks.Text(3)]", "a int in words, must be str"),
     Broken("section", "leaving", "sys.exit(0)", "SystemExit: 0"),
+    Broken("section", "memory", NO_MEMORY, "MemoryError: 1 TiB"),
     Broken("stage", "raising", "raise TypeError(coords)", "TypeError: {'speed'"),
     Broken("stage", "nothing", "return None", "run returns None, must be Given"),
     Broken(
@@ -137,6 +144,7 @@ LEFT_OUT = (
         "SchemaError: ",
     ),
     Broken("stage", "leaving", "sys.exit(1)", "SystemExit: 1"),
+    Broken("stage", "memory", NO_MEMORY, "MemoryError: 1 TiB"),
 )  # fmt: skip
 
 
@@ -252,6 +260,7 @@ FATAL_SOURCES = {
     ),
     "shape": ("return va.Loads(wrenches={'odd': va.Wrench(force.T, force)})", "must be (3, "),
     "leaving": ("sys.exit(0)", "SystemExit: 0"),
+    "memory": (NO_MEMORY, "MemoryError: 1 TiB"),
     "long": (LONG, "RuntimeError: xxx"),
 }
 
@@ -420,6 +429,9 @@ def test_reader_that_leaves_ends_the_command(tmp_path):
 LOADING = {
     "raising": ("raise ValueError('no')", "line 4: ValueError: no"),
     "leaving": ("sys.exit(0)", "line 4: SystemExit: 0"),
+    "interrupted": (INTERRUPT, "line 4: KeyboardInterrupt"),
+    "memory": (NO_MEMORY, "line 4: MemoryError: 1 TiB"),
+    "own": ("class Own(BaseException): ...\nraise Own('mine')", "line 5: Own: mine"),
     "syntax": ("1 +", "line 4: SyntaxError"),
     "long": (LONG, "line 4: RuntimeError: xxx"),
     "reads": (
@@ -442,6 +454,13 @@ LOADING = {
 def test_file_that_cannot_be_loaded_is_refused(tmp_path, code, said):
     (tmp_path / "odd.py").write_text(IMPORTS + code)
     refused(["run", TINY, "--plugin", tmp_path / "odd.py"], "odd.py, line ", said)
+
+
+def test_a_signal_ends_what_a_plugin_does(tmp_path):
+    """It is no fault of the plug-in: nothing is omitted because of it."""
+    (tmp_path / "slow.py").write_text("import signal\nsignal.raise_signal(signal.SIGINT)\n")
+    with forgetting(), pytest.raises(KeyboardInterrupt):
+        load_plugin(tmp_path / "slow.py")
 
 
 def test_unknown_kind_names_the_way_to_bring_one(tmp_path):

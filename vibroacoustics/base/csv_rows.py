@@ -11,7 +11,7 @@ from .errors import ParameterError
 from .regular_file import read_bytes
 
 MAXIMUM_BYTES: Final = 200_000_000
-_STATED: Final = re.compile(r'"?sep=(.)"?')
+STATED: Final = re.compile(r'"?sep=(.)"?')
 """First line by which a spreadsheet states the separator."""
 _BLANK: Final = " \t,;|"
 
@@ -69,7 +69,7 @@ def read_lines(path: Path, maximum_bytes: int = MAXIMUM_BYTES) -> Lines:
         raise ParameterError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError:
         raise ParameterError(f"{path}: cannot be read: is no text") from None
-    stated = _STATED.fullmatch(lines[0].strip()) if lines else None
+    stated = STATED.fullmatch(lines[0].strip()) if lines else None
     texts = [(number, line) for number, line in enumerate(lines, 1) if line.strip(_BLANK)]
     kept = [
         (number, line)

@@ -1,7 +1,12 @@
 """Errors that a user can act on. Each message is one clear line; all of a file come at once."""
 
-from typing import Final
+from collections.abc import Callable, Iterable
+from typing import Final, TypeVar
 
+from .refusal import reworded
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
 LONGEST_LINE: Final = 300
 
 
@@ -19,7 +24,7 @@ class VibroacousticsError(Exception):
 
     def __init__(self, *messages: str) -> None:
         # names and values may hold line breaks
-        super().__init__(*(" ".join(message.splitlines()) for message in messages))
+        super().__init__(*(reworded(each, " ".join(each.splitlines())) for each in messages))
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.args))
@@ -33,11 +38,11 @@ class ParameterError(VibroacousticsError):
     >>> va.NominalSpeed(-1.0)
     Traceback (most recent call last):
         ...
-    vibroacoustics.base.errors.ParameterError: speed_rpm = -1 rpm: must be a number above 0
+    vibroacoustics.base.errors.ParameterError: speed_rpm = -1 rpm: must be 0.1 to 1e+06 rpm
     """
 
     def __init__(self, *messages: str) -> None:
-        super().__init__(*map(_shortened, messages))
+        super().__init__(*map(shortened, messages))
 
 
 class PlatformError(VibroacousticsError):
@@ -100,13 +105,38 @@ class PluginError(VibroacousticsError):
     """
 
 
-def _shortened(line: str) -> str:
-    """Return a line of at most 300 characters: its begin with the file's name, and its end.
+def gathered(function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
+    """Results of a function for all items; one error has the lines of all items that fail.
+
+    Raises
+    ------
+    VibroacousticsError
+        An item fails; a ParameterError where items fail by errors of several types.
+    """
+    results: list[Result] = []
+    errors: list[VibroacousticsError] = []
+    for item in items:
+        try:
+            results.append(function(item))
+        except VibroacousticsError as error:
+            errors.append(error)
+    if len(errors) == 1:
+        raise errors[0]
+    if errors:
+        kinds = {type(error) for error in errors}
+        kind = kinds.pop() if len(kinds) == 1 else ParameterError
+        raise kind(*dict.fromkeys(line for error in errors for line in error.args))
+    return results
+
+
+def shortened(line: str, most: int = LONGEST_LINE) -> str:
+    """Return a line of at most some characters: its begin with the file's name, and its end.
 
     Both parts end at a space where one is near.
     """
-    if len(line) <= LONGEST_LINE:
+    if len(line) <= most:
         return line
-    begin, end = line[:200], line[203 - LONGEST_LINE :]
-    cut, start = begin.rfind(" ", 160), end.find(" ", 0, 40)
-    return f"{begin[:cut] if cut > 0 else begin} … {end[start + 1 :]}"
+    length = 2 * most // 3
+    begin, end = line[:length], line[length + 3 - most :]
+    cut, start = begin.rfind(" ", length - 40), end.find(" ", 0, 40)
+    return reworded(line, f"{begin[:cut] if cut > 0 else begin} … {end[start + 1 :]}")

@@ -1,4 +1,4 @@
-"""Faults of third parties' code, and what a run omits because of them."""
+"""Faults of third parties' code, and what a command omits because of them or of broken files."""
 
 import warnings
 from collections.abc import Iterator, Sequence
@@ -7,6 +7,7 @@ from contextvars import ContextVar
 from typing import Final, NamedTuple
 
 from .errors import PluginError
+from .refusal import Parts, Refusal, reworded
 
 MOST_WORDS: Final = 300
 """Characters of a plug-in's own words that are shown."""
@@ -46,19 +47,20 @@ class FaultError(PluginError):
         """Return the fault of a thing at a line of its file."""
         where = owner.file if line is None else f"{owner.file}, line {line}"
         reason = f"{where}: {cut(words)}"
-        fault = cls(f"{owner.noun} {owner.name}: {reason}")
+        field = f"{owner.noun} {owner.name}"
+        fault = cls(Refusal(f"{field}: {reason}", Parts(owner.file, field)))
         fault.noun, fault.name, fault.reason = owner.noun, owner.name, reason
         return fault
 
     def with_hint(self, hint: str) -> "FaultError":
         """Return the same fault with what the user can do about it."""
-        fault = type(self)(f"{self}; {hint}")
+        fault = type(self)(reworded(self.args[0], f"{self}; {hint}"))
         fault.noun, fault.name, fault.reason = self.noun, self.name, self.reason
         return fault
 
 
 class LeftOutWarning(UserWarning):
-    """Something of a plug-in is omitted because it failed."""
+    """Something is omitted because it failed: of a plug-in, or one of many files."""
 
 
 def cut(words: str) -> str:
@@ -68,15 +70,27 @@ def cut(words: str) -> str:
 
 
 def leave_out(fault: FaultError, what: str = "") -> None:
-    """Tell that something is omitted: to all that collect, and once by a warning."""
-    line = f"{what or f'{fault.noun} {fault.name}'} is omitted: {fault.reason}"
+    """Report that a thing of a plug-in is omitted; see `omit`."""
+    omit(what or f"{fault.noun} {fault.name}", fault.reason, fault.args[0])
+
+
+def omit(what: str, reason: str, source: str = "") -> None:
+    """Report that something is omitted: to all that collect, and once by a warning.
+
+    Parameters
+    ----------
+    what : thing that is omitted
+    reason : reason
+    source : message whose file, field and value the line keeps
+    """
+    line = reworded(source or reason, f"{what} is omitted: {reason}")
     collecting = _COLLECTING.get()
     is_known = bool(collecting) and line in collecting[0]
     for lines in collecting:
         if line not in lines:
             lines.append(line)
     if not is_known:
-        warnings.warn(line, LeftOutWarning, stacklevel=2)
+        warnings.warn(line, LeftOutWarning, stacklevel=3)
 
 
 @contextmanager

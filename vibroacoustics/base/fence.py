@@ -6,6 +6,7 @@
 import inspect
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dis import opmap
 from functools import wraps
 from pathlib import Path
 from traceback import walk_tb
@@ -24,6 +25,7 @@ REFUSALS: Final = (ParameterError, StorageError)
 def fence(owner: Owner, passing: tuple[type[Exception], ...] = ()) -> Iterator[None]:
     """Turn whatever a plug-in raises into a `FaultError`, `sys.exit` too; errors may pass, cut.
 
+    A signal that ends the program while the plug-in's code runs is no fault of it.
 
     Raises
     ------
@@ -32,12 +34,24 @@ def fence(owner: Owner, passing: tuple[type[Exception], ...] = ()) -> Iterator[N
     """
     try:
         yield
-    except (FaultError, MemoryError):
+    except FaultError:
         raise
     except passing as error:
         raise type(error)(*map(cut, map(str, error.args))) from None
-    except (Exception, SystemExit) as error:
+    except BaseException as error:
+        if not isinstance(error, Exception | SystemExit) and not _is_raised(owner, error):
+            raise
         raise FaultError.at_line(owner, _line(owner, error), _words(error)) from error
+
+
+def _is_raised(owner: Owner, error: BaseException) -> bool:
+    """Whether a `raise` of the plug-in's file raised an error, and no signal that came there."""
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    if trace is None or not _is_of(owner, trace.tb_frame.f_code.co_filename):
+        return False
+    return trace.tb_frame.f_code.co_code[trace.tb_lasti] == opmap["RAISE_VARARGS"]
 
 
 def fenced(thing: Any, base: type, owner: Owner) -> None:

@@ -155,6 +155,10 @@ class Folder:
             PurePosixPath(root, name).as_posix() for root, _, names, _ in walk for name in names
         )
 
+    def size_bytes(self) -> int:
+        """Size of all files below, bytes; 0 of those that go meanwhile."""
+        return sum(status.st_size for name in self.files() if (status := self.status(name)))
+
     def sync(self) -> None:
         """Carry the names in this folder to the disk."""
         os.fsync(self.descriptor)
@@ -236,7 +240,7 @@ def opened_folder(path: Path) -> Iterator[Folder]:
 
 def missing_folders(path: Path) -> list[Path]:
     """Folders that have to be made for a path, the innermost first."""
-    return [folder for folder in (path, *path.parents) if not folder.exists()]
+    return [folder for folder in (path, *path.parents) if not os.path.exists(folder)]
 
 
 def make_folder(path: Path, mode: int = 0o777) -> None:

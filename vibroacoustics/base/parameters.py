@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, ClassVar, Final, Self, TypeVar
 
 from pydantic import (
@@ -59,12 +60,21 @@ class Parameters(BaseModel):
 
     @model_validator(mode="after")
     def _without_contradictions(self) -> Self:
-        with unrecorded_reads():
-            for owner in reversed(type(self).__mro__):
-                method = vars(owner).get("contradictions")
-                for problem in () if method is None else method(self):
-                    raise ValueError(problem)
+        if methods := _contradictions_of(type(self)):
+            with unrecorded_reads():
+                for method in methods:
+                    for problem in method(self):
+                        raise ValueError(problem)
         return self
+
+
+@cache
+def _contradictions_of(
+    kind: type[Parameters],
+) -> tuple[Callable[[Parameters], Contradictions], ...]:
+    """Own methods `contradictions` of a class and of those that it is made from, theirs first."""
+    owners = [owner for owner in reversed(kind.__mro__) if owner is not Parameters]
+    return tuple(vars(each)["contradictions"] for each in owners if "contradictions" in vars(each))
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, Final, TypeAlias, TypeVar
 
+from .forms import has_form
 from .hashing import canonical_json, file_sha256, sha256
 from .plain_bytes import to_bytes
 from .registry import plugins
@@ -52,7 +53,12 @@ def following_from(inputs: Callable[[], Any] | None) -> Iterator[None]:
         _INPUTS.reset(before)
 
 
-def stored(name: object, items: Iterable[Item], stream: Stream[Item, Result]) -> Iterable[Result]:
+def stored(
+    name: object,
+    items: Iterable[Item],
+    stream: Stream[Item, Result],
+    form: Any = Any,
+) -> Iterable[Result]:
     """Compute the results of items; those that an interrupted run has stored are read.
 
     Parameters
@@ -61,13 +67,19 @@ def stored(name: object, items: Iterable[Item], stream: Stream[Item, Result]) ->
         `to_bytes`
     items : each determines its result, with the name and the inputs; see `to_bytes`
     stream : function that computes results
+    form : type of a result; stored ones of another type are computed again
     """
     store, inputs = _STORE.get(), _INPUTS.get()
     # Results of a third party's code may follow from more than is known here.
     if store is None or store[1] != os.getpid() or not inputs or plugins():
         return stream(items)
     head = to_bytes((inputs, name))
-    return store[0](items, stream, lambda item: sha256(head + to_bytes(item)))
+    return store[0](
+        items,
+        stream,
+        lambda item: sha256(head + to_bytes(item)),
+        lambda _, piece: has_form(piece, form),
+    )
 
 
 def hash_of_inputs(inputs: Any) -> str:

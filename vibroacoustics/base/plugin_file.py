@@ -1,5 +1,6 @@
 """Python files of third parties that the user names: what they register becomes known."""
 
+import os
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -40,7 +41,7 @@ def load_plugin(path: str | Path) -> None:
     >>> size = Path("own_unit.py").write_text(code.format("'ell', 'ell', 'm', 1.1"))
     >>> va.load_plugin("own_unit.py")
     """
-    file = Path(path).resolve()
+    file = Path(os.path.realpath(path))  # `resolve` raises another error where links are a circle
     name = f"plugin_{file.stem}_{abs(hash(file)):x}"
     if name in sys.modules:
         return

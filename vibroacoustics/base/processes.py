@@ -234,6 +234,7 @@ def distributed(
     function: Callable[[Item], Result],
     items: Iterable[Item],
     otherwise: Callable[[Callable[[Item], Result], Iterable[Item]], Iterable[Result]],
+    on_loss: Callable[[Item, str], Result] | None = None,
 ) -> Iterator[Result]:
     """Apply a function by the workers of `distributing`; the results are in the order of the items.
 
@@ -242,18 +243,20 @@ def distributed(
     function : function of any kind; what it changes may be lost
     items : arguments that pickle takes, as it does the results
     otherwise : applies the function where there are no such workers
+    on_loss : result of an item that ended two workers; see `ProcessPool.in_order`
     """
     parallel_map = _PARALLEL_MAP.get()
     if parallel_map is None:
         yield from otherwise(function, items)
     else:
-        yield from parallel_map(function, items, _refuse)
+        yield from parallel_map(function, items, on_loss or _refuse)
 
 
 def side_by_side(
     function: Callable[[Item], Result],
     items: Iterable[Item],
     otherwise: Callable[[Callable[[Item], Result], Iterable[Item]], Iterable[Result]] = map,
+    on_loss: Callable[[Item, str], Result] | None = None,
 ) -> Iterator[Result]:
     """Apply a function to items in parallel; the results are in the order of the items.
 
@@ -264,6 +267,7 @@ def side_by_side(
     function : function of any kind; what it changes in a copy is lost
     items : arguments; pickle must take the results
     otherwise : applies the function with one processor, or where processes cannot be copied
+    on_loss : result of an item that ended two workers; see `ProcessPool.in_order`
     """
 
     def here(function: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[Result]:
@@ -271,9 +275,9 @@ def side_by_side(
             yield from otherwise(function, items)
             return
         with ProcessPool(processors(), inherited=function) as pool:
-            yield from pool.in_order(function, items)
+            yield from pool.in_order(function, items, on_loss)
 
-    return distributed(function, items, here)
+    return distributed(function, items, here, on_loss)
 
 
 def _refuse(_: object, reason: str) -> NoReturn:

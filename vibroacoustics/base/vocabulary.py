@@ -80,7 +80,7 @@ class _Labelled:
         """Whether a coordinate holds words: it has neither unit nor bounds."""
         return not self.units and self.bounds is None
 
-    def check_numbers(self, array: xr.DataArray) -> None:
+    def check_numbers(self, array: xr.DataArray | xr.Variable) -> None:
         """Refuse what are no numbers within the bounds; of phasors each part is.
 
         Raises
@@ -90,7 +90,7 @@ class _Labelled:
         """
         kinds = "iufcb" if self.bounds == YES_OR_NO else "iufc"
         if array.dtype.kind not in kinds:
-            raise SchemaError(f"{array.name} holds no numbers")
+            raise SchemaError(f"{self.name} holds no numbers")
         lowest, highest = self.bounds or BOUNDS.get(self.units, (-LARGEST, LARGEST))
         slack = _ROUNDING * max(abs(lowest), abs(highest))
         values = array.values if array.dtype.kind == "c" else array.values.astype(float)
@@ -98,7 +98,7 @@ class _Labelled:
             within = (lowest - slack <= part) & (part <= highest + slack)
             if not (within | np.isnan(part) if self.missing else within).all():
                 raise SchemaError(
-                    f"{array.name} holds no number, or one beyond {lowest:g} to {highest:g} "
+                    f"{self.name} holds no number, or one beyond {lowest:g} to {highest:g} "
                     f"{self.units}".rstrip()
                 )
 
@@ -255,8 +255,8 @@ def check(dataset: xr.Dataset, required: Sequence[str] = ()) -> xr.Dataset:
     for name in required:
         if name not in dataset:
             raise SchemaError(f"variable {name} is missing")
-    for key, array in dataset.data_vars.items():
-        _check_variable(str(key), array)
+    for key in dataset.data_vars:
+        _check_variable(str(key), dataset.variables[key])
     for key in dataset.coords:
         _look_up(COORDINATES, str(key))
     return dataset
@@ -279,7 +279,7 @@ def _look_up(registry: Registry[Labelled], name: str) -> Labelled:
     return labelled
 
 
-def _check_variable(name: str, array: xr.DataArray) -> None:
+def _check_variable(name: str, array: xr.Variable) -> None:
     variable = _look_up(VARIABLES, name)
     if array.dims != variable.dims:
         raise SchemaError(f"{name}: dims are {array.dims}, must be {variable.dims}")

@@ -13,13 +13,14 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
-from multiprocessing import connection, resource_tracker
+from multiprocessing import connection
 from typing import Any, Final, Generic, TypeAlias, TypeVar
 
 from .errors import SolverError
+from .process_start import start_worker
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -54,8 +55,8 @@ class WorkerProcess:
             self._process = context.Process(
                 target=_serve, args=(far_end, inherited, copied), daemon=True
             )
-            with _interrupts_blocked(), far_end:  # closed here: else its end would go unnoticed
-                self._process.start()
+            with far_end:  # closed here: else its end would go unnoticed
+                start_worker(self._process, is_copy=inherited is not None)
         except OSError as error:
             raise SolverError(f"a worker process cannot start: {error.strerror}") from None
         self.ready = self.begun = False
@@ -149,14 +150,3 @@ def _portable(error: BaseException) -> BaseException:
     except Exception:
         return SolverError(f"{type(error).__name__}: {error}")
     return error
-
-
-@contextmanager
-def _interrupts_blocked() -> Iterator[None]:
-    """Block SIGINT, so that a process that is started here never gets it."""
-    resource_tracker.ensure_running()  # starts with the first process otherwise, and unblocks it
-    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, blocked)

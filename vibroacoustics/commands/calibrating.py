@@ -1,10 +1,14 @@
 """Calibration factors from recordings of a calibrator, as the command line gives them."""
 
+import os
 from collections.abc import Mapping, Sequence
-from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ..base.errors import ParameterError
+from ..base.errors import ParameterError, gathered
 from ..recordings.quantities import find_quantity
+
+if TYPE_CHECKING:
+    from ..recordings import CalibratorReading
 
 UNIT = "Pa"
 
@@ -32,12 +36,15 @@ def with_calibrators(
     """
     from ..recordings import read_calibrator
 
-    factors: dict[str, float] = {}
-    for text in texts:
-        channel, _, file = ("", "", text) if Path(text).exists() else text.rpartition("=")
-        measured_tone = read_calibrator(
+    def channel_and_reading(text: str) -> "tuple[str, CalibratorReading]":
+        channel, _, file = ("", "", text) if os.path.exists(text) else text.rpartition("=")
+        return channel, read_calibrator(
             file, channel=channel or None, level_db=level_db, frequency_hz=frequency_hz
         )
+
+    factors: dict[str, float] = {}
+    readings = gathered(channel_and_reading, texts)
+    for text, (channel, measured_tone) in zip(texts, readings, strict=True):
         name = channel or measured_tone.channel
         if name in factors or name in calibration:
             raise ParameterError(f"--calibrator {text!r}: channel {name!r} is calibrated twice")

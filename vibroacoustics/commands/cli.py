@@ -5,17 +5,17 @@ Heavy imports wait until a command needs them.
 
 import gc
 import sys
-from typing import Annotated, Final
+from typing import Annotated, Final, NoReturn
 
 import typer
 
 from ..base.errors import VibroacousticsError
 from ..base.fault import collected
 from . import (  # noqa: F401 - each registers its commands
-    benchmark_commands,
     design_commands,
     installation_commands,
     messages,
+    outcome,
     prediction_commands,
     recording_commands,
     replay_commands,
@@ -61,18 +61,27 @@ def of_all_commands(
 def main() -> None:
     """Run the command line; input errors are lines on stderr and exit code 2."""
     gc.set_threshold(*COLLECTIONS)
+    outcome.begin()
     try:
         with messages.warnings_in_one_line(), collected() as left_out:
             _run(left_out)
     except VibroacousticsError as error:
-        for line in messages.lines_of(error):
-            print(line, file=sys.stderr)
-        sys.exit(INPUT_ERROR)
+        _refuse(error)
     except MemoryError as error:
-        print(f"error: not enough memory: {error}", file=sys.stderr)
-        sys.exit(INPUT_ERROR)
+        _refuse(VibroacousticsError(f"not enough memory: {error}"))
+    except Exception as error:  # a fault of this package: its traceback follows
+        outcome.write_errors(sys.argv[1:], [f"{type(error).__name__}: {error}"], messages.warned())
+        raise
     finally:
         gc.freeze()  # the interpreter would search all objects before it ends, for a second
+
+
+def _refuse(error: VibroacousticsError) -> NoReturn:
+    """Print the lines of an error, and its envelope where it is asked for."""
+    for line in messages.lines_of(error):
+        print(line, file=sys.stderr)
+    outcome.write_errors(sys.argv[1:], error.args, messages.warned())
+    sys.exit(INPUT_ERROR)
 
 
 def _run(left_out: list[str]) -> None:

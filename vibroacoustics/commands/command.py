@@ -6,7 +6,7 @@ in its place.
 """
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, fields, is_dataclass
 from inspect import Parameter, Signature, signature
@@ -17,10 +17,12 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from ..base.errors import ParameterError
+from ..base.fault import collected
 from ..base.posix import LEAST_TO_COMPUTE_BYTES, check_memory
 from ..base.progress import stage
+from ..base.refusal import Parts, Refusal
 from . import messages, option_words
-from .outcome import Outcome
+from .outcome import Outcome, write_envelope
 from .progress import progress_on_stderr
 
 BROKEN_LIMIT: Final = 1
@@ -58,7 +60,6 @@ class Command:
     job : group of the help, one of `JOBS`
     example : words behind `vibroacoustics` and the name
     function : gives the outcome
-    renamed : new option by old option
     computes : whether it takes time, and has `--verbose` and `--log`
     """
 
@@ -66,7 +67,6 @@ class Command:
     job: str
     example: str
     function: Callable[..., Outcome]
-    renamed: Mapping[str, str]
     computes: bool
 
     def run(self, options: dict[str, Any], speech: Speech, inputs: Mapping[str, Any]) -> None:
@@ -82,7 +82,8 @@ class Command:
         if self.computes:
             check_memory(LEAST_TO_COMPUTE_BYTES)
         with ExitStack() as stack:
-            warnings = stack.enter_context(messages.collected(speech.quiet))
+            stack.enter_context(messages.hushed(speech.quiet))
+            left_out = stack.enter_context(collected())
             if isinstance(speech, LongSpeech):
                 stack.enter_context(messages.logged(speech.log))
                 advance = progress_on_stderr(speech.quiet, speech.verbose)
@@ -96,9 +97,7 @@ class Command:
             for label, path in outcome.files.items():
                 messages.note(f"{label}: {path}")
         if speech.as_json:
-            import json
-
-            typer.echo(json.dumps(outcome.envelope(self.name, inputs, warnings), indent=1))
+            write_envelope(outcome.envelope(self.name, inputs, messages.warned(), left_out))
         elif not speech.quiet:
             for line in outcome.lines():
                 typer.echo(line)
@@ -140,13 +139,12 @@ def command(
     name: str,
     job: str,
     example: str,
-    renamed: Mapping[str, str] | None = None,
     computes: bool = True,
 ) -> Callable[[Callable[..., Outcome]], Callable[..., Outcome]]:
     """Take a function in as a command."""
 
     def registered(function: Callable[..., Outcome]) -> Callable[..., Outcome]:
-        COMMANDS[name] = Command(name, job, example, function, renamed or {}, computes)
+        COMMANDS[name] = Command(name, job, example, function, computes)
         return function
 
     return registered
@@ -177,13 +175,8 @@ class HelpedCommand(TyperCommand):
     """Command whose help has an example and types in capitals, and whose errors are one line."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Read the words; those that were renamed are refused."""
-        renamed = COMMANDS[str(self.name)].renamed
-        for word in args:
-            old = word.partition("=")[0]
-            if old in renamed:
-                raise ParameterError(f"{old} was renamed to {renamed[old]}")
-        with _in_one_line(f"vibroacoustics {self.name} -h"):
+        """Read the words."""
+        with _in_one_line(f"vibroacoustics {self.name} -h", tuple(args)):
             return super().parse_args(ctx, args)
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
@@ -213,6 +206,13 @@ class HelpedCommand(TyperCommand):
 class HelpedGroup(TyperGroup):
     """Group of commands whose help is in order of jobs."""
 
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the words before the command; without any word there is help."""
+        if not args:
+            return super().parse_args(ctx, args)
+        with _in_one_line("vibroacoustics -h"):
+            return super().parse_args(ctx, args)
+
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write the commands of each job."""
         width = max(map(len, self.commands))
@@ -233,8 +233,14 @@ class HelpedGroup(TyperGroup):
 
 
 @contextmanager
-def _in_one_line(help_words: str) -> Iterator[None]:
-    """Turn an error of usage into one line without types of Python."""
+def _in_one_line(help_words: str, arguments: Sequence[str] = ()) -> Iterator[None]:
+    """Turn an error of usage into one line without types of Python.
+
+    Parameters
+    ----------
+    help_words : words that print the help
+    arguments : words of the command line
+    """
     try:
         yield
     except _USAGE_ERROR as error:
@@ -242,7 +248,12 @@ def _in_one_line(help_words: str) -> Iterator[None]:
         words = re.sub(
             r"(?:Input should be|Value '.*' is not) a valid \w+.*", "is no number", words
         )
-        raise ParameterError(f"{words}; see {help_words}") from None
+        option = re.search(r"--?[a-z][\w-]*|(?<=')[A-Z]+(?=\W)", words)
+        field = None if option is None else option[0]
+        is_value = field in arguments[:-1] and words.startswith("Invalid value")
+        value = arguments[arguments.index(str(field)) + 1] if is_value else None
+        parts = Parts(field=field, value=value)
+        raise ParameterError(Refusal(f"{words}; see {help_words}", parts)) from None
 
 
 def _type_words(match: re.Match[str]) -> str:

@@ -155,14 +155,14 @@ def _evaluating(
     from ..design.workers.study_task import evaluate_task, study_plan, study_task
 
     plugin_files = plugins or []
+    counts = len(problem.design.objectives), len(problem.design.constraints)
     with opened_store(store_folder, study_plan(problem.study, plugin_files)) as store:
         if opened is None:
-            yield stored(one_by_one(problem), store)
+            yield stored(one_by_one(problem), store, counts)
             return
-        counts = len(problem.design.objectives), len(problem.design.constraints)
         task = study_task(study_file, problem.study, plugin_files)
         # Local workers have the cache on disk; others get the transfer vectors with their work.
         far = partial(evaluate_task, radiation=problem.radiation)
         builder = far if is_far else evaluate_task
         with opened() as parallel_map:
-            yield stored(spread(parallel_map, builder, task, counts), store)
+            yield stored(spread(parallel_map, builder, task, counts), store, counts)

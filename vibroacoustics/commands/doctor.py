@@ -1,5 +1,6 @@
 """Check of this installation: its parts, and whether it can do the main job. No network."""
 
+import os
 import platform
 from collections.abc import Iterator
 from pathlib import Path
@@ -72,6 +73,9 @@ def _cache() -> str:
 
 def _results(folder: Path) -> Iterator[str]:
     """Whether datasets are whole, and the files beside them are theirs."""
+    if not os.path.isdir(folder):  # which raises nothing, whatever the name
+        yield f"results: {folder}: is no folder"
+        return
     older = outputs.older_files(folder)
     yield from (f"results: {line}" for line in older)
     datasets = sorted(folder.glob("*.nc"))

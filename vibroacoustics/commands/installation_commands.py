@@ -33,7 +33,7 @@ def cache_command(
 
     path = cache.folder()
     removed: list[Entry] = []
-    if limit is not None or (clear and path.exists()):
+    if limit is not None or path.exists():
         with cache.opened() as folder, naming(path):
             if limit is not None:
                 cache.set_limit(folder, round(1e9 * limit))

@@ -9,11 +9,13 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, Final, TextIO
 
-from ..base.errors import StorageError, VibroacousticsError
+from ..base.errors import StorageError, VibroacousticsError, shortened
 from ..base.folder import Folder, opened_folder
 from ..base.visible import visible
 
 _MAXIMUM_BYTES: Final = 1_000_000_000
+_LONGEST_LINE: Final = 600
+"""Length of a message: a path alone may have 4096 characters."""
 
 _LOG: Final[ContextVar[TextIO | None]] = ContextVar("_LOG", default=None)
 _WARNED: Final[ContextVar[list[str] | None]] = ContextVar("_WARNED", default=None)
@@ -66,23 +68,27 @@ def note(line: str) -> None:
 
 def lines_of(error: VibroacousticsError) -> list[str]:
     """An error as it is printed."""
-    return [f"error: {' '.join(line.split())}" for line in visible(str(error)).splitlines()]
+    return [f"error: {_in_one_line(line)}" for line in map(str, error.args)]
+
+
+def _in_one_line(line: str) -> str:
+    return visible(shortened(" ".join(line.split()), _LONGEST_LINE))
 
 
 def warn(lines: Iterable[str]) -> None:
     """Print each as a warning."""
     for line in lines:
-        words = visible(" ".join(line.split()))
-        warned = _WARNED.get()
-        if warned is not None:
-            warned.append(words)
+        words = _in_one_line(line)
+        collecting = _WARNED.get()
+        if collecting is not None:
+            collecting.append(words)
         note(f"warning: {words}")
         print(f"warning: {words}", file=sys.stderr, flush=True)
 
 
-def has_warned() -> bool:
-    """Whether this command has printed a warning."""
-    return bool(_WARNED.get())
+def warned() -> list[str]:
+    """Warnings that this command has printed."""
+    return list(_WARNED.get() or ())
 
 
 def inform(line: str) -> None:
@@ -93,21 +99,20 @@ def inform(line: str) -> None:
 
 
 @contextmanager
-def collected(quiet: bool) -> Iterator[list[str]]:
-    """Collect the warnings of a command; quiet, it prints nothing else on stderr."""
-    warned: list[str] = []
-    tokens = _WARNED.set(warned), _QUIET.set(quiet)
+def hushed(quiet: bool) -> Iterator[None]:
+    """Let a command that is quiet print nothing else than warnings and errors on stderr."""
+    token = _QUIET.set(quiet)
     try:
-        yield warned
+        yield
     finally:
-        _WARNED.reset(tokens[0])
-        _QUIET.reset(tokens[1])
+        _QUIET.reset(token)
 
 
 @contextmanager
 def warnings_in_one_line() -> Iterator[None]:
-    """Print each of Python's warnings as one line; one that says the same comes once."""
+    """Print and collect Python's warnings as single lines; one that says the same comes once."""
     said: set[str] = set()
+    _WARNED.set([])
 
     def show(message: Warning | str, *_: Any, **__: Any) -> None:
         if str(message) not in said:

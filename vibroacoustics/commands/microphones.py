@@ -3,36 +3,46 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
+from ..base.allowed import check_range
 from ..base.column_file import read_columns
-from ..base.errors import ParameterError
-from ..levels.measured_power import reverberant_absorption_area_m2
-from ..measured.measurement_surface import MeasurementSurface
+from ..base.errors import ParameterError, gathered
 from .reading import Reading
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ..measured.measurement_surface import MeasurementSurface
 
 Absorption = float | dict[float, float] | None
 
 
 def read_files(
-    files: Sequence[Path], all_files: Sequence[Path], reading: Reading, plugins: list[Path] | None
-) -> list[xr.Dataset]:
+    files: Sequence[Path], reading: Reading, plugins: list[Path] | None
+) -> "list[xr.Dataset]":
     """Recordings, each with the assignments that are its own.
 
     `CHANNEL=…` holds in every file, `FILE:CHANNEL=…` in that file alone, named without its ending.
+
+    Raises
+    ------
+    ParameterError, StorageError
+        A line for every file that cannot be read: without a position the surface is another one.
     """
-    stems = [file.stem for file in all_files]
-    return [
-        replace(
+    stems = [file.stem for file in files]
+
+    def read(file: Path) -> xr.Dataset:
+        return replace(
             reading,
             unit=_of_file(reading.unit, file.stem, stems),
             calibration=_of_file(reading.calibration, file.stem, stems),
             calibrator=_of_file(reading.calibrator, file.stem, stems),
         ).at_once(file, plugins)
-        for file in files
-    ]
+
+    return gathered(read, files)
 
 
 def _of_file(texts: list[str] | None, stem: str, stems: Sequence[str]) -> list[str] | None:
@@ -48,7 +58,7 @@ def _of_file(texts: list[str] | None, stem: str, stems: Sequence[str]) -> list[s
 
 def surface_of(
     hemisphere: float | None, box: tuple[float, float, float, float] | None
-) -> MeasurementSurface:
+) -> "MeasurementSurface":
     """The surface that one of two options gives.
 
     Raises
@@ -56,6 +66,8 @@ def surface_of(
     ParameterError
         None or both are given, or a size is out of range.
     """
+    from ..measured.measurement_surface import MeasurementSurface
+
     if (hemisphere is None) == (box is None):
         raise ParameterError(
             "surface: give one of --hemisphere RADIUS and --box LENGTH WIDTH HEIGHT DISTANCE, m"
@@ -89,14 +101,11 @@ def absorption_of(
         return _number_or_file(area, "--absorption-area", "absorption_area_m2", float)
     if reverberation is None or volume_m3 is None:
         return None
-    if not 1.0 <= volume_m3 <= 1e6:
-        raise ParameterError(f"--volume = {volume_m3:g} m³: must be from 1 to 1e+06 m³")
+    check_range("--volume", volume_m3, 1.0, 1e6, "m³")
+    from ..levels.measured_power import reverberant_absorption_area_m2
 
     def area_m2(seconds: float) -> float:
-        if not 0.01 <= seconds <= 100.0:
-            raise ParameterError(
-                f"--reverberation-time = {seconds:g} s: must be from 0.01 to 100 s"
-            )
+        check_range("--reverberation-time", seconds, 0.01, 100.0, "s")
         return float(reverberant_absorption_area_m2(volume_m3, np.asarray(seconds)))
 
     return _number_or_file(reverberation, "--reverberation-time", "reverberation_time_s", area_m2)

@@ -1,15 +1,17 @@
 """Options that several commands share."""
 
+from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 if TYPE_CHECKING:
     from ..study.study import Study
     from .outputs import Target
     from .printing import Printer
 
+Result = TypeVar("Result")
 StudyFile = Annotated[Path, "STUDY: Study file, .toml."]
 ResultsFile = Annotated[Path, "RESULTS: Results of a run, results.nc."]
 Recording = Annotated[Path, "RECORDING: File of the recording."]
@@ -81,14 +83,14 @@ def used_cache(unused: bool) -> AbstractContextManager[None]:
     return storage.without_cache() if unused else nullcontext()
 
 
-def resumable(job: str, study: "Study", unused: bool) -> AbstractContextManager[None]:
-    """Return the store of a run, from which one resumes that was interrupted; none if unused."""
+def resumed(job: str, study: "Study", unused: bool, work: Callable[[], Result]) -> Result:
+    """Do work that continues an interrupted run of the same inputs, unless its store is unused."""
     from ..results import run_pieces
     from . import messages
 
     if unused:
-        return nullcontext()
-    return run_pieces.resumable(job, study.parameters(), messages.inform)
+        return work()
+    return run_pieces.resumed(job, study.parameters(), messages.inform, work)
 
 
 def load_plugins(plugins: list[Path] | None) -> None:

@@ -2,11 +2,17 @@
 
 import csv
 import io
-from collections.abc import Iterator, Mapping, Sequence
+import json
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
+
+from ..base.refusal import parts_of
+from ..base.visible import visible
 
 if TYPE_CHECKING:
     from ..report.analysis import Analysis
@@ -18,6 +24,7 @@ _MAXIMUM_BYTES: Final = 500_000_000
 _CELL: Final = {"type": ["number", "string", "boolean", "null"]}
 _TEXT: Final = {"type": "string"}
 _LEVEL: Final = {"type": ["number", "null"]}
+_WORDS: Final = {"type": ["string", "null"]}
 
 
 def _object(required: Mapping[str, Any], optional: Mapping[str, Any] | None = None) -> Any:
@@ -59,9 +66,22 @@ SCHEMA: Final[dict[str, Any]] = {
         "charts": {"type": "array", "items": {"type": "object"}},
         "files": {"type": "object", "additionalProperties": _TEXT},
         "warnings": {"type": "array", "items": _TEXT},
+        "errors": {
+            "type": "array",
+            "items": _object({
+                "file": _WORDS,
+                "field": _WORDS,
+                "value": _CELL,
+                "unit": _WORDS,
+                "allowed": _WORDS,
+                "message": _TEXT,
+            }),
+        },
     }),
 }  # fmt: skip
 """JSON schema of the envelope."""
+_ANSWERED: Final = ContextVar("_ANSWERED", default=False)
+"""Whether this command has written its envelope."""
 
 
 @dataclass(frozen=True)
@@ -92,10 +112,15 @@ class Outcome:
         yield from (f"broken: {line}" for line in self.broken)
         yield from (f"{label}: {path}" for label, path in self.files.items())
 
-    def envelope(self, name: str, inputs: Mapping[str, Any], warnings: Sequence[str]) -> Any:
+    def envelope(
+        self,
+        name: str,
+        inputs: Mapping[str, Any],
+        warnings: Sequence[str],
+        errors: Iterable[str] = (),
+    ) -> Any:
         """Return the outcome of a command as plain JSON values; see `SCHEMA`."""
-        from ..base.regular_file import read_text
-        from ..results.provenance import software_version
+        from importlib.metadata import version
 
         files = _with_further(self.files)
         parts = {prefix: each.json() for prefix, each in self.analyses.items()}
@@ -107,17 +132,52 @@ class Outcome:
         for key, path in files.items():
             table = key.removesuffix(".csv")
             if table not in {key, *tables}:
+                from ..base.regular_file import read_text
+
                 tables[table] = _columns(read_text(path, _MAXIMUM_BYTES))
         return _plain({
             "command": name,
-            "version": software_version(),
+            "version": version("vibroacoustics"),
             "inputs": inputs,
             "tables": {**tables, **self.tables},
             "numbers": [number for each in parts.values() for number in each["numbers"]],
             "charts": [chart for each in parts.values() for chart in each["charts"]],
             "files": files,
             "warnings": warnings,
+            "errors": [_error(line) for line in errors],
         })  # fmt: skip
+
+
+def begin() -> None:
+    """Begin a command, which has written no envelope."""
+    _ANSWERED.set(False)
+
+
+def write_envelope(envelope: Any) -> None:
+    """Write the envelope of a command on stdout."""
+    _ANSWERED.set(True)
+    sys.stdout.write(json.dumps(envelope, indent=1) + "\n")
+    sys.stdout.flush()
+
+
+def write_errors(words: Sequence[str], errors: Iterable[str], warnings: Sequence[str] = ()) -> None:
+    """Write the envelope of a command that fails, if it is asked for and not written yet.
+
+    Parameters
+    ----------
+    words : words of the command line
+    errors : a line of each error
+    warnings : warnings of the command
+    """
+    options = words[: words.index("--")] if "--" in words else words
+    if "--json" in options and not _ANSWERED.get():
+        name = next((word for word in words if not word.startswith("-")), "")
+        write_envelope(Outcome().envelope(name, {}, warnings, errors))
+
+
+def _error(line: str) -> dict[str, Any]:
+    """Return an error as plain JSON values."""
+    return {**parts_of(line)._asdict(), "message": " ".join(visible(line).split())}
 
 
 def columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, list[Any]]:
@@ -128,10 +188,10 @@ def columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, list[Any]]:
 
 def _with_further(files: Mapping[str, Path]) -> dict[str, Path]:
     """Files by label, then those that belong to them and CSV files, by name below the label."""
-    from ..results import manifest
-
     further: dict[str, Path] = {}
     for label, path in files.items():
+        from ..results import manifest
+
         prefix = label.rpartition("/")[0]
         for name in manifest.together(path.parent, path.name) | {path.name}:
             written = path.parent / name

@@ -3,8 +3,9 @@
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import xarray as xr
 
@@ -12,11 +13,11 @@ from .. import report
 from ..base.errors import ParameterError, SchemaError, StorageError
 from ..base.folder import Content, Folder, opened_folder
 from ..report.analysis import Analysis
+from ..report.blocks import Bullets, Part
 from ..results import manifest, storage
 from ..results.complete import check_run
 from ..results.files import LOCK_NAME, STAGING_NAME, write, write_together
 from ..results.files import naming as writing
-from ..results.provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
 from ..results.run_variables import check_known
 from .outcome import Outcome
 from .printing import Printer
@@ -63,6 +64,9 @@ REPORT_FILES: Final = (
     "figures/*.svg",
 )
 """Files of a report."""
+_LONGEST_NAME: Final = 255
+_LONGEST_PATH: Final = 3500
+"""Bytes of a folder's path: Linux takes 4096 with a file's name."""
 RUN_FILES: Final = (manifest.MANIFEST_NAME, RESULTS_NAME, *REPORT_FILES)
 
 
@@ -109,15 +113,7 @@ def open_orders(path: str | Path) -> xr.Dataset:
 
 def _open_of_this_version(path: str | Path) -> tuple[xr.Dataset, str]:
     results, digest = storage.open_with_hash(path)
-    version = results.attrs.get("schema_version")
-    recorded = "channel_order" in results
-    allowed = RECORDING_SCHEMA_VERSION if recorded else SCHEMA_VERSION
-    if version != allowed:
-        again = "orders RECORDING" if recorded else "run STUDY.toml"
-        raise StorageError(
-            f"{path}: schema_version = {version}: is no result of this version, {allowed}; make it "
-            f"again: vibroacoustics {again}"
-        )
+    storage.check_version(results, path)
     try:
         check_known(results)
     except SchemaError as error:
@@ -133,12 +129,16 @@ def check_folder(folder: str | Path, files: Iterable[str] = ()) -> None:
     ------
     StorageError
         It lies under a file or in a folder without write permission, a name of a file is that of a
-        link, pipe, socket or device, or the folder's name is no UTF-8, which netCDF cannot write.
+        link, pipe, socket or device, or the folder's name is too long or no UTF-8, which netCDF
+        cannot write.
     """
     try:
         str(folder).encode()
     except UnicodeEncodeError:
         raise StorageError(f"{str(folder)!a}: cannot be written: the name is no UTF-8") from None
+    longest = max((len(os.fsencode(part)) for part in Path(folder).parts), default=0)
+    if longest > _LONGEST_NAME or len(os.fsencode(Path(folder).absolute())) > _LONGEST_PATH:
+        raise StorageError(f"{folder}: cannot be written: the name is too long")
     existing = Path(folder).absolute()
     while not os.path.lexists(existing):
         existing = existing.parent
@@ -289,8 +289,18 @@ class Target(NamedTuple):
         broken: Sequence[str] = (),
     ) -> Outcome:
         """Write an analysis with its dataset; the outcome names the files and broken limits."""
+        analysis = _with_remarks(analysis, {} if dataset is None else dataset.attrs)
         files = write_analysis(analysis, dataset, self.folder, dataset_name, self.printer)
         return Outcome(files=files, analyses={"": analysis}, broken=broken)
+
+
+def _with_remarks(analysis: Analysis, attributes: Mapping[str, Any]) -> Analysis:
+    """Analysis with the warnings that the reading of its recording gave, where there are some."""
+    remarks = str(attributes.get("reading_remarks", ""))
+    if not remarks:
+        return analysis
+    part = Part("warnings", "Warnings", (Bullets(tuple(remarks.split("; "))),))
+    return replace(analysis, parts=(*analysis.parts, part))
 
 
 def written_files(

@@ -2,14 +2,15 @@
 
 import os
 import shutil
-import subprocess
 from collections.abc import Mapping
 from pathlib import Path
+from subprocess import TimeoutExpired
 from tempfile import TemporaryDirectory
 from typing import Final, NamedTuple
 
 from ..base.errors import ParameterError, StorageError
 from ..base.folder import Content
+from ..base.process_start import run_program
 
 BROWSERS: Final = (
     "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome",
@@ -69,14 +70,9 @@ class Printer(NamedTuple):
             source.as_uri(),
         ]
         try:
-            done = subprocess.run(  # noqa: S603 - a browser by its name, and files of ours
-                command,
-                capture_output=True,
-                timeout=_LONGEST_S,
-                stdin=subprocess.DEVNULL,
-                check=False,  # browsers give 0 whatever happens; the file shows it
-            )
-        except subprocess.TimeoutExpired:
+            # Its exit code is 0 whatever happens; the file shows it.
+            done = run_program(command, source.parent, _LONGEST_S)
+        except TimeoutExpired:
             return f" within {_LONGEST_S:g} s"
         except OSError as error:
             return f": {error.strerror}"

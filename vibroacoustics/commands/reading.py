@@ -80,6 +80,10 @@ class Reading:
 
         return Campaign() if self.settings is None else load_campaign(self.settings)
 
+    def stated_analysis(self) -> dict[str, Any]:
+        """Return what the settings state of the analysis; without a file nothing."""
+        return {} if self.settings is None else self.campaign.analysis.stated()
+
     def source(
         self, speed: "SpeedOptions", file: Path, plugins: list[Path] | None
     ) -> "SpeedSource":
@@ -94,7 +98,7 @@ class Reading:
         from ..recordings import open_recording
         from ..recordings.recorded import MissingError
 
-        if speed == SpeedOptions():
+        if speed == SpeedOptions() and self.settings is not None:
             of_settings = self.campaign.speed_of(file)
             if of_settings is not None:
                 return of_settings
@@ -148,7 +152,7 @@ class Reading:
         """
         from ..measured.campaign_settings import CampaignRun
 
-        analysis = orders.analysis(self.source(speed, file, plugins), self.campaign)
+        analysis = orders.analysis(self.source(speed, file, plugins), self.stated_analysis())
         return CampaignRun(file, *self.campaign.labels_of(file), self.arguments(file), analysis)
 
     def arguments(self, file: Path) -> dict[str, Any]:
@@ -170,7 +174,7 @@ class Reading:
             units, calibration = with_calibrators(
                 self.calibrator, level, frequency, units, calibration
             )
-        common = self.campaign.reading_of(file)
+        common = {} if self.settings is None else self.campaign.reading_of(file)
         by_channel: dict[str, dict[str, Any]] = {
             "units": units,
             "calibration": calibration,
@@ -184,7 +188,7 @@ class Reading:
         }
         read = chosen["channels"]
         for name, values in by_channel.items():
-            of_settings = common[name].items()
+            of_settings = common.get(name, {}).items()
             common[name] = {
                 key: each for key, each in of_settings if not read or key in (*read, "*")
             }
@@ -215,8 +219,8 @@ class OrderOptions:
         str | None, "Third octaves: sums of lines (default), or filters of IEC 61260-1."
     ] = None
 
-    def analysis(self, source: "SpeedSource", campaign: "Campaign") -> "OrderAnalysis":
-        """Return the settings of the analysis.
+    def analysis(self, source: "SpeedSource", settings: dict[str, Any]) -> "OrderAnalysis":
+        """Return the settings of the analysis; options override what a file states.
 
         Raises
         ------
@@ -238,7 +242,7 @@ class OrderOptions:
             "is_fit": self.fit or None,
         }
         stated = {name: each for name, each in values.items() if each is not None}
-        return OrderAnalysis(source, **campaign.analysis.stated() | stated, with_map=self.with_map)
+        return OrderAnalysis(source, **settings | stated, with_map=self.with_map)
 
 
 @dataclass(frozen=True)

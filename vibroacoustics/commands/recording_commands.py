@@ -1,12 +1,12 @@
 """Commands for recordings: orders, track, map, tones, export, sound-power.
 
-Heavy imports wait until a command needs them.
+Heavy imports wait until a command needs them, and until a file is read that may be refused.
 """
 
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated
 
 from ..base.progress import Progress
 from .command import command
@@ -23,11 +23,10 @@ from .reading import (
     SpeedOptions,
 )
 
-RENAMED: Final = {"--speed": "--speed-channel"}
 Orders = Annotated[str, "Shaft orders, with commas."]
 
 
-@command("orders", "Recordings", "machine.wav --speed-channel tacho --orders 1,2", RENAMED)
+@command("orders", "Recordings", "machine.wav --speed-channel tacho --orders 1,2")
 def orders_command(
     progress: Progress,
     files: Annotated[list[Path], "RECORDING: File of the recording, or several to be averaged."],
@@ -44,29 +43,36 @@ def orders_command(
     printing: Printing,
 ) -> Outcome:
     """Find the orders of a recording, or mean and scatter of many: page, netCDF, CSV, figures."""
-    from .. import report
     from ..base.errors import ParameterError
-    from ..measured.campaign import analyse_campaign
-    from ..measured.recorded_orders import analyse_orders
-    from ..measured.run_up_sound import check_listen, listened
-    from ..orders.recorded_speed import recorded_speed
-    from ..results import provenance
     from ..results.limits_file import read_limits
-    from ..results.order_limits import with_limits
 
     name = reading.settings if len(files) > 1 and reading.settings is not None else files[0]
-    target = printing.target(out or Path("reports") / name.stem)
+    folder = out or Path("reports") / name.stem
     allowed = read_limits(limits) if limits else ()
     if len(files) > 1:
+        from .. import report
+        from ..measured.campaign import analyse_campaign
+        from ..results.order_limits import with_limits
+
         if listen is not None or orders.with_map:
             raise ParameterError("--listen, --map: need one recording: give one file")
+        target = printing.target(folder)
         load_plugins(plugin)
         run_of = partial(reading.run, speed, replace(orders, with_map=False), plugin)
         results = with_limits(analyse_campaign(files, run_of, progress), allowed)
         analysis, dataset_name = report.analysis_of_campaign(results), "campaign.nc"
     else:
-        settings = orders.analysis(reading.source(speed, files[0], plugin), reading.campaign)
+        source = reading.source(speed, files[0], plugin)
+        settings = orders.analysis(source, reading.stated_analysis())
         recording = reading.in_blocks(files[0], plugin)
+        from .. import report
+        from ..measured.recorded_orders import analyse_orders
+        from ..measured.run_up_sound import check_listen, listened
+        from ..orders.recorded_speed import recorded_speed
+        from ..results import provenance
+        from ..results.order_limits import with_limits
+
+        target = printing.target(folder)
         check_listen(recording, settings, listen)
         with provenance.naming(recording.attributes):
             shaft = recorded_speed(recording, settings.speed)
@@ -77,7 +83,7 @@ def orders_command(
     return target.outcome(analysis, results, dataset_name, broken)
 
 
-@command("track", "Recordings", "run_up.csv --speed-channel tacho --bandwidth 3", RENAMED)
+@command("track", "Recordings", "run_up.csv --speed-channel tacho --bandwidth 3")
 def track_command(
     recording_file: Recording,
     *,
@@ -91,19 +97,20 @@ def track_command(
     printing: Printing,
 ) -> Outcome:
     """Track orders over the time of a recording (Vold-Kalman): netCDF, figures and a table."""
-    from .. import report
-    from ..measured.recorded_orders import track_orders
     from .arguments import order_numbers
 
     source = reading.source(speed, recording_file, plugin)
     numbers = order_numbers(orders)
-    target = printing.target(out or Path("reports") / recording_file.stem)
     recording = reading.at_once(recording_file, plugin)
+    from .. import report
+    from ..measured.recorded_orders import track_orders
+
+    target = printing.target(out or Path("reports") / recording_file.stem)
     tracked = track_orders(recording, source, numbers, bandwidth, poles)
     return target.outcome(report.analysis_of_tracks(tracked), tracked, "tracked_orders.nc")
 
 
-@command("map", "Recordings", "run_up.csv --speed-channel tacho --resolution 4", RENAMED)
+@command("map", "Recordings", "run_up.csv --speed-channel tacho --resolution 4")
 def map_command(
     recording_file: Recording,
     *,
@@ -116,12 +123,12 @@ def map_command(
     printing: Printing,
 ) -> Outcome:
     """Draw a recording over speed and frequency, its level over the speed: page, figures."""
+    source = reading.source(speed, recording_file, plugin)
+    recording = reading.at_once(recording_file, plugin)
     from .. import report
     from ..measured.recorded_orders import speed_frequency_map
 
-    source = reading.source(speed, recording_file, plugin)
     target = printing.target(out or Path("reports") / recording_file.stem)
-    recording = reading.at_once(recording_file, plugin)
     mapped = speed_frequency_map(recording, source, resolution, maximum_frequency)
     return target.outcome(report.analysis_of_map(mapped), mapped, "speed_map.nc")
 
@@ -136,12 +143,12 @@ def tones_command(
     printing: Printing,
 ) -> Outcome:
     """Find the tones of a steady recording, prominent or not, with loudness and sharpness."""
+    recording = reading.at_once(recording_file, plugin)
     from ..measured.recorded_tones import recorded_tones
     from . import outputs
     from .tone_tables import analysis_of_tones
 
     target = printing.target(out or Path("reports") / recording_file.stem)
-    recording = reading.at_once(recording_file, plugin)
     with outputs.naming(recording_file):
         tones = recorded_tones(recording)
     return target.outcome(analysis_of_tones(tones), tones, "tones.nc")
@@ -156,10 +163,10 @@ def export_command(
     plugin: Plugins = None,
 ) -> Outcome:
     """Write a recording as CSV, WAV or netCDF in SI units."""
+    recording = reading.at_once(recording_file, plugin)
     from . import exporting, outputs
 
     outputs.check_folder(out.parent)
-    recording = reading.at_once(recording_file, plugin)
     return Outcome(files={"recording": exporting.export_recording(recording, out)})
 
 
@@ -201,14 +208,9 @@ def sound_power_command(
     printing: Printing,
 ) -> Outcome:
     """Measure the sound power of a machine with the microphones around it, K1 and K2 (ISO 3744)."""
-    from .. import report
-    from ..measured.sound_power import sound_power
     from . import microphones
 
     quiet = background or []
-    surface = microphones.surface_of(hemisphere, box)
-    absorption = microphones.absorption_of(absorption_area, reverberation_time, volume)
-    target = printing.target(out or Path("reports") / files[0].stem)
     reading = Reading(
         unit,
         calibration,
@@ -218,7 +220,13 @@ def sound_power_command(
         calibrator_frequency=calibrator_frequency,
         settings=settings,
     )
-    arguments = ([*files, *quiet], reading, plugin)
-    running, still = (microphones.read_files(each, *arguments) for each in (files, quiet))
+    recordings = microphones.read_files([*files, *quiet], reading, plugin)
+    running, still = recordings[: len(files)], recordings[len(files) :]
+    from .. import report
+    from ..measured.sound_power import sound_power
+
+    surface = microphones.surface_of(hemisphere, box)
+    absorption = microphones.absorption_of(absorption_area, reverberation_time, volume)
+    target = printing.target(out or Path("reports") / files[0].stem)
     measured = sound_power(running, surface, still, absorption)
     return target.outcome(report.analysis_of_sound_power(measured), measured, "sound_power.nc")

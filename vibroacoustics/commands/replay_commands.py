@@ -43,14 +43,16 @@ def replay_command(
     printing: Printing,
 ) -> Outcome:
     """Play an option of a study in a recording: sounds before and after, levels, page."""
-    from ..measured.replay import replay
-    from . import arguments, outputs
-    from .replaying import analysis_with_sounds
+    from . import arguments
 
     source, pairs = speed.source(), arguments.assignments("--pair", pair)
+    recording = reading.at_once(recording_file, plugin)
+    from ..measured.replay import replay
+    from . import outputs
+    from .replaying import analysis_with_sounds
+
     target = printing.target(out or Path("reports") / recording_file.stem)
     results, _ = outputs.open_run(results_file)
-    recording = reading.at_once(recording_file, plugin)
     replayed = replay(
         recording, results, option, pairs, source, bandwidth, orders_only, shaft_ratio, progress
     )

@@ -80,11 +80,11 @@ def compare_command(
 
 def _second(files: list[Path], specimens: str | None) -> "xr.Dataset":
     """The only other result, or the mean of several recordings."""
-    from ..base.errors import ParameterError
+    from ..base.errors import ParameterError, gathered
     from ..results.mean_of_runs import mean_of_runs
     from . import outputs
 
-    results = [outputs.open_orders(file) for file in files]
+    results = gathered(outputs.open_orders, files)
     if len(files) == 1 and specimens is None:
         return results[0]
     names = [name.strip() for name in specimens.split(",")] if specimens else []
@@ -98,7 +98,6 @@ def _second(files: list[Path], specimens: str | None) -> "xr.Dataset":
     "datasheet",
     "Results",
     "reports/mine/results.nc --option lanchester --speed 2900",
-    {"--microphones": "--microphone, once for each microphone"},
 )
 def datasheet_command(
     results_file: ResultsFile,
@@ -179,7 +178,6 @@ def listen_command(
     "impulse-responses",
     "Results",
     "kitchen.toml --microphone table",
-    {"--listener": "--microphone"},
 )
 def impulse_responses_command(
     progress: Progress,

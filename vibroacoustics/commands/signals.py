@@ -13,6 +13,7 @@ from typing import Final
 
 from ..base.posix import ENDING
 from ..results.interruption import clear_up
+from .outcome import write_errors
 
 _AGAIN_S: Final = 2.0
 """A library may swallow the exception, or wait for its threads: then it is raised once more."""
@@ -44,7 +45,9 @@ def ended_by_signals() -> Iterator[None]:
         if not came:
             raise
         clear_up()
-        print(f"ended by {signal.Signals(came[0]).name}", file=sys.stderr, flush=True)
+        line = f"ended by {signal.Signals(came[0]).name}"
+        print(line, file=sys.stderr, flush=True)
+        write_errors(sys.argv[1:], [line])
         os._exit(128 + came[0])  # worker threads are not waited for
 
 

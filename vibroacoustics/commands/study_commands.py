@@ -1,15 +1,16 @@
 """Commands for studies: curves, run, check, radiation, new. Heavy imports wait until they run."""
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..base.errors import ParameterError
-from ..base.fault import collected
+from ..base.errors import ParameterError, VibroacousticsError, gathered
+from ..base.fault import collected, omit
 from ..base.progress import Progress, stage
 from . import messages
 from .command import command
@@ -21,13 +22,15 @@ from .options import (
     StudyFile,
     StudyOut,
     load_plugins,
-    resumable,
+    resumed,
     used_cache,
 )
 from .outcome import Outcome, columns
 from .workers import Cluster
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from ..study.study import Study
     from .printing import Printer
 
@@ -83,17 +86,28 @@ def run_command(
     load_plugins(plugin)
     prints = printing.printer()
     studies = _studies(study_files, out, coarse, without or ())
-    outcomes = {}
+    outcomes: dict[str, Outcome] = {}
+    failed: dict[str, str] = {}
     with used_cache(no_cache):
         for number, (study, folder) in enumerate(studies):
             if len(studies) > 1:
                 progress("all studies", number, len(studies))
-            elsewhere = cluster.distributing(plugin)
-            with resumable("run", study, no_cache or bool(plugin)):
-                outcomes[folder.name] = _run(study, folder, progress, prints, elsewhere)
+            elsewhere = partial(cluster.distributing, plugin)
+            work = partial(_run, study, folder, progress, prints, elsewhere)
+            try:
+                outcomes[folder.name] = resumed("run", study, no_cache or bool(plugin), work)
+            except (VibroacousticsError, MemoryError) as error:
+                if len(studies) == 1:
+                    raise
+                words = "not enough memory: " if isinstance(error, MemoryError) else ""
+                failed[str(study_files[number])] = words + "; ".join(map(str, error.args))
         if len(studies) > 1:
             progress("all studies", len(studies), len(studies))
-    return summary(outcomes)
+    if not outcomes:
+        raise ParameterError(*(f"{name}: {reason}" for name, reason in failed.items()))
+    for name, reason in failed.items():
+        omit(name, reason)
+    return summary(outcomes, len(studies) > 1, failed)
 
 
 def _studies(
@@ -104,18 +118,20 @@ def _studies(
     from ..study.loading import load_study
     from . import outputs
 
-    studies: list[tuple[Study, Path]] = []
+    folders: dict[Path, Path] = {}
     for file in files:
         inner = out / file.stem if out and len(files) > 1 else out
         folder = inner or Path("reports") / file.stem
-        if folder in [other for _, other in studies]:
+        if folder in folders:
             raise ParameterError(f"{file}: two studies would write to {folder}; run one by one")
-        study = load_study(file, without)
+        folders[folder] = file
+    studies: list[tuple[Study, Path]] = []
+    loaded = gathered(partial(load_study, without=without), files)
+    for read, (folder, file) in zip(loaded, folders.items(), strict=True):
         outputs.check_folder(folder, outputs.RUN_FILES)
-        if coarse:
-            study = coarser(study)
-            if not study.coarsened:
-                messages.warn([f"{file}: has nothing to coarsen; it runs in full"])
+        study = coarser(read) if coarse else read
+        if coarse and not study.coarsened:
+            messages.warn([f"{file}: has nothing to coarsen; it runs in full"])
         studies.append((study, folder))
     return studies
 
@@ -125,7 +141,7 @@ def _run(
     folder: Path,
     progress: Progress,
     prints: "Printer | None",
-    elsewhere: AbstractContextManager[None],
+    elsewhere: Callable[[], AbstractContextManager[None]],
 ) -> Outcome:
     """Run one study, parts of it by the workers of a scheduler, and write its files."""
     from .. import pipeline
@@ -137,9 +153,9 @@ def _run(
     if study.machines:
         from .several_machines import run_and_write
 
-        with elsewhere:
+        with elsewhere():
             return run_and_write(study, folder, progress, prints)
-    with elsewhere:
+    with elsewhere():
         results = pipeline.run(study, progress)
     with stage(progress, "report"):
         analysis, files = outputs.write_study(results, folder, prints)
@@ -181,7 +197,7 @@ def check_command(
             raise ParameterError(f"{file}: is a machine; --example needs a study that reads it")
         else:
             lines, tables = list(machine_lines(checked)), {}
-    warned = left_out or messages.has_warned()
+    warned = left_out or messages.warned()
     what = "nothing else is wrong" if warned else "nothing is wrong"
     lines.append(f"{file}: {what}")
     if example and isinstance(checked, Study):
@@ -223,12 +239,13 @@ def radiation_command(
     load_plugins(plugin)
     study = load_study(study_file)
     target = printing.target(out or Path("reports") / study_file.stem)
-    with (
-        used_cache(no_cache),
-        resumable("radiation", study, no_cache or bool(plugin)),
-        cluster.distributing(plugin),
-    ):
-        radiated = pipeline.radiate(study, progress)
+
+    def radiated_here() -> "xr.Dataset":
+        with cluster.distributing(plugin):
+            return pipeline.radiate(study, progress)
+
+    with used_cache(no_cache):
+        radiated = resumed("radiation", study, no_cache or bool(plugin), radiated_here)
     return target.outcome(report.analysis_of_radiation(radiated), radiated, "transfer_vectors.nc")
 
 

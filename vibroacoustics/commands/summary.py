@@ -41,15 +41,26 @@ def outcome(
     )
 
 
-def summary(outcomes: Mapping[str, Outcome]) -> Outcome:
-    """Join the outcomes of studies; files and their tables of several begin with the folder."""
-    if len(outcomes) == 1:
+def summary(
+    outcomes: Mapping[str, Outcome], is_several: bool, omitted: Mapping[str, str]
+) -> Outcome:
+    """Join the outcomes of studies; files and their tables of several begin with the folder.
+
+    Parameters
+    ----------
+    outcomes : outcome by name of the folder
+    is_several : whether several studies were to run
+    omitted : reason by name of each study that failed
+    """
+    if not is_several:
         return next(iter(outcomes.values()))
     tables: dict[str, dict[str, list[object]]] = {"studies": {}, "microphones": {}}
     for each in outcomes.values():
         for name, table in tables.items():
-            for head, values in each.tables[name].items():
+            for head, values in each.tables.get(name, {}).items():
                 table.setdefault(head, []).extend(values)
+    if omitted:
+        tables["omitted"] = {"study": [*omitted], "reason": [*omitted.values()]}
     files = {
         f"{name}/{label}": path
         for name, each in outcomes.items()

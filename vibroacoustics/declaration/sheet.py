@@ -79,8 +79,8 @@ def data_sheet(
         tones=prominent_tones(results, option, speed, chosen),
         any_tone_probability=float(case["any_tone_probability"].max()),
         tones_not_judged=not_judged(results, option, speed, chosen),
-        audibility_db=_largest(case, "decisive_audibility"),
-        tonal_adjustment_db=_largest(case, "tonal_adjustment"),
+        audibility_db=float(case["decisive_audibility"].max()),
+        tonal_adjustment_db=float(case["tonal_adjustment"].max()),
         windows=rated_windows(case),
         vibration=vibration(case, offsets_m(results, points_m or {})),
         vibration_words=WORDS,
@@ -90,11 +90,6 @@ def data_sheet(
         software_version=results.attrs["software_version"],
         parameters_sha256=sha256(results.attrs["parameters"].encode()),
     )
-
-
-def _largest(case: xr.Dataset, name: str) -> float | None:
-    """Return the largest value at a microphone; none in results of an earlier version."""
-    return float(case[name].max()) if name in case else None
 
 
 def _check_deviation(batch_deviation_db: float | None) -> None:

@@ -34,12 +34,12 @@ class BandMeter:
     ) -> None:
         self._samples, self._rate_hz, self._bands = samples, sample_rate_hz, bands
         self._offset = offset
-        self._length = max(round(TRANSFORM_S * sample_rate_hz), _RAMP_SHARE)
+        self._length = max(min(round(TRANSFORM_S * sample_rate_hz), samples), _RAMP_SHARE)
         ramp = self._length // _RAMP_SHARE
         self._rise = np.sin(0.5 * np.pi * (np.arange(ramp) + 0.5) / ramp)
         self._rest = samples  # of the channel that are still to come
         self._is_first = True
-        self._buffer = np.empty(min(self._length, samples))  # of the transform that comes next
+        self._buffer = np.empty(self._length)  # of the transform that comes next
         self._filled = 0
         self._energy = np.zeros(len(bands))
 

@@ -24,6 +24,8 @@ RUN_IN_S: Final = 0.1
 exp(-2π 20.6 Hz t), has then fallen to 2e-6."""
 _BLOCK_S: Final = 2.5
 """Length of a transform: its lines lie 0.4 Hz apart, a fifteenth of the third octave at 25 Hz."""
+_LEAST_BLOCK: Final = 16
+"""Samples of a block at the least, for sample rates below 6 Hz."""
 _FILTERED: Final = ("A", "C")
 _SHORTEST_SHARE: Final = 4
 """Least length of a recording over the length omitted at either end."""
@@ -72,7 +74,7 @@ class MeterPlan:
     @cached_property
     def length(self) -> int:
         """Samples of a transform: of a block and of a run-in of silence on both sides."""
-        most = min(self.samples, round(_BLOCK_S * self.sample_rate_hz))
+        most = min(self.samples, max(round(_BLOCK_S * self.sample_rate_hz), _LEAST_BLOCK))
         return int(fft.next_fast_len(most + 2 * self.run_in, real=True))
 
     @property

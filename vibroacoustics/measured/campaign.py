@@ -3,22 +3,24 @@
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import Final
 
 import xarray as xr
 
 from ..base.errors import ParameterError, VibroacousticsError
+from ..base.fault import omit
+from ..base.hashing import canonical_json
 from ..base.processes import side_by_side
 from ..base.progress import Progress, no_progress
 from ..orders.analysed import analysed_channels
 from ..orders.recorded_speed import check_speed_channels
-from ..recordings import open_recording
 from ..recordings.blocks import recording_blocks
-from ..results.mean_of_runs import mean_of_runs
-from ..results.order_comparison import listed
+from ..recordings.equality import identities
+from ..results.mean_of_runs import OMITTED, mean_of_runs
 from ..study.wording import first_lines
 from .campaign_settings import CampaignRun
 from .recorded_orders import analyse_orders
+from .sorting_out import AnalysedRun, sorted_out
 
 _AVERAGED: Final = (
     "channel_order",
@@ -29,20 +31,8 @@ _AVERAGED: Final = (
 )
 """Variables of a run that the mean is made of."""
 
-
-class _Opened(NamedTuple):
-    """Unit by channel that is analysed, or what is wrong with the file."""
-
-    units: dict[str, str]
-    problem: str = ""
-
-
-class _Analysed(NamedTuple):
-    """Orders and levels of a run, or what is wrong with the recording; warnings."""
-
-    results: xr.Dataset | None
-    problem: str
-    remarks: list[tuple[type[Warning], str]]
+LEAST_RUNS: Final = 2
+"""Recordings of which a mean is made."""
 
 
 def analyse_campaign(
@@ -52,7 +42,8 @@ def analyse_campaign(
 ) -> xr.Dataset:
     """Analyse many recordings with common settings: each run, energy mean and scatter.
 
-    All files are opened before the first is analysed. A run with `with_map` keeps no map.
+    Recordings that cannot be averaged with the others are omitted, each with a warning. A run with
+    `with_map` keeps no map.
 
     Parameters
     ----------
@@ -62,18 +53,25 @@ def analyse_campaign(
 
     Returns
     -------
-    as of `mean_of_runs`
+    as of `mean_of_runs`; attribute `omitted`: reason by file, as JSON
 
     Raises
     ------
     ParameterError
-        A line for every file that cannot be read or analysed, or that has other channels.
+        A file has no label or settings, or a label of another one; or fewer than two recordings
+        can be averaged: a line for every file that is omitted.
+
+    Warns
+    -----
+    LeftOutWarning
+        A recording is omitted: it cannot be read or analysed, has a dead channel or impossible
+        values, repeats another one, or lacks a channel, band or speed that most have.
 
     Examples
     --------
     >>> from pathlib import Path
     >>> tone = np.cos(2.0 * np.pi * 50.0 * np.arange(8192) / 1024.0)
-    >>> for name, peak in (("a_1", 1.0), ("a_2", 2.0), ("b_1", 2.0)):
+    >>> for name, peak in (("a_1", 1.0), ("a_2", 2.0), ("b_1", 3.0)):
     ...     recording = va.label_recording([peak * tone], 1024.0, ["ring"], ["m/s²"])
     ...     _ = va.export_recording(recording, f"{name}.csv")
     >>> campaign = va.Campaign(
@@ -83,25 +81,40 @@ def analyse_campaign(
     >>> mean["machine_order_rms"].sel(machine="a", order=1.0).item() ** 2  # (0.5 + 2) / 2
     1.25...
     """
-    runs = _checked(files, run_of, progress)
+    runs = _runs(files, run_of)
     analysed = []
-    for done, each in enumerate(side_by_side(_analysed, runs)):
+    for done, each in enumerate(side_by_side(_analysed, runs, on_loss=_lost)):
         progress("orders of recordings", done, len(runs))
         analysed.append(each)
     progress("orders of recordings", len(runs), len(runs))
-    for run, each in zip(runs, analysed, strict=True):
-        for kind, words in each.remarks:
-            named = words if run.file.name in words else f"{run.file.name}: {words}"
+    analysed = sorted_out(analysed)
+    kept = [each for each in analysed if not each.reason]
+    omitted = {str(each.file): each.reason for each in analysed if each.reason}
+    try:
+        mean = _mean(kept, min(LEAST_RUNS, len(runs)))
+    except ParameterError as error:
+        reasons = (f"{file}: {reason}" for file, reason in omitted.items())
+        raise ParameterError(*reasons, *error.args) from None
+    for each in kept:
+        for kind, words in each.warned:
+            named = words if each.file.name in words else f"{each.file.name}: {words}"
             warnings.warn(named, kind, stacklevel=2)
-    _refuse(each.problem for each in analysed)
-    results = [each.results for each in analysed if each.results is not None]
+    for file, reason in omitted.items():
+        omit(file, reason)
+    return mean.assign_attrs({OMITTED: canonical_json(omitted)} if omitted else {})
+
+
+def _mean(kept: Sequence[AnalysedRun], least: int) -> xr.Dataset:
+    """Mean of the recordings that are not omitted."""
+    results = [each.results for each in kept if each.results is not None]
+    if len(results) < least:
+        raise ParameterError(f"{len(results)} recordings can be averaged: must be at least {least}")
+    runs = [each.run for each in kept]
     return mean_of_runs(results, [run.machine for run in runs], [run.label for run in runs])
 
 
-def _checked(
-    files: Sequence[Path], run_of: Callable[[Path], CampaignRun], progress: Progress
-) -> list[CampaignRun]:
-    """Runs of files that can all be opened and have channels of the same names and units."""
+def _runs(files: Sequence[Path], run_of: Callable[[Path], CampaignRun]) -> list[CampaignRun]:
+    """Runs of files that have labels and settings, each label once."""
     runs: list[CampaignRun] = []
     problems: list[str] = []
     for file in files:
@@ -110,21 +123,8 @@ def _checked(
         except VibroacousticsError as error:
             problems += error.args
     problems += _repeated(runs)
-    opened = []
-    for done, each in enumerate(side_by_side(_opened, runs)):
-        progress("recordings opened", done, len(files))
-        opened.append(each)
-    progress("recordings opened", len(files), len(files))
-    problems += [each.problem for each in opened]
-    readable = [(run, each) for run, each in zip(runs, opened, strict=True) if not each.problem]
-    for run, each in readable[1:]:
-        first, reference = readable[0]
-        if each.units != reference.units:
-            problems.append(
-                f"{run.file}: has the channels {listed(each.units)}; {first.file} has "
-                f"{listed(reference.units)}: all must have the same names and units"
-            )
-    _refuse(problems)
+    if problems:
+        raise ParameterError(*first_lines(problems))
     return runs
 
 
@@ -140,43 +140,35 @@ def _repeated(runs: Sequence[CampaignRun]) -> Iterator[str]:
             )
 
 
-def _opened(run: CampaignRun) -> _Opened:
-    """Open a recording without its samples."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # they come again when the samples are read
-            recording = open_recording(run.file, **run.reading)
-        units = dict(zip(recording.channels, recording.channel_units, strict=True))
-        check_speed_channels(recording.channels, run.analysis.speed)
-        names = analysed_channels(recording.channels, run.analysis.speed)
-    except VibroacousticsError as error:
-        return _Opened({}, _named(run, error))
-    return _Opened({name: units[name] for name in names})
-
-
-def _analysed(run: CampaignRun) -> _Analysed:
+def _analysed(run: CampaignRun) -> AnalysedRun:
     """Analyse a recording, in a process of its own."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
             blocks = recording_blocks(run.file, **run.reading)
-            results, problem = analyse_orders(blocks, run.analysis), ""
+            check_speed_channels(blocks.channels, run.analysis.speed)
+            names = analysed_channels(blocks.channels, run.analysis.speed)
+            results = analyse_orders(blocks, run.analysis)
         except VibroacousticsError as error:
-            results, problem = None, _named(run, error)
-    remarks = [(each.category, str(each.message)) for each in caught]
-    if results is not None:
-        results = results[[name for name in _AVERAGED if name in results]]
-    return _Analysed(results, problem, remarks)
+            return AnalysedRun(run, None, _reason(run.file, error))
+    units = dict(zip(blocks.channels, blocks.channel_units, strict=True))
+    return AnalysedRun(
+        run,
+        results[[name for name in _AVERAGED if name in results]],
+        "",
+        [(each.category, str(each.message)) for each in caught],
+        {name: units[name] for name in names},
+        {name: each for name, each in blocks.deviations.items() if name in names},
+        blocks.suspects,
+        identities(blocks, names),
+    )
 
 
-def _named(run: CampaignRun, error: VibroacousticsError) -> str:
-    """An error as one line that begins with the file."""
-    words = "; ".join(map(str, error.args)).removeprefix(f"{run.file.name}: ")
-    return words if words.startswith(f"{run.file}: ") else f"{run.file}: {words}"
+def _lost(run: CampaignRun, how: str) -> AnalysedRun:
+    return AnalysedRun(run, None, f"two processes that analysed it ended ({how})")
 
 
-def _refuse(problems: Iterator[str] | Sequence[str]) -> None:
-    """Report all problems at once."""
-    lines = first_lines([problem for problem in problems if problem])
-    if lines:
-        raise ParameterError(*lines)
+def _reason(file: Path, error: VibroacousticsError) -> str:
+    """An error as one line without the file."""
+    words = "; ".join(map(str, error.args))
+    return words.removeprefix(f"{file.name}: ").removeprefix(f"{file}: ")

@@ -18,10 +18,9 @@ def naming_settings(path: Path) -> Iterator[None]:
     try:
         yield
     except VibroacousticsError as error:
-        text = str(error)
-        raise type(error)(
-            text if text.startswith(str(path.parent)) else f"{path}: {text}"
-        ) from None
+        folder, lines = str(path.parent), map(str, error.args)
+        named = (line if line.startswith(folder) else f"{path}: {line}" for line in lines)
+        raise type(error)(*named) from None
 
 
 def attributes(

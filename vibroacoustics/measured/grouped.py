@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from ..base.arrays import Array
-from ..base.errors import ParameterError
+from ..base.errors import ParameterError, gathered
 from ..recordings import MeasuredFunction, Node
 from ..recordings.functions import read_functions
 
@@ -27,8 +28,22 @@ def signs(nodes: Sequence[Node]) -> Array:
 def read_all(
     names: Sequence[str], units: Mapping[str, str], folder: Path = Path()
 ) -> list[MeasuredFunction]:
-    """Functions of some files, of a folder where their names do not show it."""
-    return [function for name in names for function in read_functions(folder / name, units=units)]
+    """Functions of some files, of a folder where their names do not show it.
+
+    Raises
+    ------
+    ParameterError, StorageError
+        A line for every file that cannot be read.
+    """
+    return [function for each in read_each(names, units, folder) for function in each]
+
+
+def read_each(
+    names: Sequence[str], units: Mapping[str, str], folder: Path
+) -> list[list[MeasuredFunction]]:
+    """Functions of each file; errors as of `read_all`."""
+    read = partial(read_functions, units=units)
+    return gathered(read, [folder / name for name in names])
 
 
 def by_key(functions: Sequence[MeasuredFunction]) -> dict[Key, list[MeasuredFunction]]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from typing import Final
 
@@ -10,7 +11,7 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError, VibroacousticsError
 from ..recordings import MeasuredFunction, Node
-from .grouped import Key, by_key, read_all, unsigned
+from .grouped import Key, by_key, read_each, unsigned
 from .scatter import error_of_coherence, error_of_repeats
 from .settings import Measured
 
@@ -26,8 +27,11 @@ class Library:
 
     def __init__(self, settings: Measured, folder: Path) -> None:
         self._settings = settings
-        self._responses = by_key(read_all(settings.frequency_responses, settings.units, folder))
-        self._operating = by_key(read_all(settings.operating, settings.units, folder))
+        names = (*settings.frequency_responses, *settings.operating)
+        files = read_each(names, settings.units, folder)
+        count = len(settings.frequency_responses)
+        self._responses = by_key(list(chain.from_iterable(files[:count])))
+        self._operating = by_key(list(chain.from_iterable(files[count:])))
         self.frequency_hz = self._lines()
         self._estimates: list[Estimate] = []
         self._numbers: dict[tuple[str, str], int] = {}

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ..base.errors import ParameterError
+from ..base.allowed import check_range
 from ..levels.sound_power import box_area_m2, hemisphere_area_m2
 from ..radiation.arrangements import TABLE_B1, box_positions
 
@@ -38,7 +38,7 @@ class MeasurementSurface:
         ParameterError
             The radius is out of range.
         """
-        _check("radius_m", radius_m, 0.5, 16.0)
+        check_range("radius_m", radius_m, 0.5, 16.0, "m")
         area = hemisphere_area_m2(radius_m)
         return cls(f"hemisphere of {radius_m:g} m", area, (len(TABLE_B1) // 2, len(TABLE_B1)))
 
@@ -60,13 +60,8 @@ class MeasurementSurface:
         """
         edges = {"length_m": length_m, "width_m": width_m, "height_m": height_m}
         for key, edge in edges.items():
-            _check(key, edge, 0.01, 20.0)
-        _check("distance_m", distance_m, 0.25, 16.0)
+            check_range(key, edge, 0.01, 20.0, "m")
+        check_range("distance_m", distance_m, 0.25, 16.0, "m")
         sizes = (length_m, width_m, height_m, distance_m)
         words = f"box {length_m:g} x {width_m:g} x {height_m:g} m at {distance_m:g} m"
         return cls(words, box_area_m2(*sizes), (len(box_positions(*sizes)),))
-
-
-def _check(key: str, value: float, least: float, largest: float) -> None:
-    if not least <= value <= largest:
-        raise ParameterError(f"{key} = {value:g} m: must be from {least:g} to {largest:g} m")

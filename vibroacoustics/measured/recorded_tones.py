@@ -1,5 +1,6 @@
 """Tones, loudness and sharpness of recorded sound."""
 
+import warnings
 from collections.abc import Sequence
 from itertools import zip_longest
 from typing import Final
@@ -42,6 +43,11 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     ------
     ParameterError
         No channel is in Pa, or the recording is too short.
+
+    Warns
+    -----
+    UserWarning
+        A channel is too loud for a loudness.
     """
     signal = recording["signal"]
     microphones = signal.isel(channel=signal["channel_unit"].values == "Pa")
@@ -49,14 +55,18 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         units = ", ".join(sorted(set(map(str, signal["channel_unit"].values))))
         raise ParameterError(f"channels: none is in Pa (available: {units}); see --unit")
     rate_hz = float(recording.attrs["sample_rate_hz"])
-    listed, loudness, means = [], [], []
-    for channel in microphones:
+    listed, loudness, means, remarks = [], [], [], list[str]()
+    for name, channel in zip(microphones["channel"].values, microphones, strict=True):
         bands = narrow_bands(channel.values, rate_hz)
         judged = tones(recorded_spectrum(bands))
         listed.append([tone for tone in judged if tone.noise_ratio_db > 0.0])
-        loud = recorded_loudness(bands)
         means.append(mean_audibility(channel.values, rate_hz))
-        loudness.append((loud.loudness_sone, loud.sharpness_acum))
+        try:
+            loud = recorded_loudness(bands)
+            loudness.append((loud.loudness_sone, loud.sharpness_acum))
+        except ParameterError as error:  # a channel that is too loud leaves the others theirs
+            loudness.append((np.nan, np.nan))
+            remarks.append(f"channel {str(name)!r}: no {error}")
     coords = {
         "channel": microphones["channel"].values,
         "recorded_tone": np.arange(1.0, max(map(len, listed)) + 1.0),
@@ -74,6 +84,11 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     )
     results = stamped({**values, **loud_values, **_audibility(means)}, coords)
     results.attrs = provenance.of_recording(recording.attrs, "tones")
+    for line in remarks:
+        warnings.warn(f"{provenance.recording_name(recording.attrs)}: {line}", stacklevel=2)
+    if remarks:
+        older = [recording.attrs[key] for key in ("reading_remarks",) if key in recording.attrs]
+        results.attrs["reading_remarks"] = "; ".join([*older, *remarks])
     return label_coordinates(results)
 
 

@@ -6,9 +6,10 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 import xarray as xr
 
+from ..base.allowed import check_range
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_BY_UNIT
-from ..base.decibel import level_of_power, power_of_level
+from ..base.decibel import SILENCE_DB, amplitude_of_level, level_of_power, power_of_level
 from ..base.errors import ParameterError
 from ..base.hashing import canonical_json
 from ..base.progress import Progress, no_progress
@@ -121,7 +122,7 @@ def replay(
     ------
     ParameterError
         A name is unknown, units differ, the study lacks speeds or holds two lines at one order, the
-        option changes the noise, or bandwidth or ratio does not fit.
+        option changes the noise, a channel is silent, or bandwidth or ratio does not fit.
 
     Examples
     --------
@@ -138,12 +139,11 @@ def replay(
     """
     with provenance.naming(recording.attrs):
         _check(recording, results, option, pairs, orders_only)
-        if not SHAFT_RATIOS[0] <= shaft_ratio <= SHAFT_RATIOS[1]:
-            raise ParameterError(f"shaft_ratio = {shaft_ratio:g}: must be 0.01 to 100")
+        check_range("shaft_ratio", shaft_ratio, *SHAFT_RATIOS)
         rate_hz = float(recording.attrs["sample_rate_hz"])
         recorded = recorded_speed(LabelledBlocks(recording), speed)
         motion = recorded.motion.geared(shaft_ratio)
-        signals = [_samples(recording, channel) for channel in pairs]
+        signals = [_audible(recording, channel) for channel in pairs]
         part = _known_part(motion, rate_hz, signals[0].size)
         before, after, lines, reasons = [], [], [], {}
         for number, (channel, response) in enumerate(pairs.items()):
@@ -216,8 +216,19 @@ def _noise_changes(results: xr.Dataset, option: str, pairs: Mapping[str, str]) -
     return {band for bands in every for band in bands}
 
 
-def _samples(recording: xr.Dataset, channel: str) -> Array:
-    return np.asarray(recording["signal"].sel(channel=channel).values, dtype=float)
+def _audible(recording: xr.Dataset, channel: str) -> Array:
+    """Samples of a channel; refused where nothing changes in it, which has no order to change."""
+    of_channel = recording["signal"].sel(channel=channel)
+    samples, unit = (
+        np.asarray(of_channel.values, dtype=float),
+        str(of_channel["channel_unit"].item()),
+    )
+    if np.ptp(samples) <= REFERENCE_BY_UNIT[unit] * amplitude_of_level(SILENCE_DB):
+        raise ParameterError(
+            f"channel {channel}: is silent: all samples are {samples[0]:g} {unit}; name another "
+            "by --pair"
+        )
+    return samples
 
 
 def _known_part(motion: CrankMotion, rate_hz: float, samples: int) -> slice:

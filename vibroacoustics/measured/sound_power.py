@@ -1,6 +1,7 @@
 """Sound power of a machine from recordings of the microphones around it (ISO 3744)."""
 
-from collections.abc import Iterable, Mapping, Sequence
+import warnings
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,9 @@ from ..base.vocabulary import label_coordinates, stamped
 from ..levels.bands import measurable_bands
 from ..levels.measured_power import BANDS, MeasuredPower, measured_power, spread_dba
 from ..levels.signal_levels import band_levels
+from ..recordings import LabelledBlocks
+from ..recordings.equality import identities
+from ..recordings.remarks import RecordingWarning
 from ..results import provenance
 from .measurement_surface import MeasurementSurface
 
@@ -45,7 +49,13 @@ def sound_power(
     Raises
     ------
     ParameterError
-        No channel is sound pressure, two have one name, or the room's absorption area is wrong.
+        No channel is sound pressure, two have one name, the sample rate is below the bands, or the
+        room's absorption area is wrong.
+
+    Warns
+    -----
+    RecordingWarning
+        Two files have equal bytes or samples: one position is measured twice, another is missing.
 
     Examples
     --------
@@ -58,6 +68,7 @@ def sound_power(
     """
     levels = _levels_of(recordings)
     quiet = _levels_of(background) if background else None
+    remarks = [*_kept_remarks(recordings), *_repeated([*recordings, *background])]
     area = None if absorption_area_m2 is None else _by_band(absorption_area_m2)
     measured_db = np.array(list(levels.values()))
     still = None if quiet is None else np.array(list(quiet.values()))
@@ -75,8 +86,33 @@ def sound_power(
         "missing_for_grade": ", ".join(measured.missing),
         "spread_dba": spread_dba(measured_db),
         "positions_of_the_standard": list(surface.positions),
+        **({"reading_remarks": "; ".join(remarks)} if remarks else {}),
     }
     return label_coordinates(labelled)
+
+
+def _kept_remarks(recordings: Sequence[xr.Dataset]) -> Iterator[str]:
+    """Remarks of the reading, with the file before them."""
+    for recording in recordings:
+        if "reading_remarks" in recording.attrs:
+            name = provenance.recording_name(recording.attrs)
+            yield f"{name}: {recording.attrs['reading_remarks']}"
+
+
+def _repeated(recordings: Sequence[xr.Dataset]) -> list[str]:
+    """Warn of each recording that is another one again."""
+    first: dict[Hashable, str] = {}
+    lines: dict[int, str] = {}
+    for number, recording in enumerate(recordings):
+        blocks, file = LabelledBlocks(recording), provenance.recording_name(recording.attrs)
+        for mark in identities(blocks, blocks.channels):
+            if mark in first:
+                again = f"{file}: has {mark[0]} of {first[mark]}: record each position"
+                lines.setdefault(number, again)
+            first.setdefault(mark, file)
+    for line in lines.values():
+        warnings.warn(line, RecordingWarning, stacklevel=3)
+    return list(lines.values())
 
 
 def _levels_of(recordings: Iterable[xr.Dataset]) -> dict[str, Array]:
@@ -86,6 +122,12 @@ def _levels_of(recordings: Iterable[xr.Dataset]) -> dict[str, Array]:
     for recording in recordings:
         rate_hz = float(recording.attrs["sample_rate_hz"])
         bands = measurable_bands(BANDS, rate_hz)
+        if not bands:
+            raise ParameterError(
+                f"{provenance.recording_name(recording.attrs)}: sample rate = {rate_hz:g} Hz: "
+                "must be above "
+                f"{2.0 * BANDS[0].upper_hz:.4g} Hz for the third octave at {BAND_HZ[0]:g} Hz"
+            )
         for name, unit in zip(
             map(str, recording["channel"].values), recording["channel_unit"].values, strict=True
         ):

@@ -3,42 +3,21 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, Final, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
-from ..base.errors import ParameterError
 from .moving_parts import Wrench
 from .ports import BodyPort, Port
 
 Amplitudes = TypeVar("Amplitudes", Array, ComplexArray)
 PortLoads = Mapping[Port, ComplexArray]
 """Loads by port, (component, ...): complex peaks in the units of the port's components."""
-_FORMER: Final = {
-    "rigid": "housing",
-    "on_shell": "housing",
-    "on_parts": "fixed_scroll, bearing_housing, orbiting_scroll, lower_bearing, stator",
-    "on_yoke": "stator_yoke",
-    "flows": "discharge_dome, suction_annulus",
-}
-"""Ports of the arguments by which version 0.2 named them."""
-
-
-class _OnPorts:
-    """Refuses arguments that were names of ports."""
-
-    def __new__(cls, *_: Any, **fields: Any) -> Any:
-        for name in fields:
-            if name in _FORMER:
-                raise ParameterError(
-                    f"{cls.__name__}({name}=...): give the load by its port: {_FORMER[name]}"
-                )
-        return super().__new__(cls)
 
 
 @dataclass(frozen=True)
-class Tone(_OnPorts):
+class Tone:
     """A line that is no order of the shaft.
 
     Attributes
@@ -62,7 +41,7 @@ class Tone(_OnPorts):
 
 
 @dataclass(frozen=True)
-class Noise(_OnPorts):
+class Noise:
     """Random loads: what does not repeat with the revolution.
 
     Attributes
@@ -86,7 +65,7 @@ class Noise(_OnPorts):
 
 
 @dataclass(frozen=True)
-class Loads(_OnPorts):
+class Loads:
     """Loads of one source in one case; loads that are zero may be absent.
 
     Attributes

@@ -1,16 +1,20 @@
 """Spectra of blocks of time, labelled with the speed: rpm-frequency maps."""
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
+from ..base.allowed import check_range
 from ..base.arrays import Array, ComplexArray
-from ..base.errors import ParameterError
 from .angular import check_finite
 from .angular_plan import known_samples
-from .block_spectra import block_spectra, block_starts, check_positive
+from .block_spectra import block_spectra, block_starts
 from .crank_motion import CrankMotion
 from .windows import window_by_name
+
+LEAST_SAMPLES: Final = 8
+"""Least number of samples of a block."""
 
 
 @dataclass(frozen=True)
@@ -51,20 +55,16 @@ def frequency_map(
     Raises
     ------
     ParameterError
-        The resolution is finer than the signal allows, a value is outside its range, or a sample
-        is not finite.
+        The resolution is finer than the signal allows or coarser than blocks of eight samples, a
+        value is outside its range, or a sample is not finite.
     """
     shape = window_by_name(window)
-    check_positive("resolution_hz", resolution_hz)
     check_finite(signal)
-    needed = np.ceil(shape.noise_bandwidth_lines * sample_rate_hz / resolution_hz)
     first, end = known_samples(motion, sample_rate_hz, signal.shape[-1])
-    if end - first < needed:
-        raise ParameterError(
-            f"resolution_hz = {resolution_hz:g} Hz: needs blocks of "
-            f"{needed / sample_rate_hz:.3g} s, the signal with a known crank angle lasts "
-            f"{(end - first) / sample_rate_hz:.3g} s"
-        )
+    line_hz = shape.noise_bandwidth_lines * sample_rate_hz
+    limits_hz = line_hz / (end - first), line_hz / LEAST_SAMPLES
+    check_range("resolution_hz", resolution_hz, *limits_hz, "Hz")
+    needed = min(np.ceil(line_hz / resolution_hz), end - first)
     length = int(needed)
     starts = first + block_starts(end - first, length, overlap_ratio)
     lines = (length + 1) // 2

@@ -8,9 +8,10 @@ import numpy as np
 import scipy  # loads its subpackages when they are needed
 from scipy.interpolate import PPoly
 
+from ..base.allowed import check_range
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from ..study.order_analysis import DEFAULT_COMB
+from ..study.order_analysis import DEFAULT_COMB, MAINS_HZ
 from .crank_motion import CrankMotion, from_curve
 from .mains import without_mains
 from .speed_check import SpeedCheck, checked_profile
@@ -18,6 +19,9 @@ from .speed_profiles import Search, best_profiles
 
 _OVERSAMPLING: Final = 4
 """Samples per period of the highest order: the frames are straightened by linear interpolation."""
+
+_LEAST_SAMPLES: Final = 96
+"""Least number of samples of 24 revolutions."""
 
 
 @dataclass(frozen=True)
@@ -70,16 +74,16 @@ def tacholess_motion(
     ParameterError
         The signal is empty, not finite, constant or shorter than 24 revolutions at the lowest
         frequency, the frequencies are not 0 < minimum < maximum, the orders do not rise from above
-        zero, half the sample rate is below the lowest order, or the mains frequency is not above
-        zero.
+        zero, half the sample rate is below the lowest order, or the mains frequency is out of
+        range.
     """
     order = np.asarray(orders, dtype=float)
     _check(signal, sample_rate_hz, minimum_frequency_hz, maximum_frequency_hz, order)
-    down = max(1, int(sample_rate_hz / (_OVERSAMPLING * order[-1] * maximum_frequency_hz)))
+    down = int(sample_rate_hz / (_OVERSAMPLING * order[-1] * maximum_frequency_hz))
+    down = max(1, min(down, signal.size // _LEAST_SAMPLES))
     samples, rate = scipy.signal.resample_poly(signal, 1, down), sample_rate_hz / down
     if mains_hz is not None:
-        if not 0.0 < mains_hz < np.inf:
-            raise ParameterError(f"mains_hz = {mains_hz:g} Hz: must be above zero")
+        check_range("mains_hz", mains_hz, *MAINS_HZ, "Hz")
         samples = without_mains(samples, rate, mains_hz)
     search = Search(
         samples, rate, order, minimum_frequency_hz, maximum_frequency_hz, maximum_change_per_s

@@ -5,8 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from ..base.allowed import check_range
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
+from ..study.order_analysis import ORDERS
 from .crank_motion import CrankMotion
 from .vold_kalman import Track, vold_kalman
 
@@ -31,11 +33,13 @@ def tracked_orders(
     Raises
     ------
     ParameterError, SolverError
-        See `vold_kalman`; or an order is named twice or is not above 0.
+        See `vold_kalman`; or an order is named twice or out of range.
     """
     numbers = [float(order) for order in orders]
-    if not numbers or min(numbers) <= 0.0 or len(set(numbers)) < len(numbers):
-        raise ParameterError(f"orders = {numbers}: must be numbers above 0, each once")
+    for order in numbers:
+        check_range("orders", order, *ORDERS)
+    if not numbers or len(set(numbers)) < len(numbers):
+        raise ParameterError(f"orders = {numbers}: must be at least one order, each once")
     tracks = [Track(motion, order) for order in numbers]
     tracked = vold_kalman(signal.values, sample_rate_hz, tracks, bandwidth_hz, poles)
     coords = {"channel": signal["channel"], "track_time": tracked.time_s, "order": numbers}

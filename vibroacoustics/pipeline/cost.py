@@ -7,6 +7,7 @@ from typing import Final
 
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.progress import Progress, no_progress
+from ..measured.floor import on_measured_floor
 from ..radiation.cost import Cost, about
 from ..results.size import result_bytes
 from ..stages.chain import Chain
@@ -66,6 +67,7 @@ def run_cost(study: Study, progress: Progress = no_progress) -> RunCost:
 
 def _run_cost(study: Study, progress: Progress) -> RunCost:
     costs = [about("start and study", time.process_time(), "measured")]
+    study = on_measured_floor(study)
     first = at_speeds(study, study.operation.speed_rpm[:1], study.options)
     chain = Chain(first, transfer_vectors)
     for stage in applying(study):

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..base.forms import returned
 from ..base.pieces import stored
 from ..base.threads import mapped_in_threads
 from ..base.vocabulary import RIGID_BODY_DOFS
@@ -62,7 +63,9 @@ def vectors_at(
         return direct if ground is None else direct + ground(radiator, wall)
 
     in_parallel = partial(mapped_in_threads, pressure)
-    solved = list(stored("pressure at points", frequency_hz.tolist(), in_parallel))
+    solved = list(
+        stored("pressure at points", frequency_hz.tolist(), in_parallel, returned(pressure))
+    )
     names = [pattern.name for pattern in task.patterns[len(RIGID_BODY_DOFS) :]]
     vectors = {"transfer_vector": np.stack(solved, axis=-1)}
     return labelled(vectors, clear, frequency_hz, names)

@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from ..base.forms import returned
 from ..base.pieces import stored
 from ..base.progress import Progress, no_progress
 from ..base.threads import in_threads, mapped_in_threads
@@ -135,7 +136,7 @@ class MachineSide:
             )
 
         name, in_parallel = ("near field", self._points), partial(mapped_in_threads, field)
-        fields = list(stored(name, batch, in_parallel))
+        fields = list(stored(name, batch, in_parallel, returned(field)))
         tasks = []
         for grid in sorted({grid for grid, _ in batch}):
             members = {

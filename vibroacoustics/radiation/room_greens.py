@@ -3,6 +3,7 @@
 from functools import partial
 from typing import Final
 
+from ..base.forms import returned
 from ..base.pieces import stored
 from ..base.progress import Progress
 from ..base.threads import mapped_in_threads, processors
@@ -38,7 +39,7 @@ def room_greens(box: Box, task: Task, progress: Progress) -> list[BoxField]:
 
     in_parallel = partial(mapped_in_threads, green, workers=workers)
     name = "k-Wave", device.engine_name(), frequency_hz
-    return list(stored(name, _positions(task).items(), in_parallel))
+    return list(stored(name, _positions(task).items(), in_parallel, returned(green)))
 
 
 def room_spacing_m(box: Box, task: Task) -> float:

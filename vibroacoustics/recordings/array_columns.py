@@ -142,6 +142,14 @@ def _rows(column: Column, low: int, high: int, first: int, last: int) -> Samples
     return unsigned(np.atleast_2d(load(first, last)), column.array.attributes)
 
 
+def check_claims(columns: Sequence[Column], first: int, last: int) -> None:
+    """Refuse samples that the bytes of the file cannot hold; see `NamedArray`."""
+    for array in {column.array.name: column.array for column in columns}.values():
+        part = [slice(0, side) for side in array.shape]
+        part[array.time_axis] = slice(first, last)
+        array.check(tuple(part))
+
+
 def check_present(column: Column, stored: Samples, first: int, rate_hz: float) -> None:
     """Refuse samples that the file says are missing.
 

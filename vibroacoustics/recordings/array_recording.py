@@ -6,6 +6,7 @@ from typing import Any, Final
 from ..base.errors import ParameterError
 from .array_columns import (
     Column,
+    check_claims,
     check_lengths,
     check_present,
     columns_of,
@@ -48,6 +49,7 @@ def recorded(
     check_lengths(columns, time)
     stated = stated_rate_hz(arrays, columns, attributes)
     first, last, rate_hz = part_of(time, stated, columns[0].samples, request)
+    check_claims(columns, *request.planned(columns[0].samples, rate_hz))
     check_size(len(columns), last - first)
     stored = stored_samples(columns, first, last)
     for column, values in zip(columns, stored, strict=True):

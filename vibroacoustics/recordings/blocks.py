@@ -4,16 +4,16 @@ import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.recording_blocks import BLOCK_BYTES, READ_BYTES, RecordingBlocks
 from .asked import Asked, naming_file
 from .child_process import read_in_child
+from .extent import Extent
 from .recorded import (
     MAXIMUM_RECORDING_BYTES,
     Request,
@@ -23,8 +23,12 @@ from .recorded import (
     check_rate,
     listed,
 )
-from .recording import check_finite, scale_in_place, si_scale
-from .remarks import overload_lines, remark
+from .remarks import SuspectWarning, overload_lines, remark
+from .scaling import check_finite, scale_in_place, si_scale
+from .suspects import Suspect, header_extents, suspect_channels
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,10 @@ class FileBlocks:
     """Samples of the file, not in SI units, shape (channel, time); None where not yet read."""
     further: Mapping[str, Any] = field(default_factory=dict)
     """Attributes of what was read all at once: hash, and begin of a part."""
+    extents: dict[str, Extent] = field(default_factory=dict)
+    """Extent of what was read of each channel, in the unit of the file."""
+    suspects: list[Suspect] = field(default_factory=list)
+    """Channels that are dead or impossible; known when all samples were read."""
 
     @property
     def sample_rate_hz(self) -> float:
@@ -100,7 +108,45 @@ class FileBlocks:
             units = [self.channel_units[row] for row in rows]
             scale_in_place(samples, channels, [self.calibration_factors[row] for row in rows])
         self._remark(overload_lines(header, units))
+        self._extend(channels, header_extents(header), first)
         return samples
+
+    @property
+    def deviations(self) -> dict[str, float]:
+        """Standard deviation of the samples that were read, by channel, in SI units."""
+        factors = zip(self.channels, self.calibration_factors, strict=True)
+        return {
+            name: abs(factor) * self.extents[name].deviation
+            for name, factor in factors
+            if name in self.extents
+        }
+
+    def _extend(self, channels: Sequence[str], behind: Sequence[Extent], first: int) -> None:
+        """Join the extents of a block, and look for suspects behind the last one."""
+        for name, extent in zip(channels, behind, strict=True):
+            before = self.extents.pop(name, None)
+            if first == 0:
+                self.extents[name] = extent
+            elif before is not None and before.samples == first:
+                self.extents[name] = before.joined(extent)
+        read = [self.extents[name].samples for name in channels if name in self.extents]
+        if read == [self.samples] * len(channels):
+            self._suspect(channels)
+
+    def _suspect(self, channels: Sequence[str]) -> None:
+        """Warn of channels that are dead or impossible, of each once."""
+        rows = [self.channels.index(name) for name in channels]
+        units = self.file_request.chosen_units(self.header)
+        doubtful = suspect_channels(
+            [self.header["names"][row] for row in rows],
+            [units[row] for row in rows],
+            [self.calibration_factors[row] for row in rows],
+            [self.extents[name] for name in channels],
+        )
+        new = [each for each in doubtful if each not in self.suspects]
+        remark(self.file_request.path, [each.line for each in new], SuspectWarning)
+        self.suspects.extend(new)
+        self.remarks.update({each.line: each.line for each in new})
 
     def _remark(self, lines: Sequence[str]) -> None:
         """Warn of a channel's overload once, not in every block."""
@@ -114,7 +160,7 @@ class FileBlocks:
 class LabelledBlocks:
     """A recording in the labelled form, which is in memory already."""
 
-    recording: xr.Dataset
+    recording: "xr.Dataset"
 
     @property
     def sample_rate_hz(self) -> float:
@@ -205,7 +251,8 @@ def open_recording(
     with naming_file(file_request.path):
         check_part(from_s, to_s)
         file_request.check(may_be_large=True)
-        header, _ = file_request.read({"samples": [0, 0], "hashed": False})
+        opening = {"samples": [0, 0], "opening": [from_s, to_s], "hashed": False}
+        header, _ = file_request.read(opening)
         new_names, rate_hz = file_request.new_names(header), float(header["sample_rate_hz"])
         si_units, factors = si_scale(
             new_names, file_request.chosen_units(header), file_request.new_calibration(header)
@@ -278,10 +325,12 @@ def hold_recording(
         further["part_start_s"] = header["first_sample"] / header["sample_rate_hz"]
     lines = [*header["remarks"], *overload_lines(header, si_units)]
     remark(wanted.path, lines)
-    return FileBlocks(
+    held = FileBlocks(
         wanted, header, header["first_sample"], header["samples"], si_units, factors,
         {line: line for line in lines}, stored, further,
     )  # fmt: skip
+    held._extend(new_names, header_extents(header), 0)
+    return held
 
 
 def samples_digest(stored: Samples) -> str:

@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from ..base.allowed import check_range
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import amplitude_of_level, level_of_amplitude, level_of_power, power_of_level
@@ -24,6 +25,8 @@ LEAST_RATIO_DB: Final = 20.0
 FREQUENCY_RATIO: Final = 0.05
 """Largest deviation of the tone from the nominal frequency."""
 LEVELS_DB: Final = (60.0, 140.0)
+LOWEST_HZ: Final = 20.0
+"""Lowest frequency of a calibrator: an octave around it has four lines in a single block."""
 
 
 @dataclass(frozen=True)
@@ -96,10 +99,7 @@ def read_calibrator(
     )
     names = [str(name) for name in stored["channel"].values]
     with naming_file(path):
-        if not LEVELS_DB[0] <= level_db <= LEVELS_DB[1]:
-            raise ParameterError(
-                f"level_db = {level_db:g} dB: must be {LEVELS_DB[0]:g} to {LEVELS_DB[1]:g} dB"
-            )
+        check_range("level_db", level_db, *LEVELS_DB, "dB")
         name = names[0] if len(names) == 1 else channel
         if name not in names:
             raise ParameterError(f"holds the channels {listed(names)}: say which, CHANNEL=FILE")
@@ -131,15 +131,11 @@ def tone_amplitude(
     Raises
     ------
     ParameterError
-        The frequency is beyond the sample rate; no tone is within 5 % of it, or it is less than
-        20 dB above all else within its octave, or steady for less than a second.
+        The frequency is below 20 Hz or above 0.45 of the sample rate; no tone is within 5 % of it,
+        or it is less than 20 dB above all else within its octave, or steady for less than a second.
     """
     check_rate(sample_rate_hz)
-    if not 0.0 < frequency_hz < 0.45 * sample_rate_hz:
-        raise ParameterError(
-            f"frequency_hz = {frequency_hz:g} Hz: must be above 0 and below 0.45 of the sample "
-            f"rate, {0.45 * sample_rate_hz:g} Hz"
-        )
+    check_range("frequency_hz", frequency_hz, LOWEST_HZ, 0.45 * sample_rate_hz, "Hz")
     length = int(np.ceil(BLOCK_S * sample_rate_hz))
     blocks = signal[: signal.size // length * length].reshape(-1, length)
     if len(blocks) * BLOCK_S < LEAST_STEADY_S:

@@ -23,6 +23,7 @@ from ..base.fault import FaultError
 from ..base.plugin_file import load_plugin
 from ..base.posix import resource
 from . import uff_modes
+from .extent import extents
 from .overload import overloads
 from .reader import READERS, Reader, needed, readers_by_suffix
 from .recorded import MAXIMUM_READING_BYTES, MINIMUM_SAMPLES, Recorded, Request, check_size
@@ -79,7 +80,16 @@ def _recording(request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
     """Header and channels of a recording."""
     reader = _reader(request)
     with READERS.fenced(reader.name, ParameterError, StorageError):
-        return _handed_over(reader.read(request), request)
+        recording = reader.read(request)
+        if request.opening and recording.total_samples:
+            _check_last(reader, recording, request)
+        return _handed_over(recording, request)
+
+
+def _check_last(reader: Reader, header: Recorded, request: Request) -> None:
+    """Refuse a file whose header claims samples that cannot be read, before a plan is made."""
+    _, last = request.planned(int(header.total_samples or 0), header.sample_rate_hz)
+    reader.read(replace(request, samples=(last - 1, last), opening=None))
 
 
 def _handed_over(read: Recorded, request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
@@ -97,6 +107,7 @@ def _handed_over(read: Recorded, request: Request) -> tuple[dict[str, Any], Iter
         "calibration": list(recording.calibration) or [None] * len(recording.names),
         "remarks": [*recording.remarks],
         "overloads": [overload and overload._asdict() for overload in overloads(recording)],
+        "extents": [extent._asdict() for extent in extents(recording)],
     }
     return header, recording.samples
 
@@ -175,6 +186,7 @@ def _common_type(channels: Sequence[Any]) -> str:
 
 def _request(fields: Mapping[str, Any]) -> Request:
     channels, samples = fields["channels"], fields.get("samples")
+    opening = fields.get("opening")
     return Request(
         Path(fields["path"]),
         None if channels is None else tuple(channels),
@@ -183,6 +195,7 @@ def _request(fields: Mapping[str, Any]) -> Request:
         fields.get("from_s"),
         fields.get("to_s"),
         None if samples is None else (samples[0], samples[1]),
+        None if opening is None else (opening[0], opening[1]),
     )
 
 

@@ -3,8 +3,6 @@
 import io
 import json
 import signal
-import subprocess
-import sys
 import tempfile
 from collections.abc import Mapping
 from typing import Any, Final, cast
@@ -14,6 +12,7 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.errors import ParameterError, PluginError, StorageError
 from ..base.fault import FaultError
+from ..base.process_start import start_module
 from .child import MAXIMUM_CPU_S
 from .recorded import MissingError, TooLargeError
 
@@ -41,13 +40,9 @@ def read_in_child(request: Mapping[str, Any]) -> tuple[dict[str, Any], Array]:
     ParameterError, StorageError
         What the child found wrong, or that it crashed.
     """
-    # -P: no module beside the recording, such as a numpy.py, is ever run.
-    command = [sys.executable, "-P", "-m", f"{__package__}.child", json.dumps(request)]
     with (
         tempfile.TemporaryFile() as messages,
-        subprocess.Popen(  # noqa: S603 - our own module
-            command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=messages
-        ) as child,
+        start_module(f"{__package__}.child", [json.dumps(request)], messages) as child,
     ):
         try:
             handed_over = _receive(cast(io.BufferedReader, child.stdout))

@@ -19,11 +19,15 @@ from ..base.csv_form import (
     split_head,
     tidy,
 )
+from ..base.csv_rows import STATED
 from ..base.csv_text import fused
 from ..base.errors import ParameterError, StorageError
 from .quantities import TIME_UNITS, find_quantity
 from .recorded import listed
 
+_DECIMAL: Final = re.compile(r"(decimal[ _-]?(?:separator|sign|symbol|mark))", re.IGNORECASE)
+_DECIMAL_WORD: Final = re.compile(r"\b(?:comma|point|dot|period)\b", re.IGNORECASE)
+_DECIMALS: Final = {"comma": ",", "point": ".", "dot": ".", "period": "."}
 _STAMP: Final = re.compile(
     r"\s*\"?(?P<date>[0-9]{4}-[0-9]{2}-[0-9]{2})[T ]"
     r"(?P<time>[0-9]{2}:[0-9]{2}(?::[0-9]{2}(?:[.,][0-9]+)?)?)"
@@ -81,6 +85,7 @@ class Head:
     lines : above the numbers
     stamps : column of time stamps; None without one
     sample : first rows of numbers
+    decimal : decimal sign that a line above states; None without one
     """
 
     names: Sequence[str]
@@ -89,6 +94,7 @@ class Head:
     lines: int
     stamps: int | None
     sample: Sequence[Sequence[str]]
+    decimal: str | None = None
 
     @cached_property
     def form(self) -> NumberForm:
@@ -97,13 +103,20 @@ class Head:
         Raises
         ------
         ParameterError
-            The first rows contradict each other, or a cell may be two numbers.
+            The first rows contradict each other or the lines above, or a cell may be two numbers.
         """
-        numbers = (c for row in self.sample for n, c in enumerate(row) if n != self.stamps)
+        numbers = [c for row in self.sample for n, c in enumerate(row) if n != self.stamps]
         try:
-            return number_form(numbers, self.separator)
+            form = number_form(numbers, self.separator)
         except ValueError as error:
             raise ParameterError(error.args[0]) from None
+        signed = next((cell for cell in numbers if "." in cell or "," in cell), None)
+        if signed is not None and self.decimal not in (None, form.decimal):
+            raise ParameterError(
+                f"states {self.decimal!r} as the decimal sign above numbers such as {signed}: "
+                "correct the line or the numbers"
+            )
+        return form
 
     @cached_property
     def is_plain(self) -> bool:
@@ -137,7 +150,8 @@ def read_head(lines: Sequence[str]) -> Head:
     StorageError
         There is no row of numbers.
     """
-    for separator in SEPARATORS:
+    stated = STATED.fullmatch(lines[0].strip("\ufeff \r\n")) if lines else None
+    for separator in (stated[1],) if stated else SEPARATORS:
         rows = [_row(line, separator) for line in lines]
         for number, fields in enumerate(rows):
             if (len(fields) > 1 or separator == ",") and _are_numbers(fields):
@@ -145,8 +159,23 @@ def read_head(lines: Sequence[str]) -> Head:
                 stamps = [column for column, field in enumerate(fields) if is_stamp(field)]
                 sample = [row for row in rows[number:] if _are_numbers(row)]
                 first = stamps[0] if stamps else None
-                return Head(names, units, separator, number, first, sample)
-    raise StorageError(f"has no row of numbers in its first {len(lines)} lines")
+                decimal = _stated_decimal(lines[:number])
+                return Head(names, units, separator, number, first, sample, decimal)
+    words = f" of cells between {stated[1]!r}, as it states" if stated else ""
+    raise StorageError(f"has no row of numbers{words} in its first {len(lines)} lines")
+
+
+def _stated_decimal(lines: Sequence[str]) -> str | None:
+    """Decimal sign that a line above the names states; None without one."""
+    for line in lines:
+        _, name, behind = _DECIMAL.split(line, maxsplit=1) if _DECIMAL.search(line) else ("",) * 3
+        word = _DECIMAL_WORD.search(behind)
+        if word is not None:
+            return _DECIMALS[word[0].lower()]
+        signs = behind.strip(' \t\r\n;:|="')  # of commas alone the first may separate cells
+        if name and signs and set(signs) <= set('.,"'):
+            return "." if "." in signs else ","
+    return None
 
 
 def _row(line: str, separator: str) -> list[str]:

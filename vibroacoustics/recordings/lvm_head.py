@@ -15,6 +15,7 @@ END: Final = "***End_of_Header***"
 MAXIMUM_HEAD_LINES: Final = 200
 _SEPARATORS: Final = {"Tab": "\t", "Comma": ","}
 _TIMES: Final = ("", "time")
+_DIGITS: Final = re.compile(r"\d[\deE+-]*")
 _EXACT: Final = 1e-4
 """Relative rounding of `Delta_X` above which a remark is due."""
 
@@ -50,9 +51,22 @@ class Segment:
     has_decimal_comma: bool
 
     def fields(self, line: bytes) -> list[str]:
-        """Fields of a row, with decimal points."""
-        plain = text(line).strip("\r\n")
-        return (plain.replace(",", ".") if self.has_decimal_comma else plain).split(self.separator)
+        """Fields of a row, with decimal points.
+
+        Raises
+        ------
+        ValueError
+            A number of a channel has another decimal sign than the header states, or may have one
+            that separates fields too.
+        """
+        fields = text(line).strip("\r\n").split(self.separator)
+        _check_columns(fields, self.columns, self.separator)
+        if self.has_decimal_comma and any("." in field for field in fields[: self.columns[-1] + 1]):
+            raise ValueError(
+                f"row {line[:40]!r} has a decimal point, the header a comma: correct "
+                "Decimal_Separator"
+            )
+        return [field.replace(",", ".") for field in fields] if self.has_decimal_comma else fields
 
     @property
     def remarks(self) -> list[str]:
@@ -100,6 +114,11 @@ def segment(lines: Iterator[bytes], above: dict[str, str]) -> Segment | None:
         The header is incomplete.
     """
     separator = _SEPARATORS.get(above.get("Separator", "Tab"), "\t")
+    if separator == above.get("Decimal_Separator"):
+        raise StorageError(
+            "states the comma as Separator and as Decimal_Separator: fractions cannot be told from "
+            "columns: save it with tabs"
+        )
     rows = {row[0]: row for row in _rows_to_end(lines, separator) if any(row)}
     if not rows:
         return None
@@ -109,6 +128,11 @@ def segment(lines: Iterator[bytes], above: dict[str, str]) -> Segment | None:
     dimensions = {value.lower() for value in head.values("X_Dimension")}
     if not dimensions <= set(_TIMES):
         raise ParameterError(f"its abscissa is {sorted(dimensions)}, not Time")
+    try:
+        for key in ("Delta_X", "X0"):
+            _check_columns(rows.get(key, []), columns, separator)
+    except ValueError as error:
+        raise StorageError(str(error)) from None
     is_comma = separator != "," and _is_comma(head, above)
     interval = head.number_text("Delta_X", is_comma)
     start_time, stamp_s = _start(head)
@@ -163,14 +187,23 @@ def _rows_to_end(lines: Iterator[bytes], separator: str | None) -> list[list[str
     return []
 
 
+def _check_columns(fields: Sequence[str], columns: Sequence[int], separator: str) -> None:
+    """Refuse digits behind the columns of the channels, where a comma separates."""
+    behind = fields[columns[-1] + 1 :]
+    if separator == "," and any(_DIGITS.fullmatch(field.strip()) for field in behind):
+        raise ValueError(
+            f"row {','.join(fields)[:40]!r} has digits behind its channels: commas seem to be both "
+            "separators and decimal signs: save it with tabs"
+        )
+
+
 def _columns(rows: dict[str, list[str]], names: list[str], above: dict[str, str]) -> list[int]:
     """Columns of the channels in rows of the header and of the table alike."""
     channels = _count(rows.get("Channels", ["", ""])[1])
     step = 2 if above.get("X_Columns") == "Multi" else 1
-    columns = list(range(1, 1 + step * channels, step))
-    if not columns or columns[-1] >= len(names):
+    if not 0 < step * (channels - 1) + 1 < len(names):
         raise StorageError(f"claims {channels} channels and names {max(len(names) - 1, 0)}")
-    return columns
+    return list(range(1, 1 + step * channels, step))
 
 
 def _is_comma(head: _Cells, above: dict[str, str]) -> bool:

@@ -36,6 +36,7 @@ class NamedArray:
     shape : shape that the header claims
     is_number : whether it holds numbers
     load : stored values of a part, one slice a dimension
+    check : refuses a part that the bytes of the file cannot hold
     attributes : units, sample rate and how the values are packed
     """
 
@@ -44,6 +45,7 @@ class NamedArray:
     is_number: bool
     load: Callable[[Part], Any]
     attributes: Mapping[str, Any] = field(default_factory=dict)
+    check: Callable[[Part], None] = lambda _: None
 
     def values(self, part: Part | None = None) -> Samples:
         """Values of a part, by default of all; see `unpacked`."""

@@ -2,14 +2,16 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-
-import xarray as xr
+from typing import TYPE_CHECKING
 
 from .asked import Asked, naming_file
 from .blocks import samples_digest
 from .recorded import check_part
-from .recording import label_in_place
-from .remarks import overload_lines, remark
+from .remarks import SuspectWarning, overload_lines, remark
+from .suspects import header_extents, suspect_channels
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def read_recording(
@@ -22,7 +24,7 @@ def read_recording(
     from_s: float | None = None,
     to_s: float | None = None,
     names: Mapping[str, str] | None = None,
-) -> xr.Dataset:
+) -> "xr.Dataset":
     """Read a recording; docs/recordings.md says what its file must hold.
 
     The file is read in a process of its own, of limited memory.
@@ -58,7 +60,8 @@ def read_recording(
     Warns
     -----
     RecordingWarning
-        Samples are at full scale, or the file's end is missing.
+        Samples are at full scale, the file's end is missing, or a channel is dead or beyond what
+        a sensor can give.
 
     Examples
     --------
@@ -76,18 +79,26 @@ def read_recording(
         is_large = request.check(may_be_large=is_part or channels is not None)
         part = {"from_s": from_s, "to_s": to_s, "hashed": not is_large}
         header, stored = request.read(part)
+        from .recording import label_in_place  # heavy: a refusal does not wait for it
+
         digest = {"source_sha256": header["sha256"]}
         if is_large:
             digest = {"part_sha256": samples_digest(stored)}
+        stated = request.chosen_units(header)
         recording = label_in_place(
             stored,
             header["sample_rate_hz"],
             request.new_names(header),
-            request.chosen_units(header),
+            stated,
             request.new_calibration(header),
         )
     lines = [*header["remarks"], *overload_lines(header, recording["channel_unit"].values)]
     remark(request.path, lines)
+    factors = recording["calibration_factor"].values.tolist()
+    doubtful = suspect_channels(header["names"], stated, factors, header_extents(header))
+    doubts = [each.line for each in doubtful]
+    remark(request.path, doubts, SuspectWarning)
+    lines += doubts
     if lines:
         recording.attrs["reading_remarks"] = "; ".join(lines)
     recording.attrs |= {"source_file": request.path.name, **digest}

@@ -2,13 +2,14 @@
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..base.allowed import check_range
 from ..base.errors import ParameterError, StorageError
 
 Samples = NDArray[Any]
@@ -28,6 +29,10 @@ MAXIMUM_READING_BYTES: Final = 2 * MAXIMUM_RECORDING_BYTES
 """Largest file, and all the memory that the process which reads it may ask for: the recording and
 as much again for the form in which the file holds it."""
 MINIMUM_SAMPLES: Final = 2
+SAMPLE_RATES_HZ: Final = (1e-3, 1e9)
+"""Sample rates, from one sample in a quarter of an hour to the fastest digitisers."""
+_LONGEST_S: Final = 1e9
+"""Latest time in a recording: 30 years."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,7 @@ class Request:
     modes : whether modes are read, no recording
     from_s, to_s : part that is wanted, seconds from the first sample; None for begin and end
     samples : part that is wanted, first sample and the one behind the last; instead of times
+    opening : times of the part that is read in blocks later; None unless the header alone is wanted
 
     Examples
     --------
@@ -60,6 +66,15 @@ class Request:
     from_s: float | None = None
     to_s: float | None = None
     samples: tuple[int, int] | None = None
+    opening: tuple[float | None, float | None] | None = None
+
+    def planned(self, samples: int, sample_rate_hz: float) -> tuple[int, int]:
+        """Part that is read now or, of a file that is opened, in blocks later; see `part`."""
+        if self.opening is None:
+            return self.part(samples, sample_rate_hz)
+        from_s, to_s = self.opening
+        part = replace(self, samples=None, from_s=from_s, to_s=to_s)
+        return part.part(samples, sample_rate_hz)
 
     @property
     def wants_all(self) -> bool:
@@ -163,11 +178,11 @@ def check_part(from_s: float | None, to_s: float | None) -> None:
     Raises
     ------
     ParameterError
-        A time is negative or not finite, or the end does not lie behind the begin.
+        A time is out of range, or the end does not lie behind the begin.
     """
     for name, value in (("from_s", from_s), ("to_s", to_s)):
-        if value is not None and not 0.0 <= value < np.inf:
-            raise ParameterError(f"{name} = {value:g} s: must be 0 or above")
+        if value is not None:
+            check_range(name, value, 0.0, _LONGEST_S, "s")
     if to_s is not None and to_s <= (from_s or 0.0):
         raise ParameterError(f"to_s = {to_s:g} s: must lie behind from_s = {from_s or 0.0:g} s")
 
@@ -190,15 +205,14 @@ def check_size(channels: int, samples: int) -> None:
 
 
 def check_rate(sample_rate_hz: float) -> None:
-    """Refuse a sample rate that is none.
+    """Refuse a sample rate that no recorder has.
 
     Raises
     ------
     ParameterError
-        It is not above zero or not finite.
+        It is outside 1 mHz to 1 GHz.
     """
-    if not 0.0 < sample_rate_hz < np.inf:
-        raise ParameterError(f"sample_rate_hz = {sample_rate_hz:g} Hz: must be above zero")
+    check_range("sample_rate_hz", sample_rate_hz, *SAMPLE_RATES_HZ, "Hz")
 
 
 def numbered(names: Sequence[str]) -> list[str]:

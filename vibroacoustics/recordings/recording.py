@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 from ..base import vocabulary
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from .quantities import Quantity, quantity
 from .recorded import MINIMUM_SAMPLES, check_rate
+from .scaling import scale_in_place, si_scale
 
 
 def label_recording(
@@ -83,38 +83,6 @@ def label_in_place(
     return vocabulary.label_coordinates(vocabulary.check(recording))
 
 
-def si_scale(
-    names: Sequence[str], units: Sequence[str], calibration: Mapping[str, float]
-) -> tuple[list[str], list[float]]:
-    """SI unit of each channel, and the factor that takes its samples to it.
-
-    Raises
-    ------
-    ParameterError
-        A unit is unknown, a factor zero.
-    """
-    measured = [_quantity(name, unit) for name, unit in zip(names, units, strict=True)]
-    factors = [
-        _calibration(name, calibration) * kind.factor
-        for name, kind in zip(names, measured, strict=True)
-    ]
-    return [kind.unit for kind in measured], factors
-
-
-def scale_in_place(signal: Array, names: Sequence[str], factors: Sequence[float]) -> None:
-    """Multiply the samples of each channel, shape (channel, time), by its factor.
-
-    Raises
-    ------
-    ParameterError
-        A sample is not finite.
-    """
-    for name, factor, samples in zip(names, factors, signal, strict=True):
-        with np.errstate(over="ignore"):  # told in the next line
-            np.multiply(samples, factor, out=samples)
-        check_finite(name, samples)
-
-
 def _check_form(
     signal: Array, sample_rate_hz: float, names: Sequence[str], units: Sequence[str]
 ) -> None:
@@ -130,33 +98,3 @@ def _check_form(
     twice = sorted(name for name, times in Counter(names).items() if times > 1)
     if twice or not all(names):
         raise ParameterError(f"channel names must be unique and not empty: {twice or ['']}")
-
-
-def _quantity(name: str, unit: str) -> Quantity:
-    try:
-        return quantity(unit)
-    except ParameterError as error:
-        raise ParameterError(f"channel {name!r}: {error}") from None
-
-
-def _calibration(name: str, calibration: Mapping[str, float]) -> float:
-    factor = float(calibration.get(name, 1.0))
-    if factor == 0.0 or not np.isfinite(factor):
-        raise ParameterError(f"channel {name!r}: calibration factor {factor:g}: must not be zero")
-    return factor
-
-
-def check_finite(name: str, samples: Array) -> None:
-    """Refuse samples of a channel that are not finite.
-
-    Raises
-    ------
-    ParameterError
-        Says how many there are and which is the first.
-    """
-    wrong = np.flatnonzero(~np.isfinite(samples))
-    if wrong.size:
-        raise ParameterError(
-            f"channel {name!r}: {wrong.size} of {samples.size} samples are not finite, the first "
-            f"is sample {wrong[0] + 1} ({samples[wrong[0]]})"
-        )

@@ -5,9 +5,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Final
 
-_NEVER_OVERLOADED: Final = ("rpm", "rad/s", "rad", "1")
+MAY_STAY: Final = ("rpm", "rad/s", "rad", "1")
 """Units of channels that stay at one value, or jump from one to another."""
-_MAY_BE_PULSES: Final = "V"
+MAY_BE_PULSES: Final = "V"
 """Unit of tachos and switches, which are at one extreme or the other for most of the time."""
 _LEAST_BETWEEN: Final = 0.5
 """Share of the samples between the extremes; pulses have fewer."""
@@ -23,19 +23,25 @@ class RecordingWarning(UserWarning):
     """
 
 
-def remark(path: Path, lines: Iterable[str]) -> None:
+class SuspectWarning(RecordingWarning):
+    """Warning of a channel that no working sensor can have recorded."""
+
+
+def remark(
+    path: Path, lines: Iterable[str], kind: type[RecordingWarning] = RecordingWarning
+) -> None:
     """Warn of each line, with the file before it."""
     for line in lines:
-        warnings.warn(f"{path}: {line}", RecordingWarning, stacklevel=3)
+        warnings.warn(f"{path}: {line}", kind, stacklevel=3)
 
 
 def overload_lines(header: Mapping[str, Any], units: Iterable[str]) -> list[str]:
     """A line for each channel with samples at full scale."""
     lines = []
     for name, unit, overload in zip(header["names"], units, header["overloads"], strict=True):
-        if overload is None or str(unit) in _NEVER_OVERLOADED:
+        if overload is None or str(unit) in MAY_STAY:
             continue
-        if str(unit) == _MAY_BE_PULSES and overload["between"] < _LEAST_BETWEEN:
+        if str(unit) == MAY_BE_PULSES and overload["between"] < _LEAST_BETWEEN:
             continue
         time_s = (header["first_sample"] + overload["first"]) / header["sample_rate_hz"]
         lines.append(

@@ -1,8 +1,9 @@
 """Lines of a text file: of any Unicode, its unfinished end, the line with a value."""
 
 import os
+import re
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO, Final
@@ -12,6 +13,7 @@ from ..base.errors import StorageError
 
 MAXIMUM_LINE_BYTES: Final = 2**16
 _PIECE: Final = 2**20
+_LAST_LINES: Final = 20
 
 
 @contextmanager
@@ -52,7 +54,7 @@ def text(line: bytes) -> str:
 
 
 def last_lines(file: BinaryIO, begin: int) -> tuple[list[tuple[int, bytes]], bool]:
-    """Places and content of the last two lines, and whether the last one has its end.
+    """Places and content of the last lines, and whether the last one has its end.
 
     Parameters
     ----------
@@ -67,7 +69,22 @@ def last_lines(file: BinaryIO, begin: int) -> tuple[list[tuple[int, bytes]], boo
     for line in content.splitlines(keepends=True):
         placed.append((position, line))
         position += len(line)
-    return placed[-2:], content.endswith((b"\n", b"\r"))
+    return placed[-_LAST_LINES:], content.endswith((b"\n", b"\r"))
+
+
+def may_be_cut(rows: Sequence[Sequence[str]]) -> bool:
+    """Whether the last row, which has no end, may lack columns, or digits of its last number.
+
+    It is whole where every row has as many digits behind the decimal point, and of an exponent.
+
+    Parameters
+    ----------
+    rows : cells of the last rows, numbers with decimal points
+    """
+    if len(rows) < 2 or len({len(row) for row in rows}) > 1:
+        return True
+    forms = {re.sub(r"\d", "0", row[-1].partition(".")[2]) for row in rows}
+    return len(forms) > 1 or not forms.pop()
 
 
 def reached(

@@ -7,9 +7,11 @@ trailing blanks and end in CR LF, as many programs write them.
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import BinaryIO, Final
 
 from ..base.errors import StorageError
+from .claims import check_claim
 
 LONGEST_LINE: Final = 2**12
 SINGLE, DOUBLE, SINGLE_COMPLEX, DOUBLE_COMPLEX = 2, 4, 5, 6
@@ -186,6 +188,8 @@ def _header(file: BinaryIO, kind: bytes) -> Header:
         abscissa_bytes=0,
         records=tuple(record.rstrip("\r\n") for record in records),
     )
+    least = header.parts * header.ordinate_bytes if header.byte_order else 2 * header.parts
+    check_claim(Path(file.name), header.points, least, f"points in dataset {header.name!r}")
     if header.is_even or not header.byte_order:
         return header
     return _with_abscissas(file, header)

@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..results.bands import fixed
-from ..results.mean_of_runs import runs_of
+from ..results.mean_of_runs import omitted_of, runs_of
 from ..results.number import number
 from .analysis import Analysis, origin
 from .blocks import Block, Bullets, Part, Pictures, Text
@@ -46,6 +46,8 @@ _ORDERS: Final[Columns] = (
     ("machines s, dB", "machine_deviation_db", _TWO),
     ("95 % ±, dB", "mean_interval_db", _TWO),
 )
+_WORDS: Final = frozenset({0, 1})
+"""Columns of words of the table of omitted recordings."""
 _METHOD: Final = (
     "Means are energy means: over the runs of each machine, then over the machines, each alike.",
     "Deviations are standard deviations of levels, dB: between runs of one machine, pooled over "
@@ -76,6 +78,11 @@ def analysis_of_campaign(mean: xr.Dataset) -> Analysis:
         Part("method", "Mean and scatter", (Bullets(_METHOD),)),
     ]
     tables = _data(mean)
+    omitted = omitted_of(mean)
+    if omitted:
+        table = Table("Omitted recordings", ("Recording", "Reason"), tuple(omitted.items()), _WORDS)
+        parts.insert(1, Part("omitted", "Omitted recordings", (table,)))
+        tables["campaign_omitted.csv"] = {"file": [*omitted], "reason": [*omitted.values()]}
     if "order_limit" in mean:
         tables["campaign_limits.csv"] = limits_data(mean)
         limits: tuple[Block, ...] = (order_limits_table(mean), *map(Text, limits_words(mean)))
@@ -98,6 +105,9 @@ def _sentences(mean: xr.Dataset) -> Iterator[str]:
     span = f"{speeds[0]:.0f}" if speeds.size == 1 else f"{speeds[0]:.0f} to {speeds[-1]:.0f}"
     of = f"{machines} machines" if machines > 1 else "one machine"
     yield f"{runs} runs of {of} at {span} rpm."
+    omitted = len(omitted_of(mean))
+    if omitted:
+        yield f"{omitted} of {runs + omitted} recordings are omitted; the page lists the reasons."
     for channel in _pressures(mean)[:_MOST_CHANNELS]:
         level_db, reach = (
             mean[name].sel(channel=channel, weighting="A").item()

@@ -51,7 +51,7 @@ def analysis_of_data_sheet(sheet: DataSheet) -> Analysis:
         parts=(
             Part("level", "Sound power", _words(power)),
             Part("bands", "Third octaves", (Pictures((sheet_chart(power),)), _bands(power))),
-            Part("tones", "Tones", (*_tones(sheet), *_audibility(sheet), *_windows(sheet))),
+            Part("tones", "Tones", (*_tones(sheet), _audibility(sheet), *_windows(sheet))),
             Part("vibration", "Vibration", vibration),
             Part("conditions", "Operating point and mounting", (_facts(sheet),)),
             Part("limits", "Neglected effects", (Bullets(sheet.leaves_out),)),
@@ -142,15 +142,11 @@ def _tones(sheet: DataSheet) -> tuple[Text | Table, ...]:
     return *without_noise, table, *((Text(some),) if some else ())
 
 
-def _audibility(sheet: DataSheet) -> tuple[Text, ...]:
+def _audibility(sheet: DataSheet) -> Text:
     """Return the audibility of the most audible tone and its adjustment."""
-    if sheet.audibility_db is None or sheet.tonal_adjustment_db is None:
-        return ()
-    return (
-        Text(
-            f"Largest audibility of a tone (ISO/PAS 20065): {rounding.fixed(sheet.audibility_db)} "
-            f"dB; adjustment {sheet.tonal_adjustment_db:g} dB (ISO 1996-2)."
-        ),
+    return Text(
+        f"Largest audibility of a tone (ISO/PAS 20065): {rounding.fixed(sheet.audibility_db)} "
+        f"dB; adjustment {sheet.tonal_adjustment_db:g} dB (ISO 1996-2)."
     )
 
 

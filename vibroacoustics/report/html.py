@@ -4,10 +4,11 @@ import base64
 import hashlib
 import re
 from collections.abc import Sequence
+from functools import cache
 from importlib import resources
 from typing import Final
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup, escape
 
 from ..base.visible import visible
@@ -18,6 +19,32 @@ from .live.assets import blind_script, live_script, live_style, packed, unpackin
 
 def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = "") -> bytes:
     """Return a page; all figures and the style are inside, nothing is loaded from elsewhere."""
+    style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")
+    unpacking, script = "", ""
+    blocks = (block for part in parts for block in part.blocks)
+    live = next((block for block in blocks if isinstance(block, Live)), None)
+    if live is not None:
+        style += live_style(live.panel)
+        unpacking, script = unpacking_script(), live_script(live.panel)
+    blind = blind_script() if any(_blind(parts)) else ""
+    page = _template().render(
+        title=title,
+        about=about,
+        parts=parts,
+        contents=() if any(part.folded for part in parts[1:]) else parts[1:],
+        style=style,
+        unpacking=unpacking,
+        packed=packed(script.encode()),
+        blind=blind,
+        policy=_policy(style, unpacking, script, blind, plays=bool(_blind(parts))),
+        results_sha256=results_sha256,
+    )
+    return visible(page).encode()
+
+
+@cache
+def _template() -> Template:
+    """Template of a page, compiled once."""
     environment = Environment(
         loader=PackageLoader("vibroacoustics.report"),
         autoescape=True,
@@ -33,28 +60,7 @@ def html(title: str, about: str, parts: Sequence[Part], results_sha256: str = ""
         "rendered": rendered,
         "script_data": _script_data,
     }
-    style = resources.files(__package__).joinpath("templates/style.css").read_text("utf-8")
-    unpacking, script = "", ""
-    blocks = (block for part in parts for block in part.blocks)
-    live = next((block for block in blocks if isinstance(block, Live)), None)
-    if live is not None:
-        style += live_style(live.panel)
-        unpacking, script = unpacking_script(), live_script(live.panel)
-    blind = blind_script() if any(_blind(parts)) else ""
-    template = environment.get_template("report.html.j2")
-    page = template.render(
-        title=title,
-        about=about,
-        parts=parts,
-        contents=() if any(part.folded for part in parts[1:]) else parts[1:],
-        style=style,
-        unpacking=unpacking,
-        packed=packed(script.encode()),
-        blind=blind,
-        policy=_policy(style, unpacking, script, blind, plays=bool(_blind(parts))),
-        results_sha256=results_sha256,
-    )
-    return visible(page).encode()
+    return environment.get_template("report.html.j2")
 
 
 def _blind(parts: Sequence[Part]) -> list[bool]:

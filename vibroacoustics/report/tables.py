@@ -68,9 +68,16 @@ def data_table(dims: Sequence[str], columns: Mapping[str, xr.DataArray]) -> Data
 
     Each column is over some of the dimensions.
     """
-    arrays = xr.broadcast(*columns.values())
-    values = [array.transpose(*dims).values.ravel().tolist() for array in arrays]
-    return dict(zip(columns, values, strict=True))
+    sizes = {dim: size for array in columns.values() for dim, size in array.sizes.items()}
+    shape = [sizes[dim] for dim in dims]
+    values = {}
+    for name, array in columns.items():
+        kept = [dim for dim in dims if dim in array.dims]
+        beside = array.variable.transpose(*kept).values.reshape(
+            [sizes[dim] if dim in kept else 1 for dim in dims]
+        )
+        values[name] = np.broadcast_to(beside, shape).ravel().tolist()
+    return values
 
 
 def records(table: DataTable) -> list[Record]:

@@ -14,7 +14,6 @@ import platformdirs
 from ..base.errors import StorageError
 from ..base.folder import Folder, make_folder, opened_folder
 from .files import naming, replace_all, staging, write
-from .hashed import hash_path
 from .lock import is_held, locked, taken
 
 DEFAULT_LIMIT_BYTES: Final = 2_000_000_000
@@ -23,11 +22,11 @@ _MAXIMUM_LIMIT_BYTES: Final = 100
 _MAXIMUM_STUDY_BYTES: Final = 10_000
 RUN: Final = "run-"
 """First part of the name of a folder that holds what an interrupted run has computed."""
-_LEFTOVERS: Final = ("*.nc.lock", ".*.nc*", "*.nc.sha256", "*.nc.study", f"{RUN}*.lock")
+_LEFTOVERS: Final = ("*.nc.lock", ".*.nc*", "*.nc.study", f"{RUN}*.lock")
 
 
 class Entry(NamedTuple):
-    """A cached result: file, size, when it was last used, s since 1970, and title of its study.
+    """A cached result: file, size with those beside it, last use, s since 1970, title of its study.
 
     The title is empty where it is unknown. A folder of an interrupted run is an entry, too.
     """
@@ -112,18 +111,34 @@ def entries(cache_folder: Folder) -> list[Entry]:
     for name in os.listdir(cache_folder.descriptor):
         status = cache_folder.status(name)  # none where another process takes it away
         if name.endswith(".nc") and status is not None and stat.S_ISREG(status.st_mode):
-            listed.append(Entry(name, status.st_size, status.st_mtime, _study(cache_folder, name)))
+            size = sum(_size(cache_folder, each) for each in _files_of(name))
+            listed.append(Entry(name, size, status.st_mtime, _study(cache_folder, name)))
         if name.startswith(RUN) and status is not None and stat.S_ISDIR(status.st_mode):
-            size = _size_below(cache_folder, name)
+            size = _size(cache_folder, name)
             listed.append(Entry(name, size, status.st_mtime, "interrupted run"))
     return sorted(listed, key=lambda entry: entry.used_s)
 
 
-def _size_below(cache_folder: Folder, name: str) -> int:
-    """Size of the files in a folder, bytes."""
+def size_bytes(cache_folder: Folder) -> int:
+    """Size of all that is in the cache, unfinished files too, but locks and its limit, bytes."""
+    names = os.listdir(cache_folder.descriptor)
+    kept = (name for name in names if name != LIMIT_NAME and not name.endswith(".lock"))
+    return sum(_size(cache_folder, name) for name in kept)
+
+
+def _size(cache_folder: Folder, name: str) -> int:
+    """Size of a file, or of those in a folder, bytes; 0 where another process takes it away."""
+    status = cache_folder.status(name)
+    if status is None or not stat.S_ISDIR(status.st_mode):
+        return 0 if status is None else status.st_size
     with suppress(OSError, StorageError), cache_folder.below(name) as folder:
-        return sum(status.st_size for file in folder.files() if (status := folder.status(file)))
+        return folder.size_bytes()
     return 0
+
+
+def _files_of(name: str) -> tuple[str, ...]:
+    """Files of an entry."""
+    return name, study_of(name)
 
 
 def study_of(name: str) -> str:
@@ -167,6 +182,23 @@ def tidy(cache_folder: Folder) -> list[Entry]:
     return _shrink(cache_folder, limit_bytes(cache_folder))
 
 
+def make_room(cache_folder: Folder, size: int, written: int = 0) -> bool:
+    """Remove what `tidy` removes, so that a further entry keeps the limit; whether it does.
+
+    Parameters
+    ----------
+    cache_folder : folder of the cache
+    size : size of the entry, bytes
+    written : bytes of the entry that are in the cache already, hidden
+    """
+    limit = limit_bytes(cache_folder)
+    fits = size <= limit
+    others = limit + written - (size if fits else 0)
+    _remove_leftovers(cache_folder)
+    _shrink(cache_folder, others)
+    return fits and size_bytes(cache_folder) <= others
+
+
 def clear(cache_folder: Folder) -> list[Entry]:
     """Remove every entry and what the dead left; returns the entries."""
     _remove_leftovers(cache_folder)
@@ -174,17 +206,16 @@ def clear(cache_folder: Folder) -> list[Entry]:
 
 
 def _shrink(cache_folder: Folder, limit: int) -> list[Entry]:
-    present = entries(cache_folder)
-    size = sum(entry.size_bytes for entry in present)
+    size = size_bytes(cache_folder)
     removed = []
-    for entry in present:
+    for entry in entries(cache_folder):
         if size <= limit:
             break
         with ExitStack() as stack:
             lock = lock_of(entry.name)
             if entry.name.startswith(RUN) and not stack.enter_context(taken(cache_folder, lock)):
                 continue  # the run goes on
-            for name in (entry.name, _hash_of(entry.name), study_of(entry.name)):
+            for name in _files_of(entry.name):
                 _remove_any(cache_folder, name)
         size -= entry.size_bytes
         removed.append(entry)
@@ -202,7 +233,7 @@ def _remove_leftovers(cache_folder: Folder) -> None:
         lock = lock_of(entry)
         if name == lock and is_held(cache_folder, lock):
             continue
-        if name in (_hash_of(entry), study_of(entry)) and cache_folder.holds_file(entry):
+        if name == study_of(entry) and cache_folder.holds_file(entry):
             continue
         with taken(cache_folder, lock) as held:
             if held and name != lock:
@@ -215,8 +246,15 @@ def _remove_any(cache_folder: Folder, name: str) -> None:
         cache_folder.remove(name)
 
 
-def _hash_of(name: str) -> str:
-    return hash_path(Path(name)).name
+def warn_of_limit(cache_folder: Folder) -> None:
+    """Warn that a result is not kept, in one text for all; not where the limit is 0."""
+    limit = limit_bytes(cache_folder)
+    if limit:
+        warnings.warn(
+            f"cache {folder()}: a result does not fit its limit of {limit / 1e6:g} MB and is not "
+            "kept; raise it by: vibroacoustics cache --limit GB",
+            stacklevel=4,
+        )
 
 
 def warn(error: StorageError) -> None:

@@ -153,9 +153,9 @@ class DataSheet(_Part):
     """Share of the weighted samples with some prominent tone, at the microphone with the most."""
     tones_not_judged: int
     """Audible tones in whose critical band there is no noise at any microphone."""
-    audibility_db: Level = None
+    audibility_db: float
     """Largest decisive audibility of the tones at any microphone (ISO/PAS 20065), -10 to 60."""
-    tonal_adjustment_db: Level = None
+    tonal_adjustment_db: float
     """Adjustment for it (ISO 1996-2, table J.1)."""
     windows: tuple[RatedWindow, ...] = ()
     """Rating levels at the windows of the study."""

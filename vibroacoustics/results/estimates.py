@@ -196,6 +196,8 @@ def sample_numbers(results: xr.Dataset) -> SampleNumbers:
 
 def estimated(results: xr.Dataset, statistics: xr.Dataset) -> xr.Dataset:
     """Return results with statistics of samples in place of nominal values, which stay beside."""
+    if not statistics.variables:
+        return results
     kept = {
         f"{name}{SUFFIXES[NOMINAL]}": _nominal(results, name)
         for name in map(str, statistics.data_vars)

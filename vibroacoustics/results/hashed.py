@@ -16,7 +16,6 @@ from ..base.hashing import file_sha256, sha256
 from ..base.regular_file import opened
 
 _LINE: Final = re.compile(rb"\nvibroacoustics sha256 ([0-9a-f]{64})\n")
-_MAXIMUM_HASH_BYTES: Final = 4096
 MAXIMUM_RESULTS_BYTES: Final = 2 * 2**30
 """Largest size of a results file, and of what it holds once it is read."""
 _LENGTH: Final = len(b"\nvibroacoustics sha256 \n") + 64
@@ -51,39 +50,25 @@ def read_checked(path: Path, folder: Folder | None = None) -> Checked:
     StorageError
         The file is missing, has no hash, or does not match it.
     """
-    beside = hash_beside(
-        path, folder
-    )  # before the content: who replaces that takes this away afterwards
     body, end = _read(path, folder)
     line = _LINE.fullmatch(end)
-    stored = line[1].decode() if line else beside
-    if stored is None:
-        raise StorageError(f"{path}: has no hash: it is damaged or no result; run the study again")
     if line is None:
-        body += end
+        raise StorageError(f"{path}: has no hash: it is damaged or no result; run the study again")
+    stored = line[1].decode()
     if sha256(body) != stored:
         raise StorageError(f"{path}: content does not match its hash; run the study again")
     return Checked(body, stored)
 
 
 def stored_hash(path: Path, folder: Folder | None = None) -> str | None:
-    """Hash that stands in a file or, of earlier versions, beside it; None where there is none."""
+    """Hash that a file holds; None where it has none."""
     try:
         with _opened(path, folder, MAXIMUM_RESULTS_BYTES) as file:
             file.seek(-min(_LENGTH, os.fstat(file.fileno()).st_size), os.SEEK_END)
             line = _LINE.fullmatch(file.read())
     except (OSError, StorageError):
         return None
-    return line[1].decode() if line else hash_beside(path, folder)
-
-
-def hash_beside(path: Path, folder: Folder | None = None) -> str | None:
-    """Hash in `NAME.sha256`, as earlier versions wrote it; None where there is none."""
-    try:
-        with _opened(hash_path(path), folder, _MAXIMUM_HASH_BYTES) as file:
-            return file.read().split(b" ")[0].decode("ascii", "replace")
-    except (OSError, StorageError):
-        return None
+    return line[1].decode() if line else None
 
 
 def _opened(
@@ -92,11 +77,6 @@ def _opened(
     if folder is None:
         return opened(path, maximum_bytes)
     return folder.opened(str(path.relative_to(folder.path)), maximum_bytes)
-
-
-def hash_path(path: Path) -> Path:
-    """File beside another where earlier versions wrote its hash."""
-    return path.with_name(path.name + ".sha256")
 
 
 def _read(path: Path, folder: Folder | None) -> tuple[bytes, bytes]:

@@ -85,8 +85,6 @@ def replacing(path: Path, dataset: str, dataset_sha256: str = "") -> Iterator[St
         write(staged, MANIFEST_NAME, _MANIFEST.dump_json(after, indent=1) + b"\n")
         with uninterrupted():
             replace_all(staged, first=MANIFEST_NAME)  # killed from here on: it is seen
-            if not dataset_sha256:
-                _remove(folder, hashed.hash_path(Path(dataset)).name)  # earlier versions'
             for name, digest in older.items():
                 if _hash(folder, name) == digest:
                     _remove(folder, name)

@@ -23,6 +23,8 @@ from .scatter import Scatter, by_specimen, scatter
 
 RUNS: Final = "runs"
 """Attribute that lists file, specimen, speed and remarks of every run, as JSON."""
+OMITTED: Final = "omitted"
+"""Attribute with the reason by file of every recording that is omitted, as JSON."""
 LEVELS: Final = {"equivalent_level": "equivalent", "band_level": "band"}
 _PARTS: Final = ("run_deviation", "specimen_deviation", "mean_uncertainty", "mean_interval")
 _OF_ONE_FILE: Final = (
@@ -130,6 +132,11 @@ def with_scatter(compared: xr.Dataset, mean: xr.Dataset) -> xr.Dataset:
 def runs_of(result: xr.Dataset) -> list[dict[str, str]]:
     """File and specimen of each run; none of a single result."""
     return list(json.loads(result.attrs.get(RUNS, "[]")))
+
+
+def omitted_of(result: xr.Dataset) -> dict[str, str]:
+    """Reason by file of each recording that the mean omits."""
+    return dict(json.loads(result.attrs.get(OMITTED, "{}")))
 
 
 def _selections(runs: Sequence[xr.Dataset]) -> list[dict[str, Any]]:

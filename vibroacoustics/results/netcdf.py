@@ -136,12 +136,15 @@ def _attributes(results: xr.Dataset) -> list[dict[Any, Any]]:
 
 
 def _split_complex(results: xr.Dataset) -> xr.Dataset:
-    variables = results.data_vars.items()
-    complex_valued = {str(name): array for name, array in variables if np.iscomplexobj(array.data)}
+    variables = {str(name): results.variables[name] for name in results.data_vars}
+    complex_valued = {n: each for n, each in variables.items() if np.iscomplexobj(each.data)}
     parts = {}
-    for name, array in complex_valued.items():
-        parts[f"{name}{REAL_SUFFIX}"] = array.real.assign_attrs(array.attrs)
-        parts[f"{name}{IMAGINARY_SUFFIX}"] = array.imag.assign_attrs(array.attrs)
+    for name, variable in complex_valued.items():  # variables are not aligned, arrays are
+        for suffix, part in (
+            (REAL_SUFFIX, variable.values.real),
+            (IMAGINARY_SUFFIX, variable.values.imag),
+        ):
+            parts[f"{name}{suffix}"] = xr.Variable(variable.dims, part, variable.attrs)
     return results.drop_vars(list(complex_valued)).assign(parts)
 
 
@@ -152,12 +155,12 @@ def _join_complex(split: xr.Dataset) -> xr.Dataset:
     for stem in stems:
         pair = [f"{stem}{REAL_SUFFIX}", f"{stem}{IMAGINARY_SUFFIX}"]
         if pair[1] in split:
-            joined[stem] = _joined(*(split[name] for name in pair))
+            joined[stem] = _joined(*(split.variables[name] for name in pair))
             parts += pair
     return split.drop_vars(parts).assign(joined)
 
 
-def _joined(real: xr.DataArray, imaginary: xr.DataArray) -> xr.DataArray:
+def _joined(real: xr.Variable, imaginary: xr.Variable) -> xr.Variable:
     joined = np.empty(real.shape, dtype=complex)  # a sum would lose -0.0 and infinities
     joined.real, joined.imag = real.values, imaginary.values
     return real.copy(data=joined)
@@ -165,7 +168,5 @@ def _joined(real: xr.DataArray, imaginary: xr.DataArray) -> xr.DataArray:
 
 def _plain_text(results: xr.Dataset) -> xr.Dataset:
     """Text that was read as Python objects as arrays of `str`, as it was written."""
-    texts = [name for name, variable in results.variables.items() if variable.dtype == object]
-    return results.assign_coords(
-        {name: results[name].astype(str).assign_attrs(results[name].attrs) for name in texts}
-    )
+    texts = {name: text for name, text in results.variables.items() if text.dtype == object}
+    return results.assign_coords({name: text.astype(str) for name, text in texts.items()})

@@ -5,10 +5,13 @@ of some seconds. One that is damaged is removed, and its pieces are computed aga
 """
 
 import json
+import re
 import time
 import warnings
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from operator import index
 from typing import Any, Final
 
 from ..base.errors import StorageError
@@ -20,6 +23,7 @@ from .files import STAGING_NAME, replace_all, staging, write
 from .hashed import hash_line, read_checked
 
 _FIRST: Final = "pieces_"
+_NAME: Final = re.compile(_FIRST + r"\d{8}\.bin")
 BATCH_S: Final = 10.0
 """Longest time between two files, but for the piece that is in work."""
 _BATCH_BYTES: Final = 64_000_000
@@ -41,7 +45,8 @@ class PieceFiles:
         self._batch_bytes, self._written_s = 0, clock()
         self._files: dict[str, str] = {}
         self._last: tuple[str, dict[str, bytes]] = "", {}
-        self._names = sorted(name for name in folder.files() if name.startswith(_FIRST))
+        self._has_warned = False
+        self._names = sorted(filter(_NAME.fullmatch, folder.files()))
         for name in self._names:
             self._take_in(name)
 
@@ -94,15 +99,27 @@ class PieceFiles:
         self._batch, self._batch_bytes, self._written_s = {}, 0, self._clock()
 
     def each_once(
-        self, items: Iterable[Item], stream: Stream[Item, Result], key_of: Callable[[Item], str]
+        self,
+        items: Iterable[Item],
+        stream: Stream[Item, Result],
+        key_of: Callable[[Item], str],
+        fits: Callable[[Item, Any], bool] = lambda *_: True,
     ) -> Iterator[Result]:
-        """Give the pieces of items in their order; a stream computes those that are not stored."""
+        """Give the pieces of items in their order; a stream computes those that are not stored.
+
+        Parameters
+        ----------
+        items : items
+        stream : function that computes pieces, in the order of their items
+        key_of : function that gives the key of an item
+        fits : function that says whether an item may have a piece; others are computed again
+        """
         waiting: deque[tuple[str, bool]] = deque()
 
         def missing() -> Iterator[Item]:
             for item in items:
                 key = key_of(item)
-                waiting.append((key, key in self))
+                waiting.append((key, key in self and self._is_sound(key, item, fits)))
                 if not waiting[-1][1]:
                     yield item
 
@@ -115,6 +132,27 @@ class PieceFiles:
             self.put(waiting.popleft()[0], piece)
             yield piece
         yield from stored_next()
+
+    def _is_sound(self, key: str, item: Item, fits: Callable[[Item, Any], bool]) -> bool:
+        """Whether the piece of an item can be read and fits; others are forgotten, with a warning.
+
+        Any content may have the right hash.
+        """
+        with suppress(Exception):  # of bytes of any form
+            if fits(item, from_bytes(self._content(key))):
+                return True
+        self.set_aside([key])
+        return False
+
+    def set_aside(self, keys: Iterable[str]) -> None:
+        """Forget pieces that do not fit; one warning says that they are computed again."""
+        if not self._has_warned:
+            where = f"{self._folder.path}: stored results do not fit"
+            warnings.warn(f"{where}; they are computed again", stacklevel=4)
+        self._has_warned = True
+        for key in list(keys):
+            self._batch.pop(key, None)
+            self._files.pop(key, None)
 
     def _content(self, key: str) -> bytes:
         if key in self._batch:
@@ -135,9 +173,15 @@ class PieceFiles:
 
     def _read(self, name: str) -> dict[str, bytes]:
         content = read_checked(self._folder.path / name, self._folder).content
-        begin = content.index(b"\n") + 1
+        begin = content.find(b"\n") + 1
+        try:
+            sizes = {key: index(size) for key, size in json.loads(content[:begin]).items()}
+        except (ValueError, TypeError, AttributeError, RecursionError):
+            sizes = {"": -1}
+        if min(sizes.values(), default=0) < 0 or sum(sizes.values()) != len(content) - begin:
+            raise StorageError(f"{self._folder.path / name}: holds no pieces")
         pieces = {}
-        for key, size in json.loads(content[:begin]).items():
+        for key, size in sizes.items():
             pieces[key] = content[begin : begin + size]
             begin += size
         return pieces

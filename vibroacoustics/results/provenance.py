@@ -1,6 +1,5 @@
 """Provenance of a result: software, versions, parameters, time."""
 
-import subprocess
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -8,11 +7,13 @@ from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from subprocess import SubprocessError
 from typing import TYPE_CHECKING, Any, Final
 
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import VibroacousticsError
 from ..base.hashing import canonical_json, sha256
+from ..base.process_start import run_program
 from ..base.registry import plugins
 from ..recordings.reader import READERS
 
@@ -113,6 +114,7 @@ def software_attributes(command: str, schema_version: str = SCHEMA_VERSION) -> d
     }
 
 
+@cache
 def software_version() -> str:
     """Version of this package."""
     return version("vibroacoustics")
@@ -135,17 +137,17 @@ def git_revision() -> str:
     try:
         _git("ls-files", "--error-unmatch", Path(__file__).name)
         return _git("describe", "--always", "--dirty", "--abbrev=12")
-    except (OSError, subprocess.SubprocessError):
+    except (OSError, SubprocessError):
         return "unknown"
 
 
 def _git(*arguments: str) -> str:
-    command = ["git", "-C", str(Path(__file__).resolve().parent), *arguments]
-    return subprocess.run(  # noqa: S603 - fixed command
-        command, capture_output=True, text=True, timeout=5, check=True
-    ).stdout.strip()
+    done = run_program(["git", *arguments], Path(__file__).resolve().parent, timeout_s=5.0)
+    done.check_returncode()
+    return done.stdout.decode().strip()
 
 
+@cache
 def _version(name: str) -> str:
     try:
         return version(name)

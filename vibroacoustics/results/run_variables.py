@@ -58,8 +58,8 @@ def check_variables(results: xr.Dataset) -> None:
     """
     declared_results = check_known(results)
     check(declared_results, needed_variables(declared_results))
-    for variable in declared_results.data_vars.values():
-        _check_dimensions(declared_results, variable)
+    for name in declared_results.data_vars:
+        _check_dimensions(declared_results, str(name))
     _check_labels(declared_results)
 
 
@@ -75,10 +75,10 @@ def check_known(results: xr.Dataset) -> xr.Dataset:
     third_party = [name for name in results.data_vars if name not in VARIABLES]
     third_party += [name for name in results.coords if name not in COORDINATES]
     checked = check(results.drop_vars(third_party))
-    for coordinate in checked.coords.values():
-        _check_coordinate(coordinate)
-    for name, variable in checked.data_vars.items():
-        VARIABLES[str(name)].check_numbers(variable)
+    for name in checked.coords:
+        _check_coordinate(str(name), checked.variables[name])
+    for name in checked.data_vars:
+        VARIABLES[str(name)].check_numbers(checked.variables[name])
     return checked
 
 
@@ -90,24 +90,22 @@ def needed_variables(results: xr.Dataset) -> tuple[str, ...]:
     return tuple(chain(_RULES["variables_of_a_run"], several, *groups, *beside))
 
 
-def _check_coordinate(array: xr.DataArray) -> None:
-    declared = COORDINATES[str(array.name)]
+def _check_coordinate(name: str, array: xr.Variable) -> None:
+    declared = COORDINATES[name]
     if array.dims != declared.dims:
-        raise SchemaError(
-            f"coordinate {array.name}: dims are {array.dims}, must be {declared.dims}"
-        )
+        raise SchemaError(f"coordinate {name}: dims are {array.dims}, must be {declared.dims}")
     if declared.is_text and array.dtype.kind != "U":
-        raise SchemaError(f"coordinate {array.name} holds no text")
+        raise SchemaError(f"coordinate {name} holds no text")
     if not declared.is_text:
         declared.check_numbers(array)
-    if array.dims == (array.name,) and np.unique(array.values).size < array.size:
-        raise SchemaError(f"coordinate {array.name} holds a label twice")
+    if array.dims == (name,) and np.unique(array.values).size < array.size:
+        raise SchemaError(f"coordinate {name} holds a label twice")
 
 
-def _check_dimensions(results: xr.Dataset, array: xr.DataArray) -> None:
-    name = str(array.name)
+def _check_dimensions(results: xr.Dataset, name: str) -> None:
+    array = results.variables[name]
     for coordinate in (*array.dims, *COORDINATES_OF.get(name, ())):
-        if coordinate not in results.coords or not results[coordinate].size:
+        if coordinate not in results.coords or not results.variables[coordinate].size:
             raise SchemaError(f"coordinate {coordinate} of {name} is missing or empty")
     for attribute in _RULES["attributes_of"].get(name, ()):
         if not isinstance(array.attrs.get(attribute), str):

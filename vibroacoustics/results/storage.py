@@ -5,7 +5,7 @@ written beside its name, gets its hash as the last line, and then takes its name
 """
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from contextvars import ContextVar
 from pathlib import Path
@@ -21,7 +21,7 @@ from . import cache, hashed
 from .files import Staging, naming, only_writer, replace_all, staging, write
 from .lock import locked
 from .netcdf import from_bytes, write_netcdf
-from .version_2 import of_this_version
+from .provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
 
 _CACHE_IS_USED: Final = ContextVar("_CACHE_IS_USED", default=True)
 
@@ -41,7 +41,6 @@ def write_results(results: xr.Dataset, path: str | Path) -> Path:
     with only_writer(path.parent) as staged:
         stage_results(results, staged, path.name)
         replace_all(staged)
-        staged.target.remove(hashed.hash_path(path).name)  # of an earlier version
     return path
 
 
@@ -67,12 +66,13 @@ def open_results(path: str | Path) -> xr.Dataset:
 
     Parameters
     ----------
-    path : file that a command or `write_report` wrote; its hash lies beside it
+    path : file that a command or `write_report` wrote
 
     Raises
     ------
     StorageError
-        The file is missing, has no hash, does not match it, or is no netCDF.
+        The file is missing, has no hash, does not match it, is no netCDF, or is of another
+        version.
 
     Examples
     --------
@@ -84,16 +84,45 @@ def open_results(path: str | Path) -> xr.Dataset:
 
 
 def open_with_hash(path: str | Path) -> tuple[xr.Dataset, str]:
-    """`open_results`, and the hash of what was read; a run of version 2 is raised."""
+    """`open_results`, and the hash of what was read."""
     path = Path(path)
     content, digest = hashed.read_checked(path)
-    return of_this_version(from_bytes(content, path), path), digest
+    results = from_bytes(content, path)
+    if "schema_version" in results.attrs:
+        versions = (SCHEMA_VERSION, RECORDING_SCHEMA_VERSION)
+        check_version(results, path, () if "criterion_value" in results else versions)
+    return results, digest
+
+
+def check_version(results: xr.Dataset, path: str | Path, further: Sequence[str] = ()) -> None:
+    """Refuse results that another version of the package wrote.
+
+    Parameters
+    ----------
+    results : orders of a recording, or other results
+    path : file that they are from
+    further : versions of the schema that are allowed beside that of such results
+
+    Raises
+    ------
+    StorageError
+        The attribute `schema_version` is missing or another.
+    """
+    recorded = "channel_order" in results
+    allowed = RECORDING_SCHEMA_VERSION if recorded else SCHEMA_VERSION
+    version = results.attrs.get("schema_version")
+    if version not in (allowed, *further):
+        again = "orders RECORDING" if recorded else "run STUDY.toml"
+        raise StorageError(
+            f"{path}: schema_version = {version}: is no result of this version, {allowed}; make it "
+            f"again: vibroacoustics {again}"
+        )
 
 
 def results_in(folder: Folder, name: str) -> xr.Dataset:
     """`open_results` of a file of a folder, which is no link to another."""
     path = folder.path / name
-    return of_this_version(from_bytes(hashed.read_checked(path, folder).content, path), path)
+    return from_bytes(hashed.read_checked(path, folder).content, path)
 
 
 @contextmanager
@@ -189,9 +218,11 @@ def _keep(result: xr.Dataset, folder: Folder, name: str, study: str) -> None:
             stage_results(result, staged, name)
             if study:
                 write(staged, cache.study_of(name), study.encode())
+            size = staged.size_bytes()
+            with naming(folder.path):
+                if not cache.make_room(folder, size, written=size):
+                    cache.warn_of_limit(folder)
+                    return
             replace_all(staged)
-            folder.remove(hashed.hash_path(Path(name)).name)
-        with naming(folder.path):
-            cache.tidy(folder)
     except StorageError as error:
         cache.warn(error)

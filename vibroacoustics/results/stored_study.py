@@ -65,7 +65,7 @@ def other_receivers(results: xr.Dataset) -> list[str]:
 def operating_points(results: xr.Dataset) -> tuple[str | None, str | None]:
     """Operating point at which the machine runs, and that of its overall noise; none for no name.
 
-    They are none where the values of the machine's file hold; files of older versions have none.
+    They are none where the values of the machine's file hold.
     """
     study = parameters(results)
     runs_at = study.get("operation", {}).get("point")

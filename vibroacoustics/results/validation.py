@@ -71,7 +71,7 @@ class Validation:
 
 
 def validations(results: xr.Dataset) -> list[Validation]:
-    """Return all that is published of what the results hold; none in those of earlier versions."""
+    """Return all that is published of what the results hold; none where nothing is."""
     if "evidence_data" not in results:
         return []
     columns = [results[f"evidence_{part.name}"].values.tolist() for part in fields(Validation)]

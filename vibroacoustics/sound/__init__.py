@@ -2,15 +2,16 @@
 
 >>> results = va.open_results("results.nc")
 >>> parts = va.sound.ingredients(results, "none", "front_1m", 2900.0)
->>> pressure_pa = va.sound.rendered(parts, va.sound.whole_revolutions(2.0, 2900.0, 48000))
->>> strongest = va.sound.tones(va.sound.tonal_spectrum(parts))[0]
+>>> pressure_pa = va.sound.rendered(parts, va.sound.whole_revolutions(4.0, 2900.0, 48000))
+>>> bands = va.sound.narrow_bands(pressure_pa, 48000)
+>>> tones = va.sound.tones(va.sound.recorded_spectrum(bands))
 """
 
 from .ingredients import Ingredients, SoundBands, SoundLines, ingredients
 from .loudness import Loudness, loudness_of, recorded_loudness
 from .recorded import NarrowBands, narrow_bands, recorded_spectrum
 from .rendering import rendered, whole_revolutions
-from .tonality import TonalSpectrum, Tone, prominent, tonal_spectrum, tones
+from .tonality import TonalSpectrum, Tone, prominent, tones
 
 __all__ = [
     "Ingredients",
@@ -27,7 +28,6 @@ __all__ = [
     "recorded_loudness",
     "recorded_spectrum",
     "rendered",
-    "tonal_spectrum",
     "tones",
     "whole_revolutions",
 ]

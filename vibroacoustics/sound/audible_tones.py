@@ -117,16 +117,19 @@ def mean_noise_lines(
     around_db, is_left = level_db[line], line < tone[:, None]
     power = power_of_level(around_db)
     mean_db = _mean_db(power, is_noise)
-    pending = np.ones(tone.size, dtype=bool)
-    while pending.any():
-        kept = is_noise & (around_db <= mean_db[:, None] + TONE_MARGIN_DB)
-        below = np.sum(kept & is_left, axis=1)
+    pending = np.arange(tone.size)
+    while pending.size:
+        limit_db = mean_db[pending, None] + TONE_MARGIN_DB
+        kept = is_noise[pending] & (around_db[pending] <= limit_db)
+        below = np.sum(kept & is_left[pending], axis=1)
         enough = np.minimum(below, np.sum(kept, axis=1) - below) >= FEWEST_LINES
-        pending &= enough & np.any(kept != is_noise, axis=1)
-        is_noise[pending] = kept[pending]
-        new_db = np.where(pending, _mean_db(power, is_noise), mean_db)
-        pending &= np.abs(new_db - mean_db) > _SETTLED_DB
-        mean_db = new_db
+        changed = enough & np.any(kept != is_noise[pending], axis=1)
+        pending, kept = pending[changed], kept[changed]
+        is_noise[pending] = kept
+        new_db = _mean_db(power[pending], kept)
+        is_unsettled = np.abs(new_db - mean_db[pending]) > _SETTLED_DB
+        mean_db[pending] = new_db
+        pending = pending[is_unsettled]
     return mean_db, is_noise, line
 
 

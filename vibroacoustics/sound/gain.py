@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ..base.allowed import check_range
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import amplitude_of_level
 from ..base.remembered import remembered
@@ -50,7 +51,14 @@ def _peak(sound: Ingredients) -> float:
 
 
 def peak_of_tone(level_db: float) -> float:
-    """Peak of a tone of a level, Pa."""
+    """Peak of a tone of calibration, Pa.
+
+    Raises
+    ------
+    ParameterError
+        The level is not 0 to 140 dB.
+    """
+    check_range("calibration", level_db, 0.0, 140.0, "dB")
     return float(np.sqrt(2.0) * REFERENCE_PRESSURE_PA * amplitude_of_level(level_db))
 
 

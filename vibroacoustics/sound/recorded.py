@@ -20,6 +20,8 @@ SEGMENTS: Final = 3
 """Segments of a short recording: fewer would leave single lines of noise that stand out like
 tones."""
 SHORTEST_S: Final = 3.0
+LOWEST_RATE_HZ: Final = 200.0
+"""Twice the upper edge of the lowest critical band."""
 STANDS_OUT: Final = 4.0
 """Power of a tone's lines over the median of its critical band: 6 dB."""
 WIDEST: Final = 0.15
@@ -40,6 +42,8 @@ _HOPS: Final = 8
 constant."""
 _FADE_S: Final = 0.05
 """Fade at both ends, where a step would be heard as noise of all frequencies."""
+_LARGEST_SINGLE_PA: Final = 1e15
+"""Largest pressure whose lines single precision holds: their squares stay below 3e38."""
 
 
 @dataclass(frozen=True)
@@ -89,11 +93,15 @@ def narrow_bands(pressure_pa: Array, sample_rate_hz: float) -> NarrowBands:
     Raises
     ------
     ParameterError
-        The recording is shorter than 3 s.
+        The recording is shorter than 3 s, or its sample rate below twice the lowest critical band.
     """
     duration = pressure_pa.size / sample_rate_hz
     if duration < SHORTEST_S:
         raise ParameterError(f"recording of {duration:.3g} s: tones need at least {SHORTEST_S:g} s")
+    if sample_rate_hz < LOWEST_RATE_HZ:
+        raise ParameterError(
+            f"sample rate = {sample_rate_hz:g} Hz: tones need at least {LOWEST_RATE_HZ:g} Hz"
+        )
     hop = round(min(SEGMENT_S, duration / SEGMENTS) * sample_rate_hz / _HOPS)
     length = _HOPS * hop
     window = scipy.signal.get_window("blackmanharris", length)
@@ -102,7 +110,8 @@ def narrow_bands(pressure_pa: Array, sample_rate_hz: float) -> NarrowBands:
     pressure = np.pad(fade * (pressure_pa - np.mean(pressure_pa)), length)
     starts = range(hop, pressure.size - length, hop)
     share = np.array([window**2 @ weight[start : start + length] for start in starts])
-    segments = np.empty((share.size, length // 2 + 1), dtype=np.float32)
+    is_huge = np.max(np.abs(pressure), initial=0.0) > _LARGEST_SINGLE_PA
+    segments = np.empty((share.size, length // 2 + 1), dtype=float if is_huge else np.float32)
     for row, start in enumerate(starts):
         lines = np.abs(np.fft.rfft(window * pressure[start : start + length])) ** 2
         segments[row] = 2.0 * lines / (length * share[row])

@@ -5,8 +5,8 @@ from typing import Final
 import numpy as np
 from scipy import fft
 
+from ..base.allowed import check_range
 from ..base.arrays import Array
-from ..base.errors import ParameterError
 from ..base.units import shaft_frequency_hz
 from ..levels.by_source import weighting_power
 from .ingredients import HALF_BAND, Ingredients, SoundBands, SoundLines
@@ -31,10 +31,7 @@ def whole_revolutions(duration_s: float, speed_rpm: float, sample_rate_hz: int) 
     ParameterError
         The duration is shorter than a second or longer than ten minutes.
     """
-    if not SHORTEST_S <= duration_s <= LONGEST_S:
-        raise ParameterError(
-            f"duration = {duration_s:g} s: must be between {SHORTEST_S:g} and {LONGEST_S:g} s"
-        )
+    check_range("duration", duration_s, SHORTEST_S, LONGEST_S, "s")
     if speed_rpm <= 0.0:
         return round(duration_s * sample_rate_hz)
     shaft_hz = shaft_frequency_hz(speed_rpm)

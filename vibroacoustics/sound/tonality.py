@@ -19,7 +19,6 @@ from .critical_bands import (
     noise_criterion_db,
     prominence_criterion_db,
 )
-from .ingredients import HALF_BAND, Ingredients
 from .prominence import belonging, strongest
 
 
@@ -33,7 +32,7 @@ class TonalSpectrum:
     noise : mean square of the noise between two frequencies, without the tones, Pa²
     name : name of the tones
     share, swing_db : share of the time that each tone sounds, and how its level swings meanwhile,
-        shape (tone,); computed tones are steady
+        shape (tone,)
     """
 
     frequency_hz: Array
@@ -96,26 +95,6 @@ class Tone:
         return self.prominent_by_noise or self.prominent_by_bands
 
 
-def tonal_spectrum(parts: Ingredients) -> TonalSpectrum:
-    """Lines and bands of a computed sound; in a band noise is even over the logarithm.
-
-    Parameters
-    ----------
-    parts : result of `ingredients`
-    """
-    square = parts.bands.pressure_pa**2
-    lower, upper = (parts.bands.centre_hz * edge for edge in (1.0 / HALF_BAND, HALF_BAND))
-
-    def noise(first: float, last: float) -> float:
-        inner = np.log(np.minimum(upper, last) / np.maximum(lower, first))
-        return float(square @ np.clip(inner, 0.0, None) / (2.0 * np.log(HALF_BAND)))
-
-    lines = parts.lines
-    squares = 0.5 * np.abs(lines.pressure_pa) ** 2
-    steady = np.ones_like(squares), np.zeros_like(squares)
-    return TonalSpectrum(lines.frequency_hz, squares, noise, lines.name, *steady)
-
-
 def tone_to_noise_db(tone: float, noise: float) -> float:
     """ΔL_T = 10 lg(W_T / W_N), dB, of the mean squares of tone and noise in its critical band."""
     return _ratio_db(tone, noise)
@@ -143,7 +122,7 @@ def tones(spectrum: TonalSpectrum) -> list[Tone]:
 
     Parameters
     ----------
-    spectrum : result of `tonal_spectrum` or `recorded_spectrum`
+    spectrum : result of `recorded_spectrum`
     """
     hertz = spectrum.frequency_hz
     judged = np.flatnonzero((hertz >= LOWEST_PROMINENT_TONE_HZ) & (hertz <= HIGHEST_TONE_HZ))

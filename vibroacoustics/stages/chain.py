@@ -2,12 +2,12 @@
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
-from fnmatch import fnmatchcase
 from typing import TypeVar, cast
 
 import xarray as xr
 
 from ..base.errors import PluginError
+from ..base.patterns import is_among
 from ..base.progress import Progress, no_progress
 from ..machine.cases import Cases
 from ..radiation.given import Radiation
@@ -104,10 +104,3 @@ class Chain:
             A machine cannot run so, an option cannot be built, or a source cannot act.
         """
         return self.having(sampled_cases(self[Cases], self.study, sample))
-
-
-def is_among(thing: str | type, things: Collection[str | type]) -> bool:
-    """Return whether a variable or product is among others, by name or pattern, as `room_*`."""
-    if not isinstance(thing, str):
-        return thing in things
-    return any(fnmatchcase(thing, other) for other in things if isinstance(other, str))

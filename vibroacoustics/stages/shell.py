@@ -80,6 +80,9 @@ class HammerTests(Stage):
     def run(self, chain: Chain) -> Given:
         return Given(products=(hammer_test(chain.study, chain.get(ShellPath)),))
 
+    def tried(self, chain: Chain, study: Study) -> Trial:
+        return timed(chain, self)
+
 
 def hammer_test(study: Study, path: ShellPath | None) -> HammerTest:
     """Read the hammer test that a study names.

@@ -8,12 +8,13 @@ from typing import ClassVar, Final, NamedTuple
 import xarray as xr
 
 from ..base.errors import ParameterError, PluginError
+from ..base.patterns import is_among, is_pattern
 from ..base.registry import Registry
 from ..base.vocabulary import VARIABLES, check
 from ..radiation.cost import Cost, about
 from ..results.estimates import estimated
 from ..study.study import Study
-from .chain import Chain, is_among
+from .chain import Chain
 
 EVERYTHING: Final = "*"
 """Among what a stage reads: all variables that other stages give."""
@@ -166,8 +167,9 @@ def _givers(stages: Iterable[Stage]) -> dict[str | type, str]:
         other = givers.setdefault(thing, name)
         if other != name:
             raise PluginError(f"stage {name}: {_word(thing)} is given by {other} already")
+    patterns = [(thing, name) for thing, name in things if is_pattern(thing)]
     for variable in VARIABLES:
-        fitting = (name for thing, name in things if is_among(variable, (thing,)))
+        fitting = (name for pattern, name in patterns if is_among(variable, (pattern,)))
         givers.setdefault(variable, next(fitting, ""))
     return givers
 
@@ -200,7 +202,9 @@ def _after_estimates(
 def _read(stage: Stage, givers: Mapping[str | type, str]) -> set[str]:
     """Names of the stages that give what one names among its reads."""
     named = [thing for thing in stage.reads if thing != EVERYTHING]
-    return {giver for thing, giver in givers.items() if is_among(thing, named)}
+    patterns = [thing for thing in named if is_pattern(thing)]
+    fitting = {giver for thing, giver in givers.items() if patterns and is_among(thing, patterns)}
+    return fitting.union(givers[thing] for thing in named if thing in givers)
 
 
 def _word(thing: str | type) -> str:
@@ -235,7 +239,9 @@ def _advanced(chain: Chain, stage: Stage) -> Chain:
     for name in map(str, output.estimates.data_vars):
         if not any(name == base or name.startswith(f"{base}_") for base in stage.estimates):
             raise PluginError(f"stage {stage.name}: estimates {name}, which it does not name")
-    results = estimated(chain.results, output.estimates).merge(output.results)
+    results = estimated(chain.results, output.estimates)
+    if output.results.variables:  # a merge copies all that is there
+        results = results.merge(output.results)
     return chain.having(*output.products, results=results)
 
 

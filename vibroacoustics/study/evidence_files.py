@@ -72,6 +72,9 @@ def read_published_table(path: Path) -> dict[str, Any]:
         numbers = [tuple(form.numbers(row[1:]).tolist()) for row in rows[1:]]
         if len(rows) < 3 or any(len(row) != len(options) for row in numbers):
             raise ValueError("rows of different length")
+        for what, names in (("option", options), ("criterion", [row[0] for row in rows[1:-1]])):
+            if not names or "" in names or len(set(names)) < len(names):
+                raise ValueError(f"every {what} must have a name, each once")
     except (ValueError, IndexError) as error:
         raise ParameterError(f"{path}: is no table of scores: {error.args[0]}") from None
     return {

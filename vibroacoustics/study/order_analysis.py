@@ -4,12 +4,26 @@ import math
 from dataclasses import dataclass
 from typing import Final, Literal, get_args
 
+from ..base.allowed import check_range
 from ..base.errors import ParameterError
 
 BandMethod = Literal["sums", "filters"]
 """Third octaves as sums of the lines within a band, or through the filters of IEC 61260-1."""
 DEFAULT_COMB: Final = tuple(float(order) for order in range(1, 11))
 """Orders of a machine of which nothing is known."""
+SPEEDS_RPM: Final = (0.1, 1e6)
+"""Speeds of a shaft, from that of a hydro turbine that runs out to that of a dental drill."""
+PULSES: Final = (1, 100_000)
+"""Pulses of a tacho or encoder per revolution."""
+ORDERS: Final = (0.001, 10_000.0)
+COMB_ORDERS: Final = (0.01, 1000.0)
+RESOLUTIONS: Final = (1e-4, 100.0)
+"""Resolutions, orders."""
+SPEED_STEPS_RPM: Final = (0.01, 1e6)
+MAINS_HZ: Final = (10.0, 1000.0)
+THRESHOLDS: Final = (-1e12, 1e12)
+_LONGEST_S: Final = 1e9
+"""Latest time in a recording: 30 years."""
 LINE_TOLERANCE: Final = 0.1
 """Largest distance of the speed from a drawn line, relative."""
 Edge = Literal["rising", "falling"]
@@ -35,7 +49,7 @@ class SpeedChannel:
     Raises
     ------
     ParameterError
-        The threshold is not finite, or there is no such edge.
+        The number of pulses or the threshold is out of range, or there is no such edge.
 
     Examples
     --------
@@ -51,8 +65,9 @@ class SpeedChannel:
     edge: Edge | None = None
 
     def __post_init__(self) -> None:
-        if self.threshold is not None and not math.isfinite(self.threshold):
-            raise ParameterError(f"threshold = {self.threshold:g}: must be a finite number")
+        check_range("pulses_per_revolution", self.pulses_per_revolution, *PULSES)
+        if self.threshold is not None:
+            check_range("threshold", self.threshold, *THRESHOLDS)
         if self.edge is not None and self.edge not in EDGES:
             raise ParameterError(f"edge = {self.edge!r}: must be one of {', '.join(EDGES)}")
 
@@ -63,12 +78,12 @@ class NominalSpeed:
 
     Attributes
     ----------
-    speed_rpm : above zero
+    speed_rpm : 0.1 to 1e6 rpm
 
     Raises
     ------
     ParameterError
-        The speed is not above zero.
+        The speed is out of range.
 
     Examples
     --------
@@ -79,7 +94,7 @@ class NominalSpeed:
     speed_rpm: float
 
     def __post_init__(self) -> None:
-        _check_positive("speed_rpm", self.speed_rpm, "rpm")
+        check_range("speed_rpm", self.speed_rpm, *SPEEDS_RPM, "rpm")
 
 
 @dataclass(frozen=True)
@@ -96,8 +111,7 @@ class TacholessSpeed:
     Raises
     ------
     ParameterError
-        The limits are not above zero, or do not rise; the comb does not rise from above zero; the
-        mains frequency is not above zero.
+        A number is out of range, or the limits or the comb do not rise.
 
     Examples
     --------
@@ -113,14 +127,9 @@ class TacholessSpeed:
     mains_hz: float | None = None
 
     def __post_init__(self) -> None:
-        for order in self.comb:
-            _check_positive("comb", order, "")
-        if not self.comb or sorted(set(self.comb)) != list(self.comb):
-            raise ParameterError(f"comb = {self.comb}: must be at least one order, and rise")
-        if self.mains_hz is not None:
-            _check_positive("mains_hz", self.mains_hz, "Hz")
-        _check_positive("minimum_rpm", self.minimum_rpm, "rpm")
-        _check_positive("maximum_rpm", self.maximum_rpm, "rpm")
+        _check_comb(self.comb, self.mains_hz)
+        check_range("minimum_rpm", self.minimum_rpm, *SPEEDS_RPM, "rpm")
+        check_range("maximum_rpm", self.maximum_rpm, *SPEEDS_RPM, "rpm")
         if not self.minimum_rpm < self.maximum_rpm:
             raise ParameterError(
                 f"minimum_rpm = {self.minimum_rpm:g} rpm: must be below maximum_rpm = "
@@ -141,7 +150,7 @@ class SpeedLine:
     Raises
     ------
     ParameterError
-        There is one point, times do not rise from zero or above, a speed is not above zero; or
+        There is one point, times do not rise from zero or above, a speed is out of range; or
         comb and mains as of `TacholessSpeed`.
 
     Examples
@@ -160,16 +169,12 @@ class SpeedLine:
             raise ParameterError("points = 1: at least two of a time and a speed are needed")
         last_s = -math.inf
         for time_s, speed_rpm in self.points:
-            if not max(last_s, 0.0) <= time_s < math.inf or time_s == last_s:
-                raise ParameterError(
-                    f"points = {time_s:g} s: must be 0 s or above and rise from point to point"
-                )
-            _check_positive("speed_rpm", speed_rpm, "rpm")
+            check_range("points", time_s, 0.0, _LONGEST_S, "s")
+            if not last_s < time_s:
+                raise ParameterError(f"points = {time_s:g} s: times must rise from point to point")
+            check_range("points", speed_rpm, *SPEEDS_RPM, "rpm")
             last_s = time_s
-        limits_rpm = [speed_rpm for _, speed_rpm in self.points]
-        TacholessSpeed(
-            self.channel, 0.9 * min(limits_rpm), 1.1 * max(limits_rpm), self.comb, self.mains_hz
-        )
+        _check_comb(self.comb, self.mains_hz)
 
 
 SpeedSource = SpeedChannel | NominalSpeed | TacholessSpeed | SpeedLine
@@ -196,7 +201,7 @@ class OrderAnalysis:
     Raises
     ------
     ParameterError
-        A number is not above zero, the orders do not rise, or `bands` is neither.
+        A number is out of range, the orders do not rise, or `bands` is neither.
 
     Examples
     --------
@@ -219,18 +224,22 @@ class OrderAnalysis:
     is_fit: bool = False
 
     def __post_init__(self) -> None:
-        for order in self.orders:
-            _check_positive("orders", order, "")
-        if not self.orders or sorted(set(self.orders)) != list(self.orders):
-            raise ParameterError(f"orders = {self.orders}: must be at least one, and rise")
-        _check_positive("maximum_order", self.maximum_order, "")
-        _check_positive("resolution_order", self.resolution_order, "")
-        _check_positive("speed_step_rpm", self.speed_step_rpm, "rpm")
+        _check_rising("orders", self.orders, *ORDERS)
+        check_range("maximum_order", self.maximum_order, *ORDERS)
+        check_range("resolution_order", self.resolution_order, *RESOLUTIONS)
+        check_range("speed_step_rpm", self.speed_step_rpm, *SPEED_STEPS_RPM, "rpm")
         if self.bands not in BAND_METHODS:
             raise ParameterError(f"bands = {self.bands!r}: must be one of sums, filters")
 
 
-def _check_positive(name: str, value: float, unit: str) -> None:
-    if not 0.0 < value < float("inf"):
-        shown = f"{value:g} {unit}".rstrip()
-        raise ParameterError(f"{name} = {shown}: must be a number above 0")
+def _check_comb(comb: tuple[float, ...], mains_hz: float | None) -> None:
+    _check_rising("comb", comb, *COMB_ORDERS)
+    if mains_hz is not None:
+        check_range("mains_hz", mains_hz, *MAINS_HZ, "Hz")
+
+
+def _check_rising(name: str, orders: tuple[float, ...], lowest: float, highest: float) -> None:
+    for order in orders:
+        check_range(name, order, lowest, highest)
+    if not orders or sorted(set(orders)) != list(orders):
+        raise ParameterError(f"{name} = {orders}: must be at least one order, and rise")

@@ -5,6 +5,8 @@ import os
 import re
 import tomllib
 from collections.abc import Mapping
+from copy import deepcopy
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -16,6 +18,8 @@ MAXIMUM_FILE_BYTES: Final = 1_000_000
 MAXIMUM_DEPTH: Final = 16
 MOST_EXTENDED: Final = 8
 """Studies in a chain of `extends`."""
+_MOST_PARSED: Final = 16
+"""Texts whose tables are kept."""
 _STRINGS_AND_COMMENTS: Final = re.compile(
     r'"""(?:[^"\\]|\\.|"(?!""))*+(?:"{3,5}|\\?\Z)'
     r"|'''(?:[^']|'(?!''))*+(?:'{3,5}|\Z)"
@@ -47,9 +51,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     """Content of a TOML file, refused in one line where it cannot be read."""
     try:
         text = read_text(path, MAXIMUM_FILE_BYTES).replace("\r\n", "\n")
-        if nested_deeper_than(text, MAXIMUM_DEPTH):
-            raise ParameterError(f"{path}: is nested deeper than {MAXIMUM_DEPTH} levels")
-        content = tomllib.loads(text)
+        content = deepcopy(_parsed(text))
     except FileNotFoundError:
         raise ParameterError(f"{path}: no such file") from None
     except OSError as error:
@@ -58,9 +60,17 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise ParameterError(f"{path}: is not UTF-8 text") from None
     except (ValueError, RecursionError) as error:  # TOMLDecodeError is a ValueError
         raise ParameterError(f"{path}: is not valid TOML: {error}") from None
+    if content is None:
+        raise ParameterError(f"{path}: is nested deeper than {MAXIMUM_DEPTH} levels")
     if _deeper_than(content, MAXIMUM_DEPTH):
         raise ParameterError(f"{path}: tables are nested deeper than {MAXIMUM_DEPTH} levels")
     return content
+
+
+@lru_cache(_MOST_PARSED)
+def _parsed(text: str) -> dict[str, Any] | None:
+    """Tables of a text, none where it is nested too deep; each option reads its machine's anew."""
+    return None if nested_deeper_than(text, MAXIMUM_DEPTH) else tomllib.loads(text)
 
 
 def _deeper_than(content: Mapping[str, Any], depth: int) -> bool:

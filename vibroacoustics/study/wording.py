@@ -2,6 +2,7 @@
 
 import re
 from functools import partial
+from pathlib import Path
 from typing import Any, Final, Protocol, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
@@ -9,6 +10,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from ..base.errors import ParameterError
+from ..base.refusal import Refusal, parts_of, refusal, reworded
 from ..base.units import split_key
 from .asked_keys import asked_key, meant_field, meant_key
 from .radiation import RadiationSettings
@@ -25,6 +27,9 @@ class FileKeys(Protocol):
 
     problems: list[str]
     """Problems that the reader refuses."""
+
+    def file(self, keys: tuple[str, ...]) -> Path:
+        """File that gives the value of a path of keys."""
 
     def file_and_key(self, keys: tuple[str, ...]) -> str:
         """File and dotted key, as written, of a path of keys."""
@@ -94,7 +99,7 @@ def _lines(
                 meant, words = _meant(model, inner, missing, reader, table)
                 missing = [other for other in missing if other != meant]
             each = map(partial(_one_line, model, reader, table), _apart(details))
-            lines[inner] = [line + words for line in each]
+            lines[inner] = [reworded(line, line + words) for line in each]
     lines |= {inner: _asked(model, inner, reader, table) for inner in missing}
     return [line for inner in refused for line in lines.get(inner, ())]
 
@@ -132,16 +137,14 @@ def _asked(
     fields = models[0].model_fields if len(models) == 1 and _is_table(model, inner) else {}
     lines_to_add = getattr(models[0], "lines_to_add", "") if fields else ""
     if lines_to_add:
-        return [f"{reader.file_and_key((*table, *inner))}: is missing; {lines_to_add}"]
+        return [_refusal(reader, (*table, *inner), f"is missing; {lines_to_add}")]
     needed = [name for name, field in fields.items() if field.is_required()]
     if needed:
         return [line for name in needed for line in _asked(model, (*inner, name), reader, table)]
     key = asked_key(inner[-1])
     unit = split_key(key)[1]
     bounds = _allowed(model, inner, 1.0 if unit is None else unit.factor)
-    symbol = f" {unit.symbol}" if unit and unit.symbol else ""
-    allowed = f"; allowed {bounds}{symbol}" if bounds else ""
-    return [f"{reader.file_and_key((*table, *inner[:-1], key))}: is missing{allowed}"]
+    return [_refusal(reader, (*table, *inner[:-1], key), "is missing", None, bounds)]
 
 
 def _is_table(model: type[BaseModel], inner: tuple[str, ...]) -> bool:
@@ -165,22 +168,43 @@ def _one_line(
     inner = _without_tags(tuple(str(part) for part in details["loc"]))
     location = (*table, *inner)
     key, value = reader.file_keys.get(location, (location[-1] if location else "", None))
-    where = reader.file_and_key((*location[:-1], key) if location else ())
+    written = (*location[:-1], key) if location else ()
     plain = _PLAIN.get(details["type"])
     if plain is not None:
-        return f"{where}: {plain}"
+        return _refusal(reader, written, plain)
     if details["type"] == "value_error":
-        return f"{where}: {details['ctx']['error']}"
+        return _contradiction(reader, written, str(details["ctx"]["error"]))
     if details["type"] == "union_tag_invalid":
         context = details["ctx"]
-        return f"{where}.kind = {context['tag']}: unknown; allowed {context['expected_tags']}"
+        return (
+            f"{reader.file_and_key(written)}.kind = {context['tag']}: unknown; "
+            f"allowed {context['expected_tags']}"
+        )
     unit = split_key(key)[1]
-    symbol = f" {unit.symbol}" if unit and unit.symbol else ""
     bounds = _allowed(model, inner, 1.0 if unit is None else unit.factor)
     reason = "out of range" if details["type"] in _LIMITS else _reason(details["msg"])
-    allowed = f"; allowed {bounds}{symbol}" if bounds else ""
     shown = details["input"] if value is None else value
-    return f"{where} = {_short(shown)}{symbol}: {reason}{allowed}"
+    return _refusal(reader, written, reason, shown, bounds)
+
+
+def _refusal(
+    reader: FileKeys, keys: tuple[str, ...], reason: str, value: Any = None, bounds: str = ""
+) -> Refusal:
+    """Refusal of the value, the key or the whole table at a path of keys, as written."""
+    file = str(reader.file(keys))
+    field = reader.file_and_key(keys).removeprefix(file).removeprefix(": ")
+    unit = split_key(keys[-1])[1] if keys else None
+    symbol = unit.symbol if unit else ""
+    return refusal(file, field, reason, value, symbol, bounds)
+
+
+def _contradiction(reader: FileKeys, keys: tuple[str, ...], words: str) -> Refusal:
+    """Refusal of values that contradict each other; the words name them below the keys."""
+    line, parts = _refusal(reader, keys, words), parts_of(words)
+    table = line.parts.field
+    inner = parts.field or ""
+    field = inner if table is None or inner.startswith(table) else f"{table}.{inner}".rstrip(".")
+    return Refusal(line, parts._replace(file=line.parts.file, field=field or None))
 
 
 _PLAIN: Final = {
@@ -213,11 +237,6 @@ def _reason(message: str) -> str:
     for python, words in _KINDS.items():
         message = message.replace(f"a valid {python}", words)
     return message.replace("Input should be", "must be").replace("tuple", "list")
-
-
-def _short(value: Any) -> str:
-    text = repr(list(value) if isinstance(value, tuple) else value)
-    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _allowed(model: type[BaseModel], location: tuple[str, ...], factor: float) -> str:

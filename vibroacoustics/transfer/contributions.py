@@ -80,10 +80,10 @@ def contributions(
     loads: Mapping[str, Loads],
 ) -> Contributions:
     """Sound of one case by path; the sum over the paths is `LoadPath.observed`."""
-    pressure: Paths = {}
+    every: Paths = {}
     for source in loads:
-        by_path = _of_source(path, microphones, lines, source)
-        pressure |= {name: values for name, values in by_path.items() if values.any()}
+        every |= _of_source(path, microphones, lines, source)
+    pressure = {name: values for name, values in every.items() if values.any()}
     noise = [
         (per_force, part)
         for source, load in loads.items()
@@ -94,6 +94,7 @@ def contributions(
     for per_force, _ in noise:
         for name, each in per_force.items():  # a path that only noise takes
             pressure.setdefault(name, np.zeros((len(each), len(lines.names)), dtype=complex))
+    pressure = pressure or every  # of a machine without sound
     names = tuple(pressure)
     stacked = np.array([pressure[name] for name in names])
     motions, radiated = _by_motion(path, microphones, lines, names, stacked)

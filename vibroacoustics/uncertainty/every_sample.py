@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from types import GenericAlias
 from typing import TypeVar
 
 import numpy as np
@@ -10,6 +11,7 @@ import xarray as xr
 
 from ..base.errors import ParameterError, SolverError
 from ..base.fault import FaultError
+from ..base.forms import returned
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.pieces import following_from, stored
 from ..base.processes import side_by_side
@@ -61,8 +63,9 @@ def in_every_sample(
     progress(0)
     solving = partial(side_by_side, solved, otherwise=mapped_in_threads)
     inputs = study.parameters if study else None
+    form = GenericAlias(tuple, (returned(compute), str | None))
     with one_thread_of_linear_algebra(), following_from(inputs):
-        for result, failure in stored(name, samples, solving):
+        for result, failure in stored(name, samples, solving, form):
             results.append(result)
             failures += [] if failure is None else [f"sample {len(results)}: {failure}"]
             progress(len(results))

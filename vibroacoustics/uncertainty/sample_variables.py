@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array
+from ..base.arrays import Array, RoundedArray
 from ..base.quantiles import stepped_quantiles, weighted_quantiles
 from ..base.vocabulary import (
     HIGH,
@@ -58,10 +58,10 @@ class SampleValues(NamedTuple):
         discrepancy, shape (speed, option, source, source, gain band), Pa²
     """
 
-    levels: Levels
+    levels: dict[str, RoundedArray]
     forces: Mapping[str, Array]
     weight: Array
-    mutual: Array
+    mutual: RoundedArray
 
     @classmethod
     def of(

@@ -209,7 +209,8 @@ def started(request, tmp_path) -> tuple[subprocess.Popen[str], list[psutil.Proce
         start_new_session=True,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "tests/helpers")))},
     )
-    wait_for(lambda: len(psutil.Process(parent.pid).children()) == 3)  # and Python's tracker
+    number = 2 if request.param else 3  # two workers; those started afresh need Python's tracker
+    wait_for(lambda: len(psutil.Process(parent.pid).children()) == number)
     return parent, psutil.Process(parent.pid).children(recursive=True)
 
 

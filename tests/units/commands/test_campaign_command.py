@@ -1,6 +1,7 @@
 """`vibroacoustics orders` of many files: settings, tables and page, refusals."""
 
 import csv
+import json
 from pathlib import Path
 
 import numpy as np
@@ -25,11 +26,12 @@ maximum_order = 4
 """
 
 
-def write(file: Path, level_db: float) -> Path:
+def write(file: Path, level_db: float, phase_rad: float = 0.0) -> Path:
     """Write a run at 3000 rpm: order 1 of a level, order 2 10 dB below, and a tacho."""
     angle = 2.0 * np.pi * 50.0 * TIME_S
+    shifted = angle + phase_rad
     peak = np.sqrt(2.0) * 2e-5 * 10.0 ** (level_db / 20.0)
-    sound = peak * (np.cos(angle) + np.sqrt(0.1) * np.cos(2.0 * angle)) / 2.0
+    sound = peak * (np.cos(shifted) + np.sqrt(0.1) * np.cos(2.0 * shifted)) / 2.0
     tacho = np.where(angle % (2.0 * np.pi) < 0.5, 0.5, 0.0)
     wavfile.write(file, RATE_HZ, np.stack([sound, tacho], axis=1).astype(np.float32))
     return file
@@ -41,7 +43,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "batch.toml").write_text(SETTINGS, encoding="utf-8")
     for machine, levels in (("A", (80.0, 82.0)), ("B", (84.0, 84.0)), ("C", (88.0, 89.0))):
         for number, level_db in enumerate(levels):
-            write(folder / f"{machine}_{number}.wav", level_db)
+            write(folder / f"{machine}_{number}.wav", level_db, 0.1 * number)
     return folder
 
 
@@ -157,15 +159,38 @@ def test_limits_are_those_of_the_mean(folder: Path, tmp_path: Path) -> None:
     assert (tmp_path / "campaign_limits.csv").is_file()
 
 
-def test_all_refusals_come_at_once_and_nothing_is_written(folder: Path, tmp_path: Path) -> None:
+def test_broken_recordings_are_omitted_and_named(folder: Path, tmp_path: Path, out: Path) -> None:
     (tmp_path / "D_0.wav").write_bytes(b"RIFF")
-    files = [*_files(folder), tmp_path / "D_0.wav", tmp_path / "D_1.wav"]
-    out = tmp_path / "out"
-    done = command_here("orders", *files, "--settings", folder / "batch.toml", "--out", out)
-    assert_refused(done, f"{tmp_path / 'D_0.wav'}: ")
-    assert_refused(done, f"{tmp_path / 'D_1.wav'}: no such file")
-    assert len(done.stderr.splitlines()) == 2
-    assert not out.exists()
+    broken = [tmp_path / "D_0.wav", tmp_path / "D_1.wav"]
+    words = ["--settings", folder / "batch.toml", "--out", tmp_path / "out"]
+    done = command_here("orders", *_files(folder), *broken, *words, "--json")
+    assert done.returncode == 3, done.stderr
+    warned = [line for line in done.stderr.splitlines() if line.startswith("warning: ")]
+    assert len(warned) == 2
+    assert warned[1] == f"warning: {broken[1]} is omitted: no such file"
+    envelope = json.loads(done.stdout)
+    assert envelope["warnings"] == [line.removeprefix("warning: ") for line in warned]
+    omitted = envelope["tables"]["campaign_omitted"]
+    assert omitted["file"] == list(map(str, broken))
+    rows = _rows(tmp_path / "out" / "campaign_omitted.csv")
+    assert [row["reason"] for row in rows] == omitted["reason"]
+    page = (tmp_path / "out" / "campaign.html").read_text(encoding="utf-8")
+    assert "2 of 8 recordings are omitted" in page
+    assert "D_0.<wbr>wav" in page
+    whole, mean = (va.open_results(each / "campaign.nc") for each in (out, tmp_path / "out"))
+    assert mean.equals(whole)
+    assert json.loads(mean.attrs["omitted"])[str(broken[1])] == "no such file"
+
+
+def test_too_few_recordings_are_refused_with_all_reasons(folder: Path, tmp_path: Path) -> None:
+    missing = [tmp_path / "D_0.wav", tmp_path / "D_1.wav"]
+    words = ["--settings", folder / "batch.toml", "--out", tmp_path / "out"]
+    done = command_here("orders", _files(folder)[0], *missing, *words)
+    assert_refused(done, "1 recordings can be averaged: must be at least 2")
+    for file in missing:
+        assert_refused(done, f"{file}: no such file")
+    assert len(done.stderr.splitlines()) == 3
+    assert not (tmp_path / "out").exists()
 
 
 def test_what_needs_one_recording_is_refused(folder: Path) -> None:

@@ -3,113 +3,38 @@
 import csv
 import json
 import re
+import sys
+import warnings
+from importlib.metadata import version
 from pathlib import Path
+from subprocess import CompletedProcess
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
 import typer
-from design_studies import WEIGHT
-from in_situ_bench import BELOW
-from in_situ_bench import write as write_blocked
+from command_lines import CASES, PRINTS_ONLY, command_lines, made_up_fields, words_of, write_inputs
 from json_schema import faults
-from measured_bench import AS_MEASURED, FREQUENCY, state
-from measured_bench import write as write_bench
-from pictures import draw_nothing
-from rooms_made_up import made_up_vectors
-from support import (
-    MACHINE_FILE,
-    TINY,
-    assert_refused,
-    command_here,
-    made_up_radiation,
-    made_up_transfer_vectors,
-    tiny_run,
-)
+from support import assert_refused, command_here, tiny_run
 
 import vibroacoustics as va
-from vibroacoustics import pipeline
-from vibroacoustics.commands import cli
+from vibroacoustics.base.errors import PlatformError
+from vibroacoustics.base.fault import FaultError, Owner, leave_out
+from vibroacoustics.commands import cli, starter
 from vibroacoustics.commands.command import COMMANDS, JOBS
 from vibroacoustics.commands.outcome import SCHEMA
-from vibroacoustics.pipeline.study import run as run_study
 from vibroacoustics.results.storage import write_results
-from vibroacoustics.stages import room
 
-SPEED = ("--rpm", "2900")
-CASES = {
-    "run": ("study.toml",),
-    "check": ("study.toml",),
-    "radiation": ("study.toml",),
-    "curves": (MACHINE_FILE, "--speed", "2900"),
-    "new": ("reciprocating",),
-    "report": ("results.nc",),
-    "score": ("results.nc",),
-    "compare": ("results.nc", "results.nc", "--other-option", "counterweight-half"),
-    "datasheet": ("results.nc", "--option", "counterweight-half", "--speed", "2900"),
-    "listen": ("results.nc", "--option", "none", "--speed", "2900", "--seconds", "1"),
-    "impulse-responses": ("kitchen.toml", "--microphone", "table"),
-    "sweep": ("designs.toml",),
-    "optimise": ("designs.toml",),
-    "orders": ("recording.csv", *SPEED, "--orders", "1,2", "--maximum-order", "5"),
-    "track": ("recording.csv", *SPEED, "--orders", "1", "--bandwidth", "2"),
-    "map": ("recording.csv", *SPEED),
-    "tones": ("recording.csv",),
-    "export": ("recording.csv",),
-    "sound-power": ("recording.csv", "--hemisphere", "1"),
-    "replay": (
-        "recording.csv", *SPEED, "--results", "results.nc", "--option", "counterweight-half",
-        "--pair", "front=front_1m",
-    ),
-    "predict": ("bench.toml",),
-    "blocked-forces": ("in_situ/in_situ.toml",),
-    "benchmark": (),
-    "cache": (),
-    "doctor": (),
-    "schema": (),
-}  # fmt: skip
-"""Arguments of each command; a name with an ending is a file of `inputs`."""
-PRINTS_ONLY = {"check", "cache", "doctor"}
-"""Commands that write no file; all others have `--out`."""
 WRITES_ONLY = {"report", "new", "export", "schema", "cache", "doctor"}
 """Commands that compute nothing; all others have `--verbose` and `--log`."""
-DESIGN = """
-[design]
-option = "weight"
-[design.variables]
-"options.weight.mass_g" = { list = [10, 50] }
-[design.objectives.light]
-figure = "added_mass_kg"
-"""
-ROOM = """
-[room]
-size_mm = [4000.0, 3000.0, 2500.0]
-foot_mm = [3500.0, 400.0]
-maximum_frequency_hz = 800.0
-walls = { floor = "tiles", "-x" = "plaster", ceiling = "acoustic_ceiling" }
-listeners.table = { x_mm = 2000.0, y_mm = 2200.0, height_mm = 1200.0 }
-"""
-HALVED = "[changes.halved.mounts.one]\nstiffness_n_per_mm = 100.0\nloss_factor_percent = 10.0\n"
 
 
 @pytest.fixture(scope="module")
 def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder with a small input of every kind."""
     folder = tmp_path_factory.mktemp("inputs")
-    text = TINY.read_text().replace("../../data", str(MACHINE_FILE.parents[1]))
-    (folder / "study.toml").write_text(text)
-    (folder / "kitchen.toml").write_text(text + ROOM)
-    (folder / "designs.toml").write_text(f"{text}\n{WEIGHT}\n{DESIGN}")
-    write_results(tiny_run(), folder / "results.nc")
-    time_s = np.arange(4 * 8000) / 8000.0
-    noise = 0.01 * np.random.default_rng(1).standard_normal(time_s.size)
-    sound = noise + np.cos(2.0 * np.pi * 2900.0 / 60.0 * time_s) + np.cos(5000.0 * time_s)
-    va.export_recording(
-        va.label_recording([sound], 8000.0, ["front"], ["Pa"]), folder / "recording.csv"
-    )
-    write_bench(folder, HALVED, state(FREQUENCY, AS_MEASURED))
-    (folder / "in_situ").mkdir()
-    write_blocked(folder / "in_situ", BELOW)
+    write_inputs(folder)
     return folder
 
 
@@ -117,24 +42,7 @@ def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def quick(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Made-up radiation, figures without pixels, an empty cache."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(
-        pipeline,
-        "run",
-        lambda study, progress: run_study(study, progress, made_up_radiation),
-        raising=False,
-    )
-    radiated = made_up_transfer_vectors(va.load_study(TINY))
-    monkeypatch.setattr(pipeline, "radiate", lambda *_: radiated, raising=False)
-    vectors = made_up_vectors(["table"], highest_hz=2000.0)
-    monkeypatch.setattr(room, "vectors_of", lambda *_: (vectors, False))
-    draw_nothing(monkeypatch)
-
-
-def words_of(name: str, inputs: Path, out: Path) -> list[object]:
-    """Words of a command, its files within the inputs and its results in `out`."""
-    words = [inputs / word if (inputs / str(word)).is_file() else word for word in CASES[name]]
-    target = out / "copy.csv" if name in {"benchmark", "export"} else out
-    return [name, *words, *(() if name in PRINTS_ONLY else ("--out", target))]
+    made_up_fields(monkeypatch)
 
 
 def options_of(name: str) -> set[str]:
@@ -145,6 +53,19 @@ def options_of(name: str) -> set[str]:
 def test_every_command_has_a_case_and_a_job() -> None:
     assert set(CASES) == set(COMMANDS)
     assert {each.job for each in COMMANDS.values()} == set(JOBS)
+
+
+def test_command_lines_have_all_commands_and_their_inputs(tmp_path: Path) -> None:
+    """Each begins with its command, its files exist, and its results go to a folder of its own."""
+    lines = command_lines(tmp_path)
+    assert set(lines) == set(COMMANDS)
+    assert command_lines(tmp_path) == lines
+    for name, words in lines.items():
+        assert words[0] == name
+        files = [word for word in words if str(tmp_path / "inputs") in word]
+        assert all(Path(file).is_file() for file in files)
+        own = [word for word in words if str(tmp_path / "out" / name) in word]
+        assert len(own) == (name not in PRINTS_ONLY)
 
 
 @pytest.mark.parametrize("name", list(COMMANDS))
@@ -168,7 +89,7 @@ def test_json_and_quiet(name: str, inputs: Path, tmp_path: Path) -> None:
     assert outcome.returncode == 0, outcome.stderr
     envelope = json.loads(outcome.stdout)
     assert list(faults(envelope, SCHEMA)) == []
-    assert envelope["command"] == name
+    assert (envelope["command"], envelope["errors"]) == (name, [])
     assert "as_json" not in envelope["inputs"]
     files = {label: Path(path) for label, path in envelope["files"].items()}
     assert bool(files) == (name not in PRINTS_ONLY)
@@ -204,22 +125,153 @@ def check_numbers(numbers: list[dict[str, Any]], file: Path) -> None:
             assert shown == pytest.approx(value, rel=1e-12, nan_ok=True), number
 
 
+def errors_of(outcome: CompletedProcess[str], command: str) -> list[dict[str, Any]]:
+    """Errors of an envelope that says nothing else; they are the lines on stderr."""
+    envelope = json.loads(outcome.stdout)
+    assert list(faults(envelope, SCHEMA)) == []
+    assert (envelope["command"], envelope["version"]) == (command, version("vibroacoustics"))
+    assert not any(envelope[key] for key in ("inputs", "tables", "numbers", "charts", "files"))
+    errors: list[dict[str, Any]] = envelope["errors"]
+    lines = [line for line in outcome.stderr.splitlines() if line.startswith("error: ")]
+    assert [f"error: {each['message']}" for each in errors] == lines
+    return errors
+
+
+REFUSED: dict[str, tuple[tuple[object, ...], dict[str, Any]]] = {
+    "new": (("nothing",), {}),
+    "cache": (("--limit", "-1"), {}),
+    "doctor": (("--bogus",), {"field": "--bogus"}),
+    "schema": (("nothing",), {"field": "NAME", "value": "nothing"}),
+}
+"""Words that commands refuse whose input is no file, and parts of their errors."""
+
+
+@pytest.mark.parametrize("name", list(COMMANDS))
+def test_errors_are_one_line_and_one_object(name: str, inputs: Path, tmp_path: Path) -> None:
+    words = words_of(name, inputs, tmp_path / "out")[2:]
+    missing = tmp_path / "missing.toml"
+    further, parts = REFUSED.get(name, ((missing, *words), {"file": str(missing)}))
+    outcome = command_here(name, *further, "--json")
+    (error,) = errors_of(outcome, name)
+    assert (outcome.returncode, outcome.stderr.count("\n")) == (2, 1)
+    assert {key: error[key] for key in parts} == parts
+    quiet = command_here(name, *further)
+    assert (quiet.returncode, quiet.stdout, quiet.stderr) == (2, "", outcome.stderr)
+
+
+@pytest.mark.parametrize("name", list(COMMANDS))
+def test_unknown_options_are_errors_of_every_command(name: str) -> None:
+    outcome = command_here(name, "--json", "--bogus")
+    (error,) = errors_of(outcome, name)
+    assert (outcome.returncode, error["field"], error["file"]) == (2, "--bogus", None)
+
+
 @pytest.mark.parametrize(
-    "name", sorted(set(COMMANDS) - {"benchmark", "new", "cache", "doctor", "schema"})
-)
-def test_errors_are_one_line_also_with_json(name: str, inputs: Path, tmp_path: Path) -> None:
-    words = words_of(name, inputs, tmp_path / "out")
-    outcome = command_here(name, tmp_path / "missing.toml", *words[2:], "--json")
-    assert_refused(outcome, "missing.toml")
-    assert (outcome.stdout, outcome.stderr.count("\n")) == ("", 1)
+    ("words", "command", "parts"),
+    [
+        (("run", "--json"), "run", {"field": "STUDY"}),
+        (("nonsense", "--json"), "nonsense", {"field": None}),
+        (("--json", "run"), "run", {"field": "--json"}),
+        (("orders", "a.wav", "--rpm", "fast", "--json"), "orders",
+         {"field": "--rpm", "value": "fast"}),
+    ],
+)  # fmt: skip
+def test_usage_errors_are_one_object(
+    words: tuple[str, ...], command: str, parts: dict[str, Any]
+) -> None:
+    outcome = command_here(*words)
+    (error,) = errors_of(outcome, command)
+    assert outcome.returncode == 2
+    assert {key: error[key] for key in parts} == parts
+
+
+def test_a_file_that_is_named_as_the_option_is_no_request() -> None:
+    assert command_here("run", "--", "--json").stdout == ""
+
+
+def test_every_refusal_of_a_file_is_an_object(inputs: Path, tmp_path: Path) -> None:
+    text = (inputs / "study.toml").read_text()
+    for old, new in (("share_ratio = 0.5", "share_ratio = 7.0"), ("x_mm = 1082.5", "x_mm = 1e9")):
+        text = text.replace(old, new)
+    file = tmp_path / "study.toml"
+    file.write_text(text)
+    for command in ("run", "check", "radiation"):
+        errors = errors_of(command_here(command, file, "--json"), command)
+        assert {each["file"] for each in errors} == {str(file)}
+        by_field = {each["field"]: each for each in errors}
+        share = by_field["options.counterweight-half.share_ratio"]
+        assert (share["value"], share["unit"]) == (7.0, None)
+        assert share["allowed"].endswith("0 to 2")
+        x_mm = by_field["receivers.front_1m.x_mm"]
+        assert (x_mm["value"], x_mm["unit"]) == (1e9, "mm")
+        assert x_mm["allowed"] == "from -20000 to 20000 mm"
+
+
+class BrokenError(Exception):
+    """Of the package itself."""
+
+
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (PlatformError("memory is short"), "memory is short"),
+        (MemoryError("1 GiB"), "not enough memory: 1 GiB"),
+        (FaultError.at_line(Owner("option", "mine", "mine.py"), 3, "ZeroDivisionError"),
+         "option mine: mine.py, line 3: ZeroDivisionError"),
+    ],
+)  # fmt: skip
+def test_errors_that_come_up_in_a_command(
+    error: Exception, line: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        warnings.warn("before", stacklevel=2)
+        raise error
+
+    monkeypatch.setattr(starter, "as_file", fail)
+    outcome = command_here("schema", "--json")
+    (each,) = errors_of(outcome, "schema")
+    assert (outcome.returncode, each["message"]) == (2, line)
+    assert json.loads(outcome.stdout)["warnings"] == ["before"]
+    if isinstance(error, FaultError):
+        assert (each["file"], each["field"]) == ("mine.py", "option mine")
+
+
+def test_a_fault_of_the_package_is_an_object_before_its_traceback(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(starter, "as_file", Mock(side_effect=BrokenError("here")))
+    monkeypatch.setattr(sys, "argv", ["vibroacoustics", "schema", "--json"])
+    with pytest.raises(BrokenError):
+        cli.main()
+    envelope = json.loads(capsys.readouterr().out)
+    assert list(faults(envelope, SCHEMA)) == []
+    assert [each["message"] for each in envelope["errors"]] == ["BrokenError: here"]
+
+
+def test_what_is_omitted_is_an_error_of_a_whole_envelope(
+    inputs: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    as_file = starter.as_file
+
+    def leaving_out(*words: Any) -> Any:
+        leave_out(FaultError.at_line(Owner("option", "mine", "mine.py"), 3, "ZeroDivisionError"))
+        return as_file(*words)
+
+    monkeypatch.setattr(starter, "as_file", leaving_out)
+    outcome = command_here("schema", "--out", inputs / "schemas", "--json")
+    envelope = json.loads(outcome.stdout)
+    assert list(faults(envelope, SCHEMA)) == []
+    (error,) = envelope["errors"]
+    assert (outcome.returncode, error["file"], error["field"]) == (3, "mine.py", "option mine")
+    assert error["message"] == "option mine is omitted: mine.py, line 3: ZeroDivisionError"
+    assert envelope["files"]
 
 
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("orders", "a.wav", "--speed", "tacho"), "--speed was renamed to --speed-channel"),
-        (("impulse-responses", "a", "--listener", "b"), "--listener was renamed to --microphone"),
-        (("datasheet", "a.nc", "--microphones=a,b"), "--microphones was renamed to --microphone"),
+        (("orders", "a.wav", "--speed", "tacho"), "No such option: --speed"),
+        (("datasheet", "a.nc", "--microphones=a,b"), "(Possible options: --microphone"),
         (("orders", "a.wav", "--rpm", "fast"), "'--rpm': is no number; see vibroacoustics orders"),
         (("orders",), "Missing argument"),
         (("orderz",), "No such command 'orderz'"),
@@ -231,6 +283,23 @@ def test_usage_is_one_line_without_types_of_python(words: tuple[str, ...], messa
     assert_refused(outcome, message)
     assert outcome.stderr.count("\n") == 1
     assert not any(kind in outcome.stderr for kind in ("float", "str>", "Path", "<class"))
+
+
+READS_RESULTS = [name for name, words in CASES.items() if "results.nc" in words]
+
+
+@pytest.mark.parametrize("name", READS_RESULTS)
+def test_a_file_of_another_version_is_refused(name: str, inputs: Path, tmp_path: Path) -> None:
+    older = tiny_run().assign_attrs(schema_version="2")
+    file = write_results(older, tmp_path / "results.nc")
+    words = [
+        file if word == inputs / "results.nc" else word
+        for word in words_of(name, inputs, tmp_path / "out")
+    ]
+    outcome = command_here(*words)
+    assert_refused(outcome, f"{file}: schema_version = 2", "make it again: vibroacoustics run")
+    assert (outcome.stdout, outcome.stderr.count("\n")) == ("", 1)
+    assert not (tmp_path / "out").exists()
 
 
 def test_help_is_grouped_by_job_with_run_first() -> None:

@@ -28,7 +28,8 @@ def folder(study, tmp_path_factory):
     write_results(study, folder / "results.nc")
     noise = 1e-4 * np.random.default_rng(2).standard_normal(ANGLE.size)
     sound = noise + 0.05 * np.cos(ANGLE) + 0.02 * np.cos(7.5 * ANGLE)
-    recording = va.label_recording([sound, sound], RATE_HZ, ["mic", "foot"], ["Pa", "m/s²"])
+    signals, units = [sound, sound, 0.0 * sound + 2.0], ["Pa", "m/s²", "Pa"]
+    recording = va.label_recording(signals, RATE_HZ, ["mic", "foot", "dead"], units)
     va.export_recording(recording, folder / "machine.csv")
     return folder
 
@@ -127,8 +128,9 @@ def test_an_accelerometer_on_a_foot(folder, study, tmp_path):
 REFUSED = {
     "unit": ({"pair": f"foot={RESPONSE}"}, "channel foot is in m/s², the response in Pa"),
     "moment": ({"pair": "foot=moment x"}, "the response in N m: the units must agree"),
-    "ratio": ({"further": ("--shaft-ratio", "0")}, "shaft_ratio = 0: must be 0.01 to 100"),
+    "ratio": ({"further": ("--shaft-ratio", "0")}, "--shaft-ratio = 0: must be 0.01 to 100"),
     "response": ({"pair": "mic=rear"}, "response = rear: must be one of front_1m"),
+    "silent": ({"pair": f"dead={RESPONSE}"}, "channel dead: is silent: all samples are 2 Pa"),
     "pair": ({"pair": "mic"}, "--pair 'mic': must be NAME=VALUE"),
     "option": ({"option": "x"}, "option = x: must be one of counterweight-half"),
     "speed": ({"rpm": 3300}, "add to its speed_rpm: 3300"),

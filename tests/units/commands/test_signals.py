@@ -1,5 +1,6 @@
 """SIGINT and SIGTERM: one line, exit code 130 or 143, and nothing left behind."""
 
+import json
 import os
 import signal
 import subprocess
@@ -27,12 +28,13 @@ def start(words: list[object], cache: Path) -> subprocess.Popen[str]:
     )
 
 
-def assert_ended(process: subprocess.Popen[str], number: signal.Signals) -> None:
+def assert_ended(process: subprocess.Popen[str], number: signal.Signals) -> str:
     """Stages that end before a signal is let through may print their line of progress."""
-    _, errors = process.communicate(timeout=30)
+    output, errors = process.communicate(timeout=30)
     *progress, last = errors.splitlines()
     assert (process.returncode, last) == (CODES[number], f"ended by {number.name}")
     assert all(line.startswith("progress: ") for line in progress)
+    return output
 
 
 def wait_for(condition, seconds: float = 30.0) -> None:
@@ -45,10 +47,13 @@ def wait_for(condition, seconds: float = 30.0) -> None:
 @pytest.mark.parametrize("number", [signal.SIGINT, long(signal.SIGTERM)])
 def test_while_the_radiation_is_computed(tmp_path, number):
     """The cache's lock is held then."""
-    process = start(["-m", "vibroacoustics", "run", TINY, "--out", tmp_path / "out"], tmp_path)
+    words = ["-m", "vibroacoustics", "run", TINY, "--out", tmp_path / "out", "--json"]
+    process = start(words, tmp_path)
     wait_for(lambda: list(tmp_path.glob("vibroacoustics/*.lock")))
     process.send_signal(number)
-    assert_ended(process, number)
+    envelope = json.loads(assert_ended(process, number))
+    assert envelope["command"] == "run"
+    assert [each["message"] for each in envelope["errors"]] == [f"ended by {number.name}"]
     assert not [path for path in tmp_path.rglob("*") if path.is_file()]
 
 

@@ -78,12 +78,12 @@ def test_room_by_reverberation_time_in_a_file(folder: Path, tmp_path: Path) -> N
     [
         ([], "surface: give one of --hemisphere RADIUS and --box"),
         (["--hemisphere", "1", "--box", "1", "1", "1", "1"], "surface: give one of"),
-        (["--hemisphere", "0.1"], "--hemisphere = 0.1 m: must be from 0.5 to 16 m"),
-        (["--box", "1", "99", "1", "1"], "--box, width = 99 m: must be from 0.01 to 20 m"),
+        (["--hemisphere", "0.1"], "--hemisphere = 0.1 m: must be 0.5 to 16 m"),
+        (["--box", "1", "99", "1", "1"], "--box, width = 99 m: must be 0.01 to 20 m"),
         (["--hemisphere", "1", "--volume", "50"], "--reverberation-time and --volume belong"),
         (
             ["--hemisphere", "1", "--volume", "50", "--reverberation-time", "0"],
-            "--reverberation-time = 0 s: must be from 0.01 to 100 s",
+            "--reverberation-time = 0 s: must be 0.01 to 100 s",
         ),
         (["--hemisphere", "1", "--absorption-area", "large"], "must be a number or a CSV file"),
         (["--hemisphere", "1", "--absorption-area", "-3"], "-3 m² at 100 Hz: must be above 0"),

@@ -1,8 +1,13 @@
 """Workers beside this process: the same bits, none lost when they die, and no network unasked."""
 
 import json
+import socket
 import sys
+import time
+from contextlib import suppress
+from inspect import signature
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -108,13 +113,48 @@ def test_commands_refuse_in_one_line(
     assert not out.exists()
 
 
-def test_scheduler_that_does_not_answer_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(scheduler, "_CONNECTION_S", 0.5)
+def refused_scheduler(port: int, longest_s: float) -> str:
+    """Message of the refusal of what listens, or nothing, at a port of this computer."""
+    access = SchedulerAccess(f"tcp://127.0.0.1:{port}", insecure=True)
     with (
-        pytest.raises(ParameterError, match=r"scheduler tcp://127\.0\.0\.1:9: no connection"),
-        opened_scheduler(SchedulerAccess("tcp://127.0.0.1:9", insecure=True), requirement([])),
+        pytest.raises(ParameterError, match=rf"^scheduler {access.address}: no conn") as caught,
+        opened_scheduler(access, requirement([]), longest_s),
     ):
         pass
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_scheduler_that_does_not_answer_is_one_line() -> None:
+    refused_scheduler(9, 0.5)
+
+
+@pytest.mark.parametrize("answer", [b"", bytes(64), b"HTTP/1.1 400 Bad Request\r\n\r\n", None])
+def test_port_that_is_no_scheduler_is_one_line(answer: bytes | None) -> None:
+    """It is silent, sends bytes of other protocols, or closes."""
+    kept: list[socket.socket] = []
+
+    def serve() -> None:
+        with suppress(OSError):  # closed
+            while True:
+                kept.append(listening.accept()[0])
+                kept[-1].sendall(answer or b"")
+                if answer is None:
+                    kept[-1].close()
+
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        Thread(target=serve, daemon=True).start()
+        start = time.monotonic()
+        line = refused_scheduler(listening.getsockname()[1], 1.0)
+        listening.shutdown(socket.SHUT_RDWR)
+    for each in kept:
+        each.close()
+    assert time.monotonic() - start < 30.0  # it would wait without end
+    assert answer or answer is None or "no answer within 1 s" in line
+
+
+def test_the_longest_time_of_a_connection_is_ten_seconds() -> None:
+    assert signature(opened_scheduler).parameters["longest_s"].default == 10.0
 
 
 @needs_openssl

@@ -138,7 +138,7 @@ def test_room_must_be_told_at_every_band(positions: np.ndarray) -> None:
 
 
 def test_sizes_out_of_range() -> None:
-    with pytest.raises(ParameterError, match=r"radius_m = 99 m: must be from 0.5 to 16 m"):
+    with pytest.raises(ParameterError, match=r"radius_m = 99 m: must be 0.5 to 16 m"):
         va.MeasurementSurface.hemisphere(99.0)
-    with pytest.raises(ParameterError, match=r"height_m = 0 m: must be from 0.01 to 20 m"):
+    with pytest.raises(ParameterError, match=r"height_m = 0 m: must be 0.01 to 20 m"):
         va.MeasurementSurface.box(1.0, 1.0, 0.0, 1.0)

@@ -311,7 +311,6 @@ def test_pulses_that_are_not_what_is_stated_are_warned_of(wheel):
         (SpeedChannel("tach"), "speed: no channel 'tach'; there are force, tacho"),
         (SpeedChannel("tacho", 1, "zero"), "speed: no channel 'zero'; there are force, tacho"),
         (TacholessSpeed(None, 1e3, 4e3), "speed: name the channel to find it in, one of force, ta"),
-        (SpeedChannel("tacho", 0), "pulses_per_revolution = 0"),
     ],
 )
 def test_speed_that_is_not_there(speed, words):
@@ -333,6 +332,9 @@ def test_only_the_speed_is_no_recording():
     [
         (lambda: NominalSpeed(0.0), "speed_rpm = 0 rpm"),
         (lambda: NominalSpeed(np.inf), "speed_rpm = inf rpm"),
+        (lambda: SpeedChannel("tacho", 0), "pulses_per_revolution = 0: must be 1 to 100000"),
+        (lambda: SpeedChannel("tacho", 10**400), "pulses_per_revolution = 1000"),
+        (lambda: SpeedChannel("tacho", threshold=1e300), "threshold = 1e.300: must be"),
         (lambda: TacholessSpeed(None, 3e3, 1e3), "minimum_rpm = 3000 rpm: must be below"),
         (lambda: TacholessSpeed(None, np.nan, 1e3), "minimum_rpm = nan rpm"),
         (lambda: TacholessSpeed(None, 1e3, 3e3, ()), "comb = .*: must be at least one order"),

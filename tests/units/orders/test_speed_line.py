@@ -71,10 +71,10 @@ def test_a_part_of_the_recording_is_analysed():
     ("points", "words"),
     [
         (((0.0, 900.0),), "at least two of a time and a speed"),
-        (((0.0, 900.0), (0.0, 950.0)), "points = 0 s: must be 0 s or above and rise"),
-        (((-1.0, 900.0), (0.0, 950.0)), "points = -1 s: must be 0 s or above"),
+        (((0.0, 900.0), (0.0, 950.0)), "points = 0 s: times must rise"),
+        (((-1.0, 900.0), (0.0, 950.0)), "points = -1 s: must be 0 to "),
         (((0.0, 900.0), (float("nan"), 950.0)), "points = nan s"),
-        (((0.0, 900.0), (1.0, -5.0)), "speed_rpm = -5 rpm: must be a number above 0"),
+        (((0.0, 900.0), (1.0, -5.0)), "points = -5 rpm: must be 0.1 to 1e"),
     ],
 )
 def test_points_that_are_no_line_are_refused(points, words):
@@ -98,7 +98,7 @@ def test_the_option_of_the_command(tmp_path):
         ("0:1240", "--tacholess-line = 1: at least two"),
         ("0-1240,3:4", "--tacholess-line '0-1240': must be TIME:RPM"),
         ("0:a,3:4", "--tacholess-line"),
-        ("5:1240,3:1500", "--tacholess-line = 3 s: must be 0 s or above and rise"),
+        ("5:1240,3:1500", "--tacholess-line = 3 s: times must rise"),
     ):
         refused = command_here("orders", file, "--tacholess-line", text, "--out", tmp_path)
         assert_refused(refused, words)

@@ -89,7 +89,7 @@ def test_the_command_writes_and_refuses_in_one_line(tmp_path, study, vectors, mo
     assert outcome.returncode == 0, outcome.stderr
     names = [file.name for file in sorted(out.glob("*.wav"))]
     assert names == sorted(f"doorway_{dof}_1Pa.wav" for dof in RIGID_BODY_DOFS)
-    assert_refused(command_here(*asked, "doorway", "--full-scale", 1e-9), "full scale = 1e-09 Pa")
+    assert_refused(command_here(*asked, "doorway", "--full-scale", 1e-9), "--full-scale = 1e-09 Pa")
 
 
 def test_a_study_without_a_room_has_none(tmp_path):

@@ -108,7 +108,7 @@ def test_refusals(tmp_path):
     assert read_calibrator(file, channel="channel 2").channel == "channel 2"
     with pytest.raises(ParameterError, match="level_db = 20 dB: must be 60 to 140 dB"):
         read_calibrator(file, channel="channel 2", level_db=20.0)
-    with pytest.raises(ParameterError, match="frequency_hz = 30000 Hz: must be above 0 and below"):
+    with pytest.raises(ParameterError, match="frequency_hz = 30000 Hz: must be 20 to "):
         read_calibrator(file, channel="channel 2", frequency_hz=30000.0)
 
 

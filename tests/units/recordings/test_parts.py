@@ -132,7 +132,10 @@ def test_blocks_of_a_file(tmp_path):
     assert blocks.channels == ("acceleration 1", "acceleration 2", "acceleration 3")
     assert blocks.channel_units == ["m/s²"] * 3
     assert blocks.attributes["part_start_s"] == 2.0
-    assert "part_start_s" not in open_recording(path).attributes
+    whole = long_hdf5(tmp_path / "whole.h5", (0, 8), 1000.0, 8.0, 3)
+    assert "part_start_s" not in open_recording(whole).attributes
+    with pytest.raises(StorageError, match="is incomplete: 3 of 8 chunks stored"):
+        open_recording(path)
     two = blocks.read(["acceleration 3", "acceleration 1"], 999, 1002)
     np.testing.assert_allclose(
         two, [[4.0, 5.0, 5.0], [2.0 * 9.80665, 3.0 * 9.80665, 3.0 * 9.80665]]

@@ -186,7 +186,8 @@ def test_limit_is_kept_by_every_entry_that_comes(opened):
 
 def test_an_entry_above_the_limit_is_not_kept(opened):
     cache.set_limit(opened, 10)
-    assert storage.cached("kind", {"a": 1}, compute) == (RESULTS, False)
+    with pytest.warns(UserWarning, match="is not kept"):
+        assert storage.cached("kind", {"a": 1}, compute) == (RESULTS, False)
     assert not cache.entries(opened)
 
 
@@ -201,8 +202,8 @@ def test_leftovers_of_the_dead_go_and_the_living_stay(folder, opened):
     (folder / "kind-dead.nc.lock").write_text("")
     (folder / ".kind-dead.nc.writing").mkdir()
     (folder / ".kind-dead.nc.writing" / "kind-dead.nc").write_text("a part")
-    (folder / ".kind-old.nc.x8gh21ab").write_text("a part, by an earlier version")
-    (folder / "kind-gone.nc.sha256").write_text("0  kind-gone.nc")
+    (folder / ".kind-old.nc.x8gh21ab").write_text("a part")
+    (folder / "kind-gone.nc.study").write_text("gone")
     (folder / ".kind-busy.nc.writing").mkdir()
     process = hold(folder / "kind-busy.nc.lock", 60)
     try:
@@ -266,3 +267,68 @@ def not_used(reason: str) -> None:
     assert_refused(outcome, str(cache.folder()), reason)
     assert f"cache: not used: {cache.folder()}: {reason}" in command_here("doctor").stdout
     assert sorted(cache.folder().iterdir()) == before
+
+
+# --- the limit -----------------------------------------------------------------------------------
+
+
+def total(folder: Path) -> int:
+    """Size of all files of the cache but that of its limit."""
+    files = (file for file in folder.rglob("*") if file.is_file())
+    return sum(file.stat().st_size for file in files if file.name != cache.LIMIT_NAME)
+
+
+def sized(opened: Folder, limit: int, materials: int = 4) -> int:
+    """Size of the cache after some results with a limit, each with the title of a study."""
+    cache.set_limit(opened, limit)
+    for material in range(materials):
+        storage.cached("kind", {"a": material}, compute, "A study")
+        assert total(opened.path) <= limit
+    return total(opened.path)
+
+
+def test_limits_to_the_byte(opened):
+    """Titles of studies count; at the exact size of two results two are kept, below it one."""
+    one = sized(opened, 10**9, 1)
+    assert sized(opened, 2 * one) == 2 * one
+    assert sized(opened, 2 * one - 1) == one
+    assert sized(opened, one) == one
+    with pytest.warns(UserWarning, match=r"does not fit its limit of .* and is not kept") as warned:
+        assert sized(opened, one - 1) == 0
+    assert len({str(each.message) for each in warned}) == 1
+    assert sized(opened, 0) == 0  # which is no remark: the cache is switched off
+
+
+def test_a_result_above_the_limit_leaves_the_others(opened):
+    first = keep(0)
+    cache.set_limit(opened, first.stat().st_size + 10)
+    large = xr.concat([RESULTS] * 3, "y")
+    with pytest.warns(UserWarning, match="is not kept"):
+        storage.cached("kind", {"a": 1}, lambda: large)
+    assert [entry.name for entry in cache.entries(opened)] == [first.name]
+
+
+def test_unfinished_files_of_others_count(folder, opened):
+    """They cannot be removed; older entries go for them."""
+    keep(0, age_s=100.0)
+    last = keep(1)
+    (folder / ".kind-busy.nc.writing").mkdir()
+    (folder / ".kind-busy.nc.writing" / "kind-busy.nc").write_bytes(bytes(100))
+    process = hold(folder / "kind-busy.nc.lock", 60)
+    try:
+        cache.set_limit(opened, 2 * last.stat().st_size + 99)
+        cache.tidy(opened)
+        assert [entry.name for entry in cache.entries(opened)] == [last.name]
+    finally:
+        process.kill()
+        process.wait()
+
+
+def test_command_lists_a_cache_within_its_limit(folder, opened):
+    """Also after a process that was killed."""
+    size = keep(0, age_s=100.0).stat().st_size
+    last = keep(1)
+    cache.set_limit(opened, 2 * size - 1)
+    lines = command_here("cache").stdout.splitlines()
+    assert lines[0].startswith("removed 1 results")
+    assert [path.name for path in folder.glob("*.nc")] == [last.name]

@@ -65,7 +65,7 @@ def test_a_file_of_another_run_is_named(tmp_path):
 @pytest.mark.parametrize("has_list", [True, False])
 @pytest.mark.parametrize("killed_at", range(4))
 def test_killed_between_two_files_is_seen(tmp_path, monkeypatch, killed_at, has_list):
-    """At every step: what lies there is the older run's, or it is named; an older version's too."""
+    """At every step: what lies there is the older run's, or it is named."""
     make(tmp_path, "first", "a.csv", "b.csv")
     if not has_list:
         (tmp_path / "files.json").unlink()

@@ -1,5 +1,6 @@
 """Pieces of a run that was interrupted: read again to the same bits, by the same inputs alone."""
 
+import json
 import os
 import subprocess
 import sys
@@ -11,11 +12,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays, scalar_dtypes
 from test_lock import hold
 
+from vibroacoustics.base.arrays import Array
+from vibroacoustics.base.errors import SchemaError
+from vibroacoustics.base.folder import opened_folder
+from vibroacoustics.base.forms import has_form, returned
+from vibroacoustics.base.hashing import sha256
 from vibroacoustics.base.pieces import following_from, stored
 from vibroacoustics.base.plain_bytes import from_bytes, to_bytes
 from vibroacoustics.base.registry import Origin
@@ -23,7 +30,10 @@ from vibroacoustics.design.evaluation import Evaluation
 from vibroacoustics.levels.by_source import SourceSound
 from vibroacoustics.radiation.revolution.radiator import WallPressure
 from vibroacoustics.results import cache, piece_files, run_pieces
-from vibroacoustics.results.run_pieces import resumable
+from vibroacoustics.results.hashed import hash_line
+from vibroacoustics.results.piece_files import PieceFiles
+from vibroacoustics.results.run_pieces import resumable, resumed
+from vibroacoustics.results.storage import cached
 from vibroacoustics.uncertainty.sample_variables import SampleValues
 
 # --- values as bytes -----------------------------------------------------------------------------
@@ -145,7 +155,7 @@ class Job:
         self.computed: list[int] = []
         self._most = most
 
-    def value(self, item: int) -> tuple[int, np.ndarray]:
+    def value(self, item: int) -> tuple[int, Array]:
         if len(self.computed) == self._most:
             raise StoppedError
         self.computed.append(item)
@@ -289,6 +299,128 @@ def test_damaged_file_is_computed_again(damage: str, own_cache: Path) -> None:
     assert job.computed == list(ITEMS[2:])
 
 
+def other_content(folder: Path, piece: Any) -> None:
+    """Put another piece in the place of every piece, with the right hash."""
+    (file,) = folder.glob("pieces_*")
+    keys = json.loads(file.read_bytes().partition(b"\n")[0])
+    file.unlink()
+    content = piece if isinstance(piece, bytes) else to_bytes(piece)
+    with opened_folder(folder) as opened:
+        files = PieceFiles(opened)
+        for key in keys:
+            files.keep(key, content)
+        files.write()
+
+
+def stacked(job: Job) -> np.ndarray:
+    """What a work makes of its pieces; it takes those of 100 values only."""
+    with following_from(lambda: "inputs"):
+        stream = partial(map, job.value)
+        pieces = [each for _, each in stored("work", ITEMS, stream, returned(job.value))]
+    if np.shape(pieces) != (len(ITEMS), 100):
+        raise SchemaError("pieces: have another shape")
+    return np.array(pieces)
+
+
+def finished(job: Job) -> np.ndarray:
+    return resumed("run", {"study": "a study"}, lambda _: None, partial(stacked, job))
+
+
+OTHER: dict[str, Any] = {
+    "kind": "a text",
+    "kind of its parts": ("1", np.zeros(100)),
+    "number of parts": (1, np.zeros(100), 2.0),
+    "shape": (1, np.zeros(7)),
+    "type of numbers": (1, np.zeros(100, dtype=np.float32)),
+    "complex numbers": (1, np.zeros(100, dtype=complex)),
+    "empty": b"",
+    "garbage": bytes(range(256)),
+    "JSON of another form": b'{"array":[1,2,3]}\n',
+    "too short": to_bytes((1, np.zeros(100)))[:-8],
+    "negative size": b'["array",true,"<f8","C",-1]\n',
+    "deep": b"[" * 5000,
+    "a class of the package": b'["vibroacoustics.base.folder:Folder",1]\n',
+}
+
+
+@pytest.mark.parametrize("other", OTHER)
+def test_piece_of_the_right_hash_and_other_content_is_computed_again(
+    other: str, own_cache: Path
+) -> None:
+    undisturbed = finished(Job())
+    with pytest.raises(StoppedError):
+        finished(Job(4))
+    (folder,) = own_cache.glob("run-*/")
+    other_content(folder, OTHER[other])
+    job = Job()
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        again = finished(job)
+    assert_same(again, undisturbed)
+    assert sorted(set(job.computed)) == list(ITEMS)
+    assert [str(each.message) for each in caught] == [
+        f"{folder}: stored results do not fit; they are computed again"
+    ]
+    assert not list(own_cache.iterdir())
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"", b"\n", b"[1, 2]\n12", b"{}", b'{"a": "b"}\n1', b'{"a": -1}\n', b'{"a": 9}\n1',
+     bytes(99), b'{"a": 1e9}\n', b'{"a": 1, "b": null}\n1', b"[" * 9000 + b"\n",
+     b'{"a": 3}\n12345'],
+)  # fmt: skip
+def test_file_of_the_right_hash_that_holds_no_pieces(content: bytes, own_cache: Path) -> None:
+    interrupted(4)
+    (file,) = own_cache.glob("run-*/pieces_*")
+    file.write_bytes(content + hash_line(sha256(content)))
+    job = Job()
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        assert_same(run(job, lines=[]), run(Job()))
+    assert job.computed == list(ITEMS)
+    assert len(caught) == 1
+
+
+def test_file_of_another_name_is_no_file_of_pieces(own_cache: Path) -> None:
+    interrupted(4)
+    (file,) = own_cache.glob("run-*/pieces_*")
+    for name in ("pieces_x.bin", "pieces_00000009.bin.old", "pieces_"):
+        (file.parent / name).write_bytes(b"other")
+    job = Job()
+    run(job, lines=[])
+    assert job.computed == list(ITEMS[4:])
+
+
+def test_an_error_of_the_work_itself_is_raised_once() -> None:
+    with pytest.raises(StoppedError):
+        finished(Job(4))
+    calls: list[int] = []
+
+    def refused() -> None:
+        calls.append(1)
+        raise SchemaError("of the work")
+
+    with pytest.raises(SchemaError):  # no piece was read
+        resumed("run", {"study": "a study"}, lambda _: None, refused)
+    assert len(calls) == 1
+
+
+def test_forms_of_values() -> None:
+    array = np.zeros(3)
+    wall = WallPressure(1.0, [np.zeros((2, 2), dtype=complex)])
+    assert has_form(wall, WallPressure)
+    assert has_form([wall], list[WallPressure])
+    assert not has_form(WallPressure(1.0, [array]), WallPressure)
+    assert has_form(Evaluation(array, array, ("a",)), Evaluation)
+    assert not has_form(Evaluation(array, array.astype(int), ("a",)), Evaluation)
+    assert has_form((None, None), tuple[int | None, str | None])
+    assert not has_form(True, float)
+    assert has_form({"a": array}, dict[str, np.ndarray])
+    assert not has_form({1: array}, dict[str, np.ndarray])
+    assert has_form(object(), Any)
+
+
 def test_second_run_at_the_same_time_stores_nothing(
     own_cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -325,6 +457,42 @@ def test_limit_of_the_cache_is_kept(own_cache: Path) -> None:
     lines = list[str]()
     run(Job(), lines=lines)
     assert 1 <= int(lines[0].split()[4]) <= 5
+
+
+def total(folder: Path) -> int:
+    """Size of all files of the cache but that of its limit."""
+    files = (file for file in folder.rglob("*") if file.is_file())
+    return sum(file.stat().st_size for file in files if file.name != cache.LIMIT_NAME)
+
+
+@pytest.mark.parametrize("entries", [0, 1, 8])
+def test_results_and_an_interrupted_run_keep_the_limit_together(
+    own_cache: Path, entries: int
+) -> None:
+    """Also one that is interrupted again; least recently used results go for its pieces."""
+    results = xr.Dataset({"a": ("x", np.random.default_rng(7).standard_normal(500))})
+    cached("kind", {"a": -1}, lambda: results)
+    limit = 3 * total(own_cache)
+    with cache.opened() as opened:
+        cache.set_limit(opened, limit)
+    for number in range(entries):
+        cached("kind", {"a": number}, lambda: results)
+        assert total(own_cache) <= limit
+    for most in (5, 15, 15):
+        with pytest.raises(StoppedError):
+            run(Job(most), range(60), lines=[])
+        assert total(own_cache) <= limit
+        assert list(own_cache.glob("run-*/pieces_*"))
+    assert total(own_cache) > 0.5 * limit
+
+
+def test_lower_limit_of_an_interrupted_run(own_cache: Path) -> None:
+    interrupted(9)
+    limit = total(own_cache) - 1
+    with cache.opened() as opened:
+        cache.set_limit(opened, limit)
+    interrupted(9)
+    assert 0 < total(own_cache) <= limit
 
 
 def test_cache_that_cannot_be_written_costs_a_warning(

@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 from support import append_hash, in_child
 
+import vibroacoustics as va
 from vibroacoustics.base.errors import StorageError
 from vibroacoustics.base.hashing import sha256
 from vibroacoustics.base.vocabulary import stamp
@@ -123,26 +124,6 @@ def test_last_line_is_the_hash_of_what_stands_before(results, tmp_path):
     assert [item.name for item in tmp_path.iterdir()] == ["results.nc"]
 
 
-def test_files_of_earlier_versions_still_open(results, tmp_path):
-    """Their hash stood beside them; a new file takes it away."""
-    path = as_before(results, tmp_path / "results.nc")
-    xr.testing.assert_identical(storage.open_results(path), results)
-    assert hashed.stored_hash(path) == sha256(path.read_bytes())
-    changed = results.assign_attrs(title="another")
-    storage.write_results(changed, path)
-    xr.testing.assert_identical(storage.open_results(path), changed)
-    assert [item.name for item in tmp_path.iterdir()] == ["results.nc"]
-
-
-def as_before(results: xr.Dataset, path: Path) -> Path:
-    """Results as earlier versions wrote them: without a last line, the hash beside."""
-    storage.write_results(results, path)
-    content = path.read_bytes()[:-88]
-    path.write_bytes(content)
-    Path(f"{path}.sha256").write_text(f"{sha256(content)}  {path.name}\n")
-    return path
-
-
 # --- damage --------------------------------------------------------------------------------------
 
 
@@ -164,17 +145,9 @@ def test_truncated_file(results, tmp_path, share):
 
 
 def test_missing_hash(results, tmp_path):
-    path = as_before(results, tmp_path / "results.nc")
-    Path(f"{path}.sha256").unlink()
+    path = storage.write_results(results, tmp_path / "results.nc")
+    path.write_bytes(path.read_bytes()[:-88])
     with pytest.raises(StorageError, match=r"results\.nc: has no hash"):
-        storage.open_results(path)
-
-
-@pytest.mark.parametrize("content", [b"", b"\xff\xfe\n", b"  \n"])
-def test_broken_hash(results, tmp_path, content):
-    path = as_before(results, tmp_path / "results.nc")
-    Path(f"{path}.sha256").write_bytes(content)
-    with pytest.raises(StorageError):
         storage.open_results(path)
 
 
@@ -360,3 +333,33 @@ def test_attributes_are_read_as_they_were_written(results, tmp_path):
     assert {name: read.attrs[name] for name in words} == words
     assert read["receiver"].attrs["long_name"] == "Estupiñan"
     assert "escaped_attributes" not in read.attrs
+
+
+# --- other versions ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("variable", "version", "again"),
+    [
+        ("criterion_value", "2", "this version, 3; make it again: vibroacoustics run STUDY.toml"),
+        ("criterion_value", "1", "this version, 3; make it again: vibroacoustics run STUDY.toml"),
+        ("criterion_value", 3, "this version, 3; make it again: vibroacoustics run STUDY.toml"),
+        ("level", "4", "this version, 3; make it again: vibroacoustics run STUDY.toml"),
+        ("channel_order", "2", "this version, 1; make it again: vibroacoustics orders RECORDING"),
+    ],
+)
+def test_a_file_of_another_version_is_refused(tmp_path, variable, version, again):
+    results = xr.Dataset({variable: 1.0}, attrs={"schema_version": version})
+    path = storage.write_results(results, tmp_path / "results.nc")
+    with pytest.raises(StorageError) as refused:
+        va.open_results(path)
+    assert str(refused.value) == f"{path}: schema_version = {version}: is no result of {again}"
+
+
+@pytest.mark.parametrize(
+    ("variable", "version"), [("criterion_value", "3"), ("channel_order", "1"), ("level", "1")]
+)
+def test_a_file_of_this_version_opens(tmp_path, variable, version):
+    results = xr.Dataset({variable: 1.0}, attrs={"schema_version": version})
+    path = storage.write_results(results, tmp_path / "results.nc")
+    xr.testing.assert_identical(va.open_results(path), results)

@@ -95,7 +95,7 @@ def test_the_command_writes_and_names_the_files(tmp_path, results_file):
         ({"speeds": [1.0]}, r"speed = 1.0 rpm: the results hold no such one"),
         ({"full_scale_pa": 0.1}, r"full scale = 0.1 Pa: the sound reaches"),
         ({"full_scale_pa": -1.0}, r"full scale = -1 Pa: must be above 0, up to 100 kPa"),
-        ({"calibration_db": 150.0}, r"calibration = 150 dB: must be between 0 and 140 dB"),
+        ({"calibration_db": 150.0}, r"calibration = 150 dB: must be 0 to 140 dB"),
         ({"file_format": "mp3"}, r"format = mp3: must be one of wav, flac"),
     ],
 )
@@ -108,7 +108,7 @@ def test_what_cannot_be_is_refused_and_nothing_is_written(tmp_path, results, ask
 def test_the_command_refuses_in_one_line(tmp_path, results_file):
     out = tmp_path / "sound"
     outcome = command_here("listen", results_file, "--seconds", 0.5, "--out", out)
-    assert_refused(outcome, "results.nc", "duration = 0.5 s: must be between 1 and 600 s")
+    assert_refused(outcome, "results.nc", "--seconds = 0.5 s: must be 1 to 600 s")
     assert not out.exists()
 
 

@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 from sampled_chain import SampledChain
 from sources_study import SOURCES_STUDY, made_up_modes, sources_run
+from tonal_spectra import tonal_spectrum
 
 from vibroacoustics.levels.bands import bands_between
 from vibroacoustics.levels.hearing import hearing_threshold_db
@@ -17,7 +18,7 @@ from vibroacoustics.sound.critical_bands import (
 )
 from vibroacoustics.sound.ingredients import Ingredients, SoundBands, SoundLines, ingredients
 from vibroacoustics.sound.prominence import judged_tones
-from vibroacoustics.sound.tonality import tonal_spectrum, tones
+from vibroacoustics.sound.tonality import tones
 from vibroacoustics.sound.tone_spectra import ToneSpectra, nominal_spectra, tone_levels
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.received import Transmission

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from documents import ECMA_418_1, MOSQITO
 from evidence import claim
+from tonal_spectra import tonal_spectrum
 
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels.hearing import hearing_threshold_db
@@ -11,7 +12,7 @@ from vibroacoustics.sound import critical_bands
 from vibroacoustics.sound.critical_bands import band_above, band_below, critical_band
 from vibroacoustics.sound.ingredients import Ingredients, SoundBands, SoundLines
 from vibroacoustics.sound.recorded import narrow_bands, recorded_spectrum
-from vibroacoustics.sound.tonality import TonalSpectrum, prominent, tonal_spectrum, tones
+from vibroacoustics.sound.tonality import TonalSpectrum, prominent, tones
 
 REFERENCE = 4e-10
 RATE = 48000.0

@@ -7,6 +7,7 @@ from scroll_flanks import INNER, OUTER, fixed_flank, moved
 from scroll_openings import GAS, OPENING, SPEED_RPM, WRAPS
 from test_scroll_gas import OTHER_WRAPS
 
+from vibroacoustics.mechanics.nozzle import nozzle_flow
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.sources.scroll_gas import leakage as leakage_module
 from vibroacoustics.sources.scroll_gas.chambers import (
@@ -17,7 +18,6 @@ from vibroacoustics.sources.scroll_gas.chambers import (
 )
 from vibroacoustics.sources.scroll_gas.cycle import _of_suction_pockets, scroll_gas_cycle
 from vibroacoustics.sources.scroll_gas.leakage import gap_area_m2
-from vibroacoustics.sources.scroll_gas.leakage_equations import nozzle_flow
 from vibroacoustics.sources.scroll_gas.opening import opening_constants, steady_opening
 from vibroacoustics.sources.scroll_gas.opening_equations import density
 from vibroacoustics.sources.scroll_gas.parameters import ScrollLeakage

@@ -57,13 +57,18 @@ def test_size_of_a_cone_and_a_sphere():
 
 
 def test_volume_by_the_section_at_random_points():
-    """The share of random points of the enclosing cylinder that lie in the bottle."""
-    rng, count = np.random.default_rng(1), 20000
-    radius, height = 0.1 * np.sqrt(rng.random(count)), 0.35 * rng.random(count)
+    """The share of the enclosing cylinder in the bottle, one random point in each cell of it.
+
+    The share of a cell that the profile crosses has a deviation of at most a half, of all others
+    none. A profile that never widens crosses at most 2 x 60 of the 60 x 60 cells.
+    """
+    rng, side = np.random.default_rng(1), 60
+    rows, columns = (np.indices((side, side)) + rng.random((2, side, side))) / side
+    points = zip(0.1 * np.sqrt(rows.ravel()), 0.35 * columns.ravel(), strict=True)
     bottle = polygon(BOTTLE)
-    inside = np.mean([bottle.distance_m(*one) == 0.0 for one in zip(radius, height, strict=True)])
+    inside = np.mean([bottle.distance_m(*point) == 0.0 for point in points])
     share = bottle.volume_m3 / (math.pi * 0.1**2 * 0.35)
-    assert inside == pytest.approx(share, abs=4.0 * math.sqrt(share * (1.0 - share) / count))
+    assert inside == pytest.approx(share, abs=4.0 * 0.5 * math.sqrt(2 * side) / side**2)
 
 
 def test_distance_follows_the_profile():

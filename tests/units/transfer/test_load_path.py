@@ -85,22 +85,6 @@ def test_sparse_lines_are_those_of_all(study):
     np.testing.assert_array_equal(some[:, 6:], whole[..., [3, 7]])
 
 
-@pytest.mark.parametrize(
-    ("kind", "words"),
-    [
-        (va.Loads, {"rigid": "housing", "on_shell": "housing", "on_parts": "bearing_housing",
-                    "on_yoke": "stator_yoke", "flows": "discharge_dome"}),
-        (va.Tone, {"rigid": "housing", "on_parts": "stator", "on_yoke": "stator_yoke"}),
-        (va.Noise, {"on_parts": "fixed_scroll"}),
-    ],
-)  # fmt: skip
-def test_former_arguments_are_refused_by_the_name_of_the_port(kind, words):
-    for name, port in words.items():
-        with pytest.raises(ParameterError, match=rf"^{kind.__name__}\({name}=.*{port}") as refusal:
-            kind(**{name: np.zeros(6)})
-        assert len(str(refusal.value).splitlines()) == 1
-
-
 def test_a_source_in_the_shell_must_say_so(study):
     class Silent(va.Source):
         kind = "silent"

@@ -4,15 +4,17 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
+from ...base.arrays import Array
 from ...base.errors import StorageError
 from ...base.folder import Folder, make_folder, opened_folder
+from ...base.forms import has_form
 from ...base.hashing import canonical_json, sha256
 from ...results.files import LOCK_NAME, STAGING_NAME, naming, replace_all, staging, write
 from ...results.lock import locked
 from ...results.piece_files import PieceFiles
-from ..evaluation import Stream
+from ..evaluation import Evaluation, Stream
 
 PLAN_NAME: Final = "plan.json"
 _MAXIMUM_PLAN_BYTES: Final = 10_000_000
@@ -64,14 +66,29 @@ def _same_plan(folder: Folder, plan: bytes) -> None:
         )
 
 
-def stored(stream: Stream, store: PieceFiles) -> Stream:
+def stored(stream: Stream, store: PieceFiles, counts: tuple[int, int] | None = None) -> Stream:
     """Return what evaluates each piece once: those of a store are read there.
 
     Parameters
     ----------
     stream : function that evaluates pieces that the store does not hold
     store : store of evaluated pieces
+    counts : numbers of objectives and constraints; None where they are not known
     """
     return partial(
-        store.each_once, stream=stream, key_of=lambda designs: sha256(designs.tobytes())[:32]
+        store.each_once,
+        stream=stream,
+        key_of=lambda designs: sha256(designs.tobytes())[:32],
+        fits=lambda designs, piece: _fits(designs, piece, counts),
     )
+
+
+def _fits(designs: Array, piece: Any, counts: tuple[int, int] | None) -> bool:
+    """Whether a piece is the evaluation of designs."""
+    if not has_form(piece, Evaluation):
+        return False
+    shapes = piece.objectives.shape, piece.constraints.shape
+    if [len(shape) for shape in shapes] != [2, 2] or len(piece.failures) != len(designs):
+        return False
+    columns = tuple(shape[1] for shape in shapes)
+    return {shape[0] for shape in shapes} == {len(designs)} and columns == (counts or columns)

@@ -5,6 +5,7 @@ whoever can speak with it has the rights of all of them. So TLS with certificate
 the rule, and its absence must be asked for.
 """
 
+import asyncio
 import warnings
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
@@ -65,13 +66,16 @@ class SchedulerAccess:
 
 
 @contextmanager
-def opened_scheduler(access: SchedulerAccess, required: bytes) -> Iterator[ParallelMap]:
+def opened_scheduler(
+    access: SchedulerAccess, required: bytes, longest_s: float = _CONNECTION_S
+) -> Iterator[ParallelMap]:
     """Connect with a running scheduler; gives the map of its workers.
 
     Parameters
     ----------
     access : access to the scheduler
     required : requirement of the workers, from `requirement`
+    longest_s : longest time in which the scheduler answers, s
 
     Raises
     ------
@@ -86,15 +90,34 @@ def opened_scheduler(access: SchedulerAccess, required: bytes) -> Iterator[Paral
             "--scheduler: needs distributed: pip install 'vibroacoustics[scheduler]'"
         ) from None
     library: Any = distributed  # untyped in parts
-    with dask.config.set({"distributed.comm.timeouts.connect": f"{_CONNECTION_S:g}s"}):
+    with dask.config.set({"distributed.comm.timeouts.connect": f"{longest_s:g}s"}):
         security = None if access.insecure else _security(library, access)
-        try:
-            client = library.Client(access.address, timeout=_CONNECTION_S, security=security)
-        except (OSError, ValueError) as error:
-            reason = str(error).splitlines()[0]
-            raise ParameterError(f"scheduler {access.address}: no connection: {reason}") from None
+        client = _connected(library, access.address, security, longest_s)
         with client:
             yield _map_of(client, required)
+
+
+def _connected(library: Any, address: str, security: Any, longest_s: float) -> Any:
+    """Client of a scheduler that has answered: a client by itself waits without end."""
+    arguments = {} if security is None else security.get_connection_args("client")
+
+    async def answer() -> Any:
+        comm = await library.comm.connect(address, **arguments)
+        try:
+            return await library.core.send_recv(comm, op="identity")
+        finally:
+            comm.abort()
+
+    try:
+        identity = asyncio.run(asyncio.wait_for(answer(), longest_s))
+        if not isinstance(identity, dict) or identity.get("type") != "Scheduler":
+            raise OSError("it is no scheduler of dask.distributed")
+        return library.Client(address, timeout=longest_s, security=security)
+    except TimeoutError:
+        reason = f"no answer within {longest_s:g} s"
+    except Exception as error:  # whatever the library makes of what is not its own protocol
+        reason = (str(error).splitlines() or [type(error).__name__])[0]
+    raise ParameterError(f"scheduler {address}: no connection: {reason}")
 
 
 def _security(library: Any, access: SchedulerAccess) -> Any:

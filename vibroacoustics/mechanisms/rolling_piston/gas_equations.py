@@ -6,7 +6,8 @@ import numba
 import numpy as np
 
 from ...base.arrays import Array
-from ...sources.scroll_gas.leakage_equations import nozzle_flow
+from ...mechanics.nozzle import nozzle_flow
+from ...mechanics.runge_kutta import increment
 
 SMALLEST_DIFFERENCE: Final = 1e-4
 """Pressure difference over discharge pressure below which the flow through the valve is linear in
@@ -147,10 +148,10 @@ def advance(state: Array, start: float, end: float, closed: bool, c: Chamber) ->
         d0, d1, d2, d3, _ = rates(mid, p + half * b0, m + half * b1, y + half * b2,
                                   v + half * b3, closed, c)  # fmt: skip
         e0, e1, e2, e3, _ = rates(to, p + h * d0, m + h * d1, y + h * d2, v + h * d3, closed, c)
-        p += h / 6.0 * (a0 + 2.0 * b0 + 2.0 * d0 + e0)
-        m += h / 6.0 * (a1 + 2.0 * b1 + 2.0 * d1 + e1)
-        y += h / 6.0 * (a2 + 2.0 * b2 + 2.0 * d2 + e2)
-        v += h / 6.0 * (a3 + 2.0 * b3 + 2.0 * d3 + e3)
+        p += increment(h, a0, b0, d0, e0)
+        m += increment(h, a1, b1, d1, e1)
+        y += increment(h, a2, b2, d2, e2)
+        v += increment(h, a3, b3, d3, e3)
         angle = to
     state[0], state[1], state[2], state[3] = p, m, y, v
 

@@ -1,5 +1,6 @@
 """Forces from results of a run and from recordings, such as UFF files."""
 
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -85,11 +86,14 @@ def read_recorded(path: Path, speed_rpm: float | None) -> Spectra:
         The speed is missing, a channel has another name or unit, the revolutions are not whole.
     """
     from ...recordings import read_recording
+    from ...recordings.remarks import SuspectWarning
 
     if speed_rpm is None:
         raise ParameterError(f"{path}: recorded_speed_rpm is missing, at which it was recorded")
     try:
-        recording = read_recording(path)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SuspectWarning)  # a component may be zero
+            recording = read_recording(path)
     except StorageError as error:
         raise ParameterError(*error.args) from None
     signal, rate_hz = recording["signal"], float(recording.attrs["sample_rate_hz"])

@@ -13,7 +13,7 @@ _HANKEL: Final = (3.0 / 8.0, -15.0 / 128.0, 105.0 / 1024.0, -4725.0 / 32768.0)
 
 _SERIES_FROM: Final = 8.0
 """Argument kL from which the series is within 0.03 dB."""
-_NODES: Final = 13
+_RULE: Final = np.polynomial.legendre.leggauss(13)
 _LENGTH: Final = 3.1
 """Nodes and length of the quadrature, within 0.001 dB below it."""
 
@@ -105,7 +105,7 @@ def _by_quadrature(near: Array, far: Array) -> ComplexArray:
     end, turn = np.sqrt(far - near), np.exp(-0.25j * np.pi)
     length = _LENGTH / (1.0 + 0.25 * end)
     total = np.zeros(far.shape, dtype=complex)
-    for node, weight in zip(*np.polynomial.legendre.leggauss(_NODES), strict=True):
+    for node, weight in zip(*_RULE, strict=True):
         square = (end + 0.5 * (1.0 + node) * length * turn) ** 2
         value = hankel2e(1, near + square) * np.exp(-1j * (near + square))
         total += 0.5 * weight * value / np.sqrt(square + 2.0 * near)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ...base.constants import SPEED_OF_SOUND_M_PER_S
 from ...base.errors import ParameterError
+from ...base.forms import returned
 from ...base.pieces import stored
 from ...base.processes import distributed
 from ...base.progress import Progress, no_progress
@@ -149,7 +150,8 @@ class RevolutionSide:
             nonlocal done
             total, parts = max(expected, done + indices.size), []
             solving = partial(distributed, solved, otherwise=mapped_in_threads)
-            for walls, *part in stored((name, points, table_hz), indices.tolist(), solving):
+            form = returned(solved)
+            for walls, *part in stored((name, points, table_hz), indices.tolist(), solving, form):
                 self._solved[walls[0].frequency_hz] = walls  # of another process
                 parts.append(part)
                 done += 1

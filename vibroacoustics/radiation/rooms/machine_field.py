@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from ...base.forms import returned
 from ...base.pieces import stored
 from ...base.progress import Progress
 from ...base.threads import mapped_in_threads
@@ -61,7 +62,7 @@ class MachineField:
             return side.finer_pressures(float(self._table_hz[number]), np.concatenate(layers))
 
         name, in_parallel = ("machine field", *points), partial(mapped_in_threads, pressures_at)
-        pressure = np.array([*stored(name, range(count), in_parallel)])
+        pressure = np.array([*stored(name, range(count), in_parallel, returned(pressures_at))])
         pressure /= self._trend(self._table_hz)[:, None, None]
         parts = np.split(
             pressure, np.cumsum([len(layer_points) for layer_points in layers])[:-1], axis=1

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ...base.errors import ParameterError
+from ...base.forms import returned
 from ...base.pieces import stored
 from ...base.progress import Progress, no_progress
 from ...base.revolution import Profile
@@ -168,7 +169,7 @@ def _in_room(
         return field.join(record, length, lines, step_hz), green, record.remaining_db
 
     in_parallel = partial(mapped_in_threads, of_listener)
-    of_listeners = stored("machine in room", listeners.items(), in_parallel)
+    of_listeners = stored("machine in room", listeners.items(), in_parallel, returned(of_listener))
     values, green, remaining_db = zip(*of_listeners, strict=True)
     ears = {"listener": list(listeners)}
     hertz = {"room_frequency": step_hz * np.arange(1.0, lines + 1.0)}

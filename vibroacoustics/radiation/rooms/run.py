@@ -11,6 +11,7 @@ import numpy as np
 
 from ...base.decibel import SILENCE_DB, level_of_amplitude, level_of_power
 from ...base.errors import ParameterError, SolverError
+from ...base.forms import returned
 from ...base.pieces import stored
 from ...base.progress import Progress, no_progress
 from ...base.threads import mapped_in_threads
@@ -146,7 +147,9 @@ def run_all(
         return RoomResponse(record.greens_at(frequency_hz), record.remaining_db)
 
     in_parallel = partial(mapped_in_threads, of_microphone, workers=workers)
-    responses = stored(("room", frequency_hz, settings), microphones.items(), in_parallel)
+    responses = stored(
+        ("room", frequency_hz, settings), microphones.items(), in_parallel, returned(of_microphone)
+    )
     return dict(zip(microphones, responses, strict=True))
 
 

@@ -14,7 +14,7 @@ from ..csv_head import MISSING_TIME, Head, read_head, stamp_ns, stamp_text, time
 from ..quantities import time_factor
 from ..reader import Reader
 from ..recorded import MissingError, Recorded, Request, Samples, check_rate, check_size
-from ..text_lines import MAXIMUM_LINE_BYTES, last_lines, lines, opened, reached, text
+from ..text_lines import MAXIMUM_LINE_BYTES, last_lines, lines, may_be_cut, opened, reached, text
 from ..time_axis import even_rate_hz
 
 MAXIMUM_HEAD_LINES: Final = 200
@@ -84,21 +84,14 @@ def _complete(table: _Table) -> tuple[_Table, list[str]]:
     rows, has_end = last_lines(table.file, table.begin)
     if has_end or len(rows) < 2:
         return table, []
-    (_, before), (last_begin, last) = rows
-    if not _is_cut(_split(before, table.head), _split(last, table.head)):
+    begin, last = rows[-1]
+    if not may_be_cut([_split(line, table.head) for _, line in rows if line.strip()]):
         return table, []
     remark = (
-        f"its last row ({text(last)[:60]!r}) has no end and seems cut short: the file is "
+        f"its last row ({text(last)[:60]!r}) has no end and may be cut short: the file is "
         "truncated; that row is omitted"
     )
-    return _Table(table.file, table.head, table.begin, last_begin), [remark]
-
-
-def _is_cut(before: Sequence[str], last: Sequence[str]) -> bool:
-    """Whether a last row without an end lacks columns, or digits of its last number."""
-    if len(last) < len(before) or last[-1].strip('0123456789+-.eE \t"'):
-        return True
-    return len(last[-1].partition(".")[2]) < len(before[-1].partition(".")[2])
+    return _Table(table.file, table.head, table.begin, begin), [remark]
 
 
 def _split(line: bytes, head: Head) -> list[str]:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from functools import partial
 from itertools import count, product
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from ...base.errors import StorageError
 from ...base.registry import register
 from ..array_recording import recorded
+from ..claims import DEFLATE_RATIO, check_claim
 from ..named_arrays import UNIT_NAMES, NamedArray, Part, as_text, is_rate
 from ..packing import PACKING_NAMES
 from ..reader import Reader
@@ -20,6 +22,10 @@ MAXIMUM_NAME: Final = 4096
 """Characters of a path: a chain of groups is not followed further."""
 CHUNK_CACHE_BYTES: Final = 2**29
 """A chunk that does not fit is read value by value where one channel of several is wanted."""
+_RATIOS: Final = {1: DEFLATE_RATIO, 2: 1, 3: 1, 5: 64, 32000: 88}
+"""Most bytes by a byte, by filter: deflate, shuffle, checksum, n bits, LZF (264 bytes by 3)."""
+_ANY_RATIO: Final = 2**16
+"""Ratio of a filter that stores a constant in a few bytes."""
 _NO_VARIABLE: Final = b"This is a netCDF dimension but not a netCDF variable"
 _CLASSIC: Final = b"CDF"
 
@@ -78,17 +84,34 @@ def named_dataset(name: str, dataset: Any) -> NamedArray:
     """
     shape = tuple(int(side) for side in dataset.shape or ())
 
-    def load(part: Part) -> Any:
-        check_size(0, int(np.prod([side.stop - side.start for side in part], dtype=float)))
+    def check(part: Part) -> None:
         if dataset.external or dataset.is_virtual:
             raise StorageError(f"dataset {name!r} is stored in another file: copy it into this one")
-        if dataset.chunks is None and dataset.size and not dataset.id.get_storage_size():
-            raise StorageError(f"dataset {name!r} claims {shape} values and stores none")
         if dataset.chunks is not None:
             _check_chunks(name, dataset, part)
+        elif dataset.size:
+            _check_piece(name, dataset)
+
+    def load(part: Part) -> Any:
+        check_size(0, int(np.prod([side.stop - side.start for side in part], dtype=float)))
+        check(part)
         return dataset[part]
 
-    return NamedArray(name, shape, dataset.dtype.kind in "iuf", load, _attributes(dataset))
+    return NamedArray(name, shape, dataset.dtype.kind in "iuf", load, _attributes(dataset), check)
+
+
+def _check_piece(name: str, dataset: Any) -> None:
+    """Refuse a dataset in one piece of which some lies behind the end of the file."""
+    if not dataset.id.get_storage_size():
+        raise StorageError(f"dataset {name!r} claims {dataset.shape} values and stores none")
+    _check_bytes(f"values in dataset {name!r}", dataset, dataset.size)
+
+
+def _check_bytes(what: str, dataset: Any, values: int) -> None:
+    plist = dataset.id.get_create_plist()
+    filters = [plist.get_filter(number)[0] for number in range(plist.get_nfilters())]
+    ratio = float(np.prod([_RATIOS.get(number, _ANY_RATIO) for number in filters]))
+    check_claim(Path(dataset.file.filename), values, dataset.dtype.itemsize, what, ratio)
 
 
 def _check_chunks(name: str, dataset: Any, part: Part) -> None:
@@ -106,6 +129,8 @@ def _check_chunks(name: str, dataset: Any, part: Part) -> None:
         stored = sum(dataset.id.get_chunk_info_by_coord(corner).size > 0 for corner in corners)
     if stored < number:
         raise StorageError(f"dataset {name!r} is incomplete: {stored} of {number} chunks stored")
+    values = number * int(np.prod(dataset.chunks, dtype=float))
+    _check_bytes(f"values in the chunks of dataset {name!r}", dataset, values)
 
 
 def _count_of_chunks(dataset: Any) -> int:
@@ -132,7 +157,12 @@ def _read_classic(request: Request) -> Recorded:
     """Netcdf up to version 3, which is no HDF5; the file is mapped, so nothing is allocated."""
     from scipy.io import netcdf_file
 
-    with netcdf_file(request.path, "r", mmap=True, maskandscale=False) as file:
+    try:
+        classic = netcdf_file(request.path, "r", mmap=True, maskandscale=False)
+    except ValueError as error:
+        size = request.path.stat().st_size
+        raise StorageError(f"claims more values than its {size} bytes can hold: {error}") from None
+    with classic as file:
         arrays = [
             NamedArray(
                 as_text(name),

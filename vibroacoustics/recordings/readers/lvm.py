@@ -10,10 +10,11 @@ import numpy as np
 
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
+from ..claims import check_claim
 from ..lvm_head import END, Segment, file_header, segment
 from ..reader import Reader
 from ..recorded import Recorded, Request, Samples, check_size, listed, numbered
-from ..text_lines import last_lines, lines, opened
+from ..text_lines import last_lines, lines, may_be_cut, opened
 from ..time_axis import even_rate_hz
 
 _JOINT: Final = 0.5
@@ -43,7 +44,7 @@ def read(request: Request) -> Recorded:
         segments = list(_segments(file, request))
         if not segments:
             raise StorageError("has no segment")
-        _check_end(file, segments[-1].head)
+        _check_end(file, segments[-1])
     first = segments[0].head
     _check_alike(segments)
     values = np.concatenate([part.values for part in segments])
@@ -83,6 +84,7 @@ def _segments(file: BinaryIO, request: Request) -> Iterator[_Rows]:
         if len(set(claimed)) != 1:
             named = [f"{head.names[c]} {head.samples[c]}" for c in chosen]
             raise ParameterError(f"channels differ in length ({listed(named)}): choose some alike")
+        check_claim(request.path, claimed[0], len(columns))  # of a byte each, the one behind it
         check_size(len(columns), claimed[0])
         times = [] if head.time_column is None else [head.time_column]
         values = _numbers(below, head, [*times, *columns])
@@ -118,18 +120,15 @@ def _row_texts(below: Iterator[bytes], head: Segment, last: int) -> Iterator[str
         yield head.separator.join(field or "nan" for field in fields[: last + 1])
 
 
-def _check_end(file: BinaryIO, head: Segment) -> None:
-    """Refuse a last row that was cut short: it has no end and fewer digits than the one before."""
+def _check_end(file: BinaryIO, last: _Rows) -> None:
+    """Refuse a last row without an end, unless it has all digits of the rows before."""
     rows, has_end = last_lines(file, 0)
-    if has_end or len(rows) < 2:
-        return
-    before, last = (head.fields(line) for _, line in rows)
-    if len(last) < len(before) or _decimals(last[-1]) < _decimals(before[-1]):
-        raise StorageError("is truncated: its last row is cut short")
-
-
-def _decimals(number: str) -> int:
-    return len(number.partition(".")[2])
+    texts = [last.head.fields(line) for _, line in rows[-len(last.values) :]]
+    if not has_end and any(texts[-1]) and may_be_cut(texts):
+        raise StorageError(
+            "is truncated: its last row has no end and may be cut short: if it is whole, add the "
+            "end of the line"
+        )
 
 
 def _check_alike(segments: list[_Rows]) -> None:

@@ -3,6 +3,7 @@
 Cells are not read.
 """
 
+import math
 import warnings
 from collections import Counter
 from dataclasses import replace
@@ -11,9 +12,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...base.errors import ParameterError
+from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ..array_recording import recorded
+from ..claims import DEFLATE_RATIO, check_claim
 from ..named_arrays import NamedArray, Part, as_text
 from ..reader import Reader
 from ..recorded import Recorded, Request, check_size, listed
@@ -52,11 +54,22 @@ def _read_mat(request: Request) -> Recorded:
     variables = whosmat(request.path)
     times = Counter(name for name, _, _ in variables)
 
+    for name, shape, kind in variables:
+        if kind in _NUMBERS:  # of a byte each, compressed
+            what = f"values in variable {name!r}"
+            check_claim(request.path, math.prod(shape), 1, what, DEFLATE_RATIO)
+
     @cache
     def loaded(name: str) -> Any:
         wanted = [name] if times[name] == 1 else None  # by its name SciPy finds the first
-        with warnings.catch_warnings(action="ignore"):
-            return loadmat(request.path, variable_names=wanted, struct_as_record=False)[name]
+        try:
+            with warnings.catch_warnings(action="ignore"):
+                return loadmat(request.path, variable_names=wanted, struct_as_record=False)[name]
+        except Exception as error:  # on damaged bytes SciPy may raise anything
+            shape = next(shape for each, shape, _ in variables if each == name)
+            raise StorageError(
+                f"variable {name!r} claims {shape} values that the file does not hold: {error}"
+            ) from None
 
     def load(name: str, part: Part) -> Any:
         return loaded(name)[part]

@@ -9,6 +9,7 @@ from typing import Any
 
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
+from ..claims import DEFLATE_RATIO, check_claim
 from ..reader import Reader
 from ..recorded import Recorded, Request, Samples, check_size, listed, numbered
 from ..time_axis import even_part
@@ -22,6 +23,7 @@ class _Channel:
     group: int
     index: int
     samples: int
+    record_bytes: int
 
 
 def read(request: Request) -> Recorded:
@@ -44,6 +46,9 @@ def read(request: Request) -> Recorded:
         if not chosen:
             raise ParameterError("holds no channel")
         names, channels = [names[c] for c in chosen], [channels[c] for c in chosen]
+        for channel in channels:
+            what = f"samples of channel {channel.name!r}"
+            check_claim(request.path, channel.samples, channel.record_bytes, what, DEFLATE_RATIO)
         first, last, rate_hz = _common_part(file, names, channels, request)
         check_size(len(channels), last - first)
         signals = [_signal(file, channel, first, last) for channel in channels]
@@ -66,7 +71,13 @@ def read(request: Request) -> Recorded:
 
 def _channels(file: Any) -> list[_Channel]:
     return [
-        _Channel(channel.name, group, index, int(content.channel_group.cycles_nr))
+        _Channel(
+            channel.name,
+            group,
+            index,
+            int(content.channel_group.cycles_nr),
+            max(1, int(content.channel_group.samples_byte_nr)),
+        )
         for group, content in enumerate(file.groups)
         for index, channel in enumerate(content.channels)
         if index != file.masters_db.get(group) and content.channel_group.cycles_nr
@@ -111,7 +122,10 @@ def _times(file: Any, group: int, first: int, last: int) -> Samples:
     """Times in s of one group, from one sample up to another."""
     times: Samples = file.get_master(group, record_offset=first, record_count=last - first)
     if len(times) != last - first:
-        raise StorageError(f"is truncated: a group holds {len(times)} of {last - first} times")
+        raise StorageError(
+            f"is truncated: a group claims more than {first} samples, of which the file holds "
+            f"{len(times)} from {first} to {last}"
+        )
     return times
 
 

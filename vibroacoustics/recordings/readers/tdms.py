@@ -4,6 +4,7 @@ from typing import Any
 
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
+from ..claims import check_claim
 from ..named_arrays import is_rate
 from ..reader import Reader
 from ..recorded import MissingError, Recorded, Request, check_rate, check_size, listed
@@ -41,7 +42,8 @@ def read(request: Request) -> Recorded:
         rate = _check_alike(file, names, channels, request)
         total = len(channels[0])
         first, last = request.part(total, rate)
-        _check_claims(channels, total, last - first, request)
+        check_claim(request.path, total, len(channels))  # of a byte each, before it is scaled
+        check_size(len(channels), last - first)
         return Recorded(
             names=names,
             units=[str(channel.properties.get(UNIT, "")) for channel in channels],
@@ -62,10 +64,13 @@ def read(request: Request) -> Recorded:
 def _check_whole(file: Any) -> None:
     """npTDMS reads what there is of the last segment; half a recording is refused here."""
     status = file.file_status
-    lengths = (status.channel_statuses or {}).values()
-    if status.incomplete_final_segment or any(
-        length.read_length != length.expected_length for length in lengths
-    ):
+    for path, length in (status.channel_statuses or {}).items():
+        if length.read_length != length.expected_length:
+            raise StorageError(
+                f"is truncated: its last segment claims {length.expected_length} samples of "
+                f"{path} and holds {length.read_length}"
+            )
+    if status.incomplete_final_segment:
         raise StorageError("is truncated: its last segment holds less than it claims")
 
 
@@ -108,13 +113,6 @@ def _stated_rate_hz(file: Any, name: str, channel: Any) -> float:
         f"channel {name!r}: has no wf_increment and no property such as SampleFrequency: "
         "give sample_rate_hz"
     )
-
-
-def _check_claims(channels: list[Any], samples: int, wanted: int, request: Request) -> None:
-    """Refuse more samples than the file has bytes, before anything is allocated."""
-    check_size(len(channels), wanted)
-    if samples > request.path.stat().st_size:
-        raise StorageError(f"claims {samples} samples, more than the file has bytes")
 
 
 register(Reader("tdms", (".tdms",), "TDMS", read, package="nptdms"))

@@ -6,7 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from itertools import islice, pairwise
+from pathlib import Path
 from typing import Any, Final
+from zipfile import ZipFile
 
 import numpy as np
 
@@ -20,6 +22,12 @@ from ..recorded import MissingError, Recorded, Request, Samples, check_rate, che
 from ..time_axis import even_rate_hz
 
 MAXIMUM_HEAD_ROWS: Final = 200
+MAXIMUM_ROWS: Final = 2**20
+"""Rows of a sheet (Office Open XML spreadsheets, limits of their programs)."""
+_RATIO: Final = 100
+"""Most bytes of a part by a packed byte: the limit of Apache POI, `ZipSecureFile`."""
+_FREE_BYTES: Final = 100_000
+"""Size below which a part may have any ratio, as there."""
 _Row = tuple[Any, ...]
 
 
@@ -53,6 +61,7 @@ def read(request: Request) -> Recorded:
     """
     from openpyxl import load_workbook
 
+    _check_parts(request.path)
     with warnings.catch_warnings(action="ignore"):
         book = load_workbook(request.path, read_only=True, data_only=True, keep_links=False)
         sheet, remarks = _sheet(book)
@@ -71,6 +80,18 @@ def read(request: Request) -> Recorded:
         start_time=stamp,
         remarks=remarks,
     )
+
+
+def _check_parts(path: Path) -> None:
+    """Refuse parts that unpack to more than cells do; the directory of the archive states it."""
+    with ZipFile(path) as archive:
+        for part in archive.infolist():
+            if part.file_size > max(_FREE_BYTES, _RATIO * part.compress_size):
+                raise StorageError(
+                    f"part {part.filename!r} claims {part.file_size} bytes in "
+                    f"{part.compress_size} packed ones: cells take a {_RATIO}th at least: save "
+                    "the table alone, or as CSV"
+                )
 
 
 def _sheet(book: Any) -> tuple[_Sheet, list[str]]:
@@ -153,6 +174,11 @@ def _rows(sheet: Any, table: _Sheet) -> Iterator[tuple[int, _Row]]:
     empty = 0
     rows = sheet.iter_rows(min_row=table.head.lines + 1, values_only=True)
     for number, row in enumerate(rows, table.head.lines + 1):
+        if number > MAXIMUM_ROWS:
+            raise StorageError(
+                f"sheet {table.title!r} claims more than the {MAXIMUM_ROWS} rows that a sheet can "
+                "hold"
+            )
         if all(cell is None for cell in row):
             empty = empty or number
             continue

@@ -4,15 +4,14 @@ Pair 0 has opened; pair j is j turns younger, and across its outer contacts gas 
 A pair that has not closed yet fills from the suction.
 """
 
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numba
 import numpy as np
 
 from ...base.arrays import Array
-
-ALMOST: Final = 1e-12
-"""Value of κ - 1 below which a gas counts as isothermal."""
+from ...mechanics.nozzle import nozzle_flow
+from ...mechanics.runge_kutta import stage_of
 
 
 class LeakingPairs(NamedTuple):
@@ -40,35 +39,6 @@ class LeakingPairs(NamedTuple):
     isentropic_exponent: float
     """κ of the flow through the gaps."""
     angular_speed: float
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def nozzle_flow(
-    inner_pa: float, outer_pa: float, inner: float, outer: float, kappa: float
-) -> float:
-    """Isentropic flow through a nozzle, kg/(s m²); negative inwards.
-
-    m/A = ρ x √(2 κ/(κ-1) p/ρ (1 - r/x)), x = r^(1/κ), with p and ρ upstream and the pressure ratio
-    r no lower than the critical (2/(κ+1))^(κ/(κ-1)) (Saint-Venant and Wantzel 1839).
-
-    Parameters
-    ----------
-    inner_pa, outer_pa : pressures
-    inner, outer : densities there, kg/m³
-    kappa : isentropic exponent
-    """
-    forward = inner_pa >= outer_pa
-    high, low, density = (inner_pa, outer_pa, inner) if forward else (outer_pa, inner_pa, outer)
-    power = (kappa - 1.0) / kappa
-    if abs(kappa - 1.0) < ALMOST:
-        fall = min(np.log(high / low), 0.5)
-        work = fall
-    else:
-        critical = np.log((kappa + 1.0) / 2.0) / power
-        fall = min(np.log(high / low), critical)
-        work = -np.expm1(-power * fall) / power
-    flow = density * np.exp(-fall / kappa) * np.sqrt(2.0 * high / density * work)
-    return float(flow if forward else -flow)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
@@ -125,12 +95,11 @@ def leaking_turn(
     for number in range(p.steps):
         trial[:] = state
         for stage in range(4):
-            half = 2 * number + (0 if stage == 0 else (2 if stage == 3 else 1))
+            halves, reach, weight = stage_of(stage, step)
+            half = 2 * number + halves
             leaks_at(half, trial, mass, (opened_pa[half], opened_density[half]), p, leak)
             if stage == 0:
                 leaks[:, number] = leak
-            weight = step / (3.0 if stage in (1, 2) else 6.0)
-            reach = step if stage == 2 else 0.5 * step
             for j in range(p.pairs):
                 since = (p.pairs - j) * 2 * p.steps + 2 * (number + 1) - p.closes_at
                 closed = min(max(0.5 * since, 0.0), 1.0)  # of this step

@@ -10,6 +10,7 @@ import numba
 import numpy as np
 
 from ...base.arrays import Array
+from ...mechanics.runge_kutta import stage_of
 
 STATES: Final = 5
 PAIR, CHAMBER, PLENUM, GAP_FLOW, PORT_FLOW = range(STATES)
@@ -142,11 +143,9 @@ def one_turn(start: Array, steps: int, leak: Array, c: OpeningConstants) -> Arra
         for n in range(STATES):
             trial[n] = state[n]
         for stage in range(4):
-            half = 0 if stage == 0 else (2 if stage == 3 else 1)
+            half, reach, weight = stage_of(stage, step)
             angle, lost = number * step + 0.5 * half * step, leak[2 * number + half]
             opening_rate(angle, joined, trial, lost, c, rate)
-            weight = step / (3.0 if stage in (1, 2) else 6.0)
-            reach = step if stage == 2 else 0.5 * step
             for n in range(STATES):
                 trial[n] = states[n, number] + reach * rate[n]
                 state[n] += weight * rate[n]

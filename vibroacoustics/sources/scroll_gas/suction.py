@@ -13,6 +13,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.units import shaft_frequency_hz
+from ...mechanics.runge_kutta import increment
 from .chambers import contact_angle, swept_volume_m3
 from .opening_equations import density, flow_rise, pressure_rise
 from .parameters import ScrollWraps
@@ -154,7 +155,7 @@ def filling(steps: int, begins_at: float, c: FillingConstants) -> Array:
         p2, m2 = filling_rate(middle, pressure + 0.5 * step * p1, flow + 0.5 * step * m1, c)
         p3, m3 = filling_rate(middle, pressure + 0.5 * step * p2, flow + 0.5 * step * m2, c)
         p4, m4 = filling_rate(angle + step, pressure + step * p3, flow + step * m3, c)
-        pressure += step / 6.0 * (p1 + 2.0 * p2 + 2.0 * p3 + p4)
-        flow += step / 6.0 * (m1 + 2.0 * m2 + 2.0 * m3 + m4)
+        pressure += increment(step, p1, p2, p3, p4)
+        flow += increment(step, m1, m2, m3, m4)
         states[0, number + 1], states[1, number + 1] = pressure, flow
     return states

@@ -1,1 +1,0 @@
-"""Answers of this package to the open benchmark, one file for each field."""
