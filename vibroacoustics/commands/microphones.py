@@ -34,7 +34,7 @@ def read_files(
     """
     stems = [file.stem for file in files]
 
-    def read(file: Path) -> xr.Dataset:
+    def read(file: Path) -> "xr.Dataset":
         return replace(
             reading,
             unit=_of_file(reading.unit, file.stem, stems),

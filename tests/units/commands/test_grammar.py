@@ -293,7 +293,7 @@ def test_a_file_of_another_version_is_refused(name: str, inputs: Path, tmp_path:
     older = tiny_run().assign_attrs(schema_version="2")
     file = write_results(older, tmp_path / "results.nc")
     words = [
-        file if word == inputs / "results.nc" else word
+        str(file) if str(word) == str(inputs / "results.nc") else word
         for word in words_of(name, inputs, tmp_path / "out")
     ]
     outcome = command_here(*words)
