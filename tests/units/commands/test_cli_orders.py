@@ -265,6 +265,8 @@ def test_bad_recordings(name: str, tmp_path: Path) -> None:
     file = tmp_path / name
     file.write_bytes(content)
     outcome = command_here("orders", file, "--speed-channel", "tacho", "--out", tmp_path / "out")
+    lines = outcome.stderr.splitlines(keepends=True)  # a dead tacho has a warning, too
+    outcome.stderr = "".join(line for line in lines if not line.startswith("warning: "))
     assert_refused(outcome, name, *words)
     assert outcome.stdout == ""
     assert list(tmp_path.iterdir()) == [file]
