@@ -137,8 +137,8 @@ def extent(shifts: Sequence[Shift]) -> Band:
 
 
 def measurable(results: xr.Dataset) -> Measurable:
-    """Smallest changes that could be measured."""
-    return Measurable(**parameters(results)["scoring"]["measurable"])
+    """Smallest changes that could be measured; files of older versions name none."""
+    return Measurable(**parameters(results)["scoring"].get("measurable", {}))
 
 
 def at_receiver(values: xr.DataArray, receiver: str) -> xr.DataArray:

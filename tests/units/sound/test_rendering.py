@@ -101,7 +101,7 @@ def test_whole_revolutions_end_on_a_sample():
     assert revolutions == pytest.approx(round(revolutions), abs=1e-3)
     assert samples / SAMPLE_RATE_HZ == pytest.approx(10.0, rel=0.06)
     assert whole_revolutions(2.0, 0.0, SAMPLE_RATE_HZ) == 2 * SAMPLE_RATE_HZ
-    with pytest.raises(ParameterError, match="must be between 1 and 600 s"):
+    with pytest.raises(ParameterError, match="must be 1 to 600 s"):
         whole_revolutions(601.0, 950.0, SAMPLE_RATE_HZ)
 
 

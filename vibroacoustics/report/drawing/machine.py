@@ -49,7 +49,10 @@ def outline(shell: Mapping[str, Any], body: Mapping[str, Any]) -> Outline:
 
 
 def feet_m(machine: Mapping[str, Any]) -> Array:
-    """Feet (x, y, z) from the centre of mass, shape (foot, 3); four in a square if not given."""
+    """Feet (x, y, z) from the centre of mass, shape (foot, 3); four in a square if not given.
+
+    None in files of older versions, which hold no mounts.
+    """
     under = -machine["shell"]["centre_of_mass_height_m"]
     feet = machine.get("feet")
     if feet:
@@ -58,6 +61,8 @@ def feet_m(machine: Mapping[str, Any]) -> Array:
             under if foot.get("height_m") is None else foot["height_m"] for foot in given_feet
         ]
         return np.array([(f["x_m"], f["y_m"], z) for f, z in zip(given_feet, heights, strict=True)])
+    if not machine.get("mounts"):
+        return np.empty((0, 3))
     half = machine["mounts"]["pitch_m"] / 2.0
     return np.array([(x, y, under) for x in (half, -half) for y in (half, -half)])
 
@@ -67,30 +72,34 @@ def rectangle(half: float, lower: float, upper: float) -> Array:
     return np.array([(-half, lower), (half, lower), (half, upper), (-half, upper)])
 
 
-_READ = ["force_order", "foot_force_order", "force_amplitude", "moment_amplitude"]
+NEEDED = ("force_order", "moment_order", "foot_force_order", "force_amplitude", "moment_amplitude")
 
 
 class Loads(NamedTuple):
     """Complex peaks at 1×, at the speed at which the resultant force is largest.
 
-    Force on the machine, shape (axis,), semi-major axes of the ellipses of force and moment, and
-    forces into the feet, shape (foot, axis).
+    Force and moment on the machine about its centre of mass, shape (axis,), with the semi-major
+    axes of their ellipses, and forces into the feet, shape (foot, axis).
     """
 
     speed_rpm: float
     force_n: ComplexArray
+    moment_nm: ComplexArray
     foot_force_n: ComplexArray
     force_amplitude_n: float
     moment_amplitude_nm: float
 
 
-def loads(results: xr.Dataset) -> Loads:
-    """Nominal loads without a balancer."""
-    first = results[_READ].sel(option=REFERENCE_OPTION, order=1)
+def loads(results: xr.Dataset) -> Loads | None:
+    """Nominal loads without a balancer; None in files of older versions."""
+    if any(name not in results for name in NEEDED):
+        return None
+    first = results[list(NEEDED)].sel(option=REFERENCE_OPTION, order=1)
     loudest = first.isel(speed=int(first["force_amplitude"].argmax("speed")))
     return Loads(
         float(loudest["speed"]),
         loudest["force_order"].sum("source").values,
+        loudest["moment_order"].sum("source").values,
         loudest["foot_force_order"].sum("source").transpose("foot", "axis").values,
         float(loudest["force_amplitude"]),
         float(loudest["moment_amplitude"]),

@@ -29,9 +29,9 @@ LONGEST_FOOT_FORCE: Final = 26.0
 
 
 def machine_picture(results: xr.Dataset) -> Picture | None:
-    """Machine, feet, forces at 1× without a balancer, and microphones; None without a shell."""
+    """Machine, feet, forces at 1× without a balancer, and microphones; None in older files."""
     machine, acting = parameters(results)["machine"], loads(results)
-    if not machine.get("shell"):
+    if acting is None or not machine.get("shell"):
         return None
     body = parameters(results)["radiation"].get("body") or {}
     lines = outline(machine["shell"], body)

@@ -37,10 +37,11 @@ def scores_data(results: xr.Dataset) -> DataTable:
             of_method = results[name].sel({"scoring_method": method})
             columns[f"{name}_{method}"] = of_method.values.tolist()
     columns["first_place_share"] = results["first_place_share"].values.tolist()
-    probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
-    for number in probability["rank_position"].values:
-        of_rank = probability.sel(rank_position=number)
-        columns[f"share_of_rank_{number:g}"] = of_rank.values.tolist()
+    if "rank_acceptability" in results:
+        probability = results["rank_acceptability"].sel({"criteria_weights": ANY_WEIGHTS})
+        for number in probability["rank_position"].values:
+            of_rank = probability.sel(rank_position=number)
+            columns[f"share_of_rank_{number:g}"] = of_rank.values.tolist()
     words = {verdict.option: verdict for verdict in option_verdicts(results)}
     for column, name in (("verdict", "judgement"), ("because", "reason")):
         columns[column] = [getattr(words.get(each), name, "") for each in options(results)]
@@ -113,9 +114,9 @@ def _names(results: xr.Dataset, dim: str) -> list[str]:
 
 
 def acceptability_words(results: xr.Dataset, winners: Sequence[str]) -> str:
-    """Say how sure the first rank is."""
+    """Say how sure the first rank is; files of older versions have it by the weights alone."""
     whatever = 100.0 * float(results["first_place_share"].sel(option=winners).sum())
-    if not has_samples(results):
+    if "rank_acceptability" not in results or not has_samples(results):
         return f". It is first with {whatever:.0f} % of random weights"
     first = results["rank_acceptability"].isel(rank_position=0).sel(option=winners).sum("option")
     by_study = 100.0 * float(first.sel({"criteria_weights": OF_THE_STUDY}))
@@ -176,7 +177,7 @@ def _inside_a_sentence(label: str) -> str:
 
 
 def _blocks(results: xr.Dataset) -> list[Block]:
-    ranks = [rank_acceptability(results)]
+    ranks = [rank_acceptability(results)] if "rank_acceptability" in results else []
     weightings = parameters(results)["scoring"]["random_weightings"]
     return [
         Text(
