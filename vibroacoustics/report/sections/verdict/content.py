@@ -10,7 +10,6 @@ from ....base.registry import register
 from ....results.estimates import QUANTILES, has_samples
 from ....results.left_out import lines_of
 from ....results.stored_study import balancers, catalogue_receiver, other_receivers, parameters
-from ....results.version_2 import RAISED
 from ...blocks import Beside, Block, Bullets, Details, Light, LightRow, Lights, Pictures, Text
 from ...drawing.picture import machine_picture
 from ...option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
@@ -128,10 +127,7 @@ def coarse_words(results: xr.Dataset) -> list[Block]:
     """Say what was made coarser for a first look; nothing of a run as its study says."""
     coarsened = parameters(results).get("coarsened", ())
     first = "This is a first look, coarser than the study says:"
-    blocks: list[Block] = [Text(first), Bullets(tuple(coarsened))] if coarsened else []
-    if RAISED in results.attrs:
-        blocks.append(Text("Made by an earlier version: values without an interval are nominal."))
-    return blocks
+    return [Text(first), Bullets(tuple(coarsened))] if coarsened else []
 
 
 def _details(results: xr.Dataset) -> list[Block]:
