@@ -59,7 +59,9 @@ def growth_sentence(results: xr.Dataset) -> str:
 def _growth_sentence(results: xr.Dataset) -> str:
     if overall_noise(results) is None:
         return NO_LEVEL
-    growth = parameters(results)["machine"]["remainder"]["speed_growth_db"]
+    growth = parameters(results)["machine"].get("remainder", {}).get("speed_growth_db")
+    if growth is None:  # files of older versions
+        return "It is assumed to be constant over speed."
     ends = _range(results) or (growth, growth)
     return (
         f"Assumed growth: {_span(growth, ends, rounding.fixed)} dB for ten times the "

@@ -37,7 +37,7 @@ class Noise(Part):
 
 
 class UnmodelledNoise(Part):
-    speed_growth_db: Number
+    speed_growth_db: Number | None = None
     flat_lowest_db: Number | None = None
     flat_highest_db: Number | None = None
     near_level_db: Number | None = None
@@ -102,12 +102,12 @@ class RedesignedMachine(Part):
 class Machine(RedesignedMachine):
     name: str
     overall_noise: Noise | None = None
-    remainder: UnmodelledNoise
+    remainder: UnmodelledNoise = UnmodelledNoise()
     errata: list[Erratum]
     housing: RigidBody
     stopping: Stopping | None = None
     shell: Shell | None = None
-    mounts: Mounts
+    mounts: Mounts | None = None
     feet: dict[str, Foot | None] | None = None
 
 
@@ -161,7 +161,7 @@ class Measurable(Part):
 class Scoring(Part):
     random_weightings: int
     published: PublishedScores | None = None
-    measurable: Measurable
+    measurable: Measurable | None = None
 
 
 class PublishedForce(Part):
