@@ -11,6 +11,8 @@ from ..base.column_file import read_columns
 from ..base.file_table import FileTable
 
 LARGEST_LOSS: Final = 10.0
+LEAST_N_PER_M: Final = 1e2
+LARGEST_N_PER_M: Final = 1e9
 
 
 class MountStiffness(FileTable):
@@ -43,8 +45,12 @@ class MountStiffness(FileTable):
             if hertz < 0.0 or (row and hertz <= frequency[row - 1]):
                 raise columns.refusal(row, f"frequency_hz = {hertz:g}: must rise, from 0 up")
             for name, value in zip(names[1:3], (lateral[row], vertical[row]), strict=True):
-                if value <= 0.0:
-                    raise columns.refusal(row, f"{name} = {value:g}: must be above 0")
+                if not LEAST_N_PER_M <= value <= LARGEST_N_PER_M:
+                    raise columns.refusal(
+                        row,
+                        f"{name} = {value:g} N/m: must be {LEAST_N_PER_M:g} to "
+                        f"{LARGEST_N_PER_M:g} N/m",
+                    )
             if not 0.0 <= loss[row] <= LARGEST_LOSS:
                 raise columns.refusal(
                     row, f"loss_factor = {loss[row]:g}: allowed 0 to {LARGEST_LOSS:g}"

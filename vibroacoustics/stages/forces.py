@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import xarray as xr
 
@@ -46,16 +47,15 @@ class Forces(Stage):
         return Given(results, (cases, _published(chain.study, cases)))
 
     def tried(self, chain: Chain, study: Study) -> Trial:
-        """Time the first speed, with which code is compiled, and the second one."""
-        speeds = study.operation.speed_rpm
+        """Time the first speed, with which code is compiled, and try every other one."""
         after, costs = timed(chain, self)
-        if len(speeds) > 1:
-            second = at_speeds(study, speeds[1:2], study.options)
-            next_s = processor_time_s(lambda: motion_of(second, no_progress))
-            others = len(speeds) - 1
-            how = f"{others} speeds, one measured"
-            costs += (about("forces at further speeds", next_s, how, others),)
         check_size(study, after.results, no_progress)
+        further_s = 0.0
+        for speed in study.operation.speed_rpm[1:]:
+            at_speed = at_speeds(study, (speed,), study.options)
+            further_s += processor_time_s(partial(motion_of, at_speed, no_progress))
+        if further_s:
+            costs += (about("forces at further speeds", further_s, "measured"),)
         return Trial(after, costs)
 
 

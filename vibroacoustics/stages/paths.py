@@ -15,7 +15,7 @@ from ..transfer.path import ShellPath
 from ..transfer.received import Transmission
 from .chain import Chain
 from .representative import Representative
-from .stage import Given, Stage, Trial, advanced
+from .stage import Given, Stage
 
 
 @register
@@ -23,6 +23,7 @@ class Paths(Stage):
     """Paths of the sound, with the nominal values."""
 
     name = "paths"
+    is_tried = True
     reads = (ShellPath, ForceSound, "transfer_vector", "pattern_transfer_vector")
     gives = (Transmission,)
 
@@ -32,15 +33,13 @@ class Paths(Stage):
         modes = None if shell is None else pressure_per_shell_velocity(results)
         return Given(products=(Transmission(chain.study, Observers(rigid, modes), shell),))
 
-    def tried(self, chain: Chain, study: Study) -> Trial:
-        return Trial(advanced(chain, self))
-
 
 @register
 class MeasuredForceSound(Stage):
     """Measured pressure per force, in place of transfer vectors."""
 
     name = "force-sound"
+    is_tried = True
     gives = (ForceSound,)
 
     def applies(self, study: Study) -> bool:
@@ -48,9 +47,6 @@ class MeasuredForceSound(Stage):
 
     def run(self, chain: Chain) -> Given:
         return Given(products=(force_sound_of(chain.study),))
-
-    def tried(self, chain: Chain, study: Study) -> Trial:
-        return Trial(advanced(chain, self))
 
 
 @register

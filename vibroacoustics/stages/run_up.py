@@ -16,7 +16,7 @@ from ..study.study import Study
 from ..transfer.received import Transmission
 from .chain import Chain
 from .shown import SHOWN, Shown
-from .stage import Given, Stage, Trial, timed
+from .stage import Given, Stage
 
 _ENOUGH: Final = 6
 """Speeds of a study that show the levels over speed themselves."""
@@ -27,6 +27,7 @@ class RunUp(Stage):
     """Levels of sources, machine and orders in a run-up without an option."""
 
     name = "run-up"
+    is_tried = True
     reads = (*SHOWN, NominalSound)
     gives = ("run_up_*",)
 
@@ -53,9 +54,6 @@ class RunUp(Stage):
         )
         by_speed = dict(zip(speeds, sound, strict=True))
         return Given(run_up_variables(chain[NominalSound].axes, by_speed, noise))
-
-    def tried(self, chain: Chain, study: Study) -> Trial:
-        return timed(chain, self)
 
 
 def _cases(study: Study) -> Cases:

@@ -12,7 +12,7 @@ from ..transfer.path import ShellPath
 from ..transfer.study_path import computed_shell_path, measured_shell_path
 from ..uncertainty.hammer_test import HammerTest
 from .chain import Chain
-from .stage import Given, Stage, Trial, timed
+from .stage import Given, Stage
 
 
 @register
@@ -20,6 +20,7 @@ class Shell(Stage):
     """Modes and joints of the shell, where a source drives it."""
 
     name = "shell"
+    is_tried = True
     gives = (ShellPath,)
 
     def applies(self, study: Study) -> bool:
@@ -28,9 +29,6 @@ class Shell(Stage):
     def run(self, chain: Chain) -> Given:
         with stage(chain.progress, "modes of the shell"):
             return Given(products=(shell_path(chain.study),))
-
-    def tried(self, chain: Chain, study: Study) -> Trial:
-        return timed(chain, self)
 
 
 def shell_path(study: Study) -> ShellPath | None:
@@ -71,6 +69,7 @@ class HammerTests(Stage):
     """Measured mobilities of the shell's wall, with their natural frequencies and loss factors."""
 
     name = "hammer-test"
+    is_tried = True
     reads = (ShellPath,)
     gives = (HammerTest,)
 
@@ -79,9 +78,6 @@ class HammerTests(Stage):
 
     def run(self, chain: Chain) -> Given:
         return Given(products=(hammer_test(chain.study, chain.get(ShellPath)),))
-
-    def tried(self, chain: Chain, study: Study) -> Trial:
-        return timed(chain, self)
 
 
 def hammer_test(study: Study, path: ShellPath | None) -> HammerTest:

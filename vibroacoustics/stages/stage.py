@@ -63,6 +63,8 @@ class Stage:
     estimates: ClassVar[tuple[str, ...]] = ()
     """Variables of other stages whose nominal values it replaces by statistics of samples; stages
     that read them come after it, but for those whose things it reads itself."""
+    is_tried: ClassVar[bool] = False
+    """Whether a trial runs it at the first speed."""
 
     def applies(self, study: Study) -> bool:
         """Return whether the study asks for this stage."""
@@ -90,7 +92,7 @@ class Stage:
         chain : at the first speed
         study : at all speeds
         """
-        return Trial(chain)
+        return timed(chain, self) if self.is_tried else Trial(chain)
 
 
 class Trial(NamedTuple):

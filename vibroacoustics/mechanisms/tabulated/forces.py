@@ -15,6 +15,8 @@ from .spectra import Spectra, packed, unpacked
 
 KEPT_TABLES: Final = 16
 """Tables that are kept as arrays."""
+LARGEST_N: Final = 1e8
+"""Largest force, N, or moment, N m, of an order."""
 SPEED_RATIO: Final = 2.0
 """Largest usual ratio of the speeds between which, or from which, forces are computed."""
 
@@ -38,6 +40,11 @@ class Forces(FileTable):
         spectra = _read(path, table.get("recorded_speed_rpm"))
         if not np.any(spectra.orders[..., 1:]):
             raise ParameterError(f"{path}: all forces and moments are constant")
+        largest = float(np.abs(spectra.orders).max())
+        if not largest <= LARGEST_N:
+            raise ParameterError(
+                f"{path}: force = {largest:g} N: must be at most {LARGEST_N:g} N, a moment N m"
+            )
         return {
             "speed_rpm": spectra.speed_rpm,
             "sources": spectra.sources,
