@@ -143,6 +143,15 @@ def command_here(*arguments: object) -> subprocess.CompletedProcess[str]:
     )
 
 
+def without_warnings(
+    outcome: subprocess.CompletedProcess[str],
+) -> subprocess.CompletedProcess[str]:
+    """Outcome of a command whose stderr has the other lines alone."""
+    lines = outcome.stderr.splitlines(keepends=True)
+    outcome.stderr = "".join(line for line in lines if not line.startswith("warning: "))
+    return outcome
+
+
 def assert_refused(outcome: subprocess.CompletedProcess[str], *words: str) -> None:
     """Lines of errors on stderr, one of which holds the words, and exit code 2."""
     assert outcome.returncode == 2, outcome.stdout + outcome.stderr

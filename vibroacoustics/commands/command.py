@@ -93,6 +93,8 @@ class Command:
                 else:
                     stack.enter_context(stage(progress, self.name))
             stack.enter_context(option_words.spoken(inputs))
+            if "printing" in options:  # refuses paper and browser before anything is read
+                options["printing"].printer()
             outcome = self.function(**options)
             for label, path in outcome.files.items():
                 messages.note(f"{label}: {path}")

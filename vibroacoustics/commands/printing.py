@@ -88,13 +88,13 @@ def printer(wanted: bool, paper: str | None, brief: bool = False) -> Printer | N
     ParameterError
         There is no such paper, or no browser that prints.
     """
-    from ..report.html import PAPERS
-
     if not wanted:
         for option, is_given in (("--paper", paper is not None), ("--brief", brief)):
             if is_given:
                 raise ParameterError(f"{option}: is an option of the PDF; give --pdf as well")
         return None
+    from ..report.html import PAPERS
+
     name = (paper or "a4").lower()
     if name not in PAPERS:
         raise ParameterError(f"--paper {paper}: must be {' or '.join(PAPERS)}")

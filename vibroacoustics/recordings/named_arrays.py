@@ -36,8 +36,8 @@ class NamedArray:
     shape : shape that the header claims
     is_number : whether it holds numbers
     load : stored values of a part, one slice a dimension
-    check : refuses a part that the bytes of the file cannot hold
     attributes : units, sample rate and how the values are packed
+    check : refuses a part that the bytes of the file cannot hold
     """
 
     name: str

@@ -168,4 +168,7 @@ def test_doctor_names_damaged_results(results, tmp_path):
     path = storage.write_results(results, tmp_path / "results.nc")
     path.write_bytes(path.read_bytes()[:-100])
     assert f"results: {path}: has no hash" in command_here("doctor", tmp_path).stdout
-    assert f"results: {tmp_path}/none: none" in command_here("doctor", tmp_path / "none").stdout
+    assert (
+        f"results: {tmp_path}/none: is no folder"
+        in command_here("doctor", tmp_path / "none").stdout
+    )

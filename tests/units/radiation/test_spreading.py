@@ -86,13 +86,3 @@ def test_axes_spread_noise_to_their_microphones() -> None:
     axes = LevelAxes([50.0], ["none"], [], ["b", "a"], [], (), {"b": np.array([0.5, 0.25])})
     noise = np.array([[[2.0, 4.0]]])
     assert axes.spread(noise) == pytest.approx(np.array([[[[1.0, 1.0], [2.0, 4.0]]]]))
-
-
-def test_results_whose_noise_was_alike_everywhere_still_open(tmp_path: Path) -> None:
-    results = va.run(va.load_study(STUDY).replace({"operation.speed_rpm": [2900.0]}))
-    name = "unmodelled_band_level"
-    older = results.assign({name: results[name].isel(receiver=0, drop=True)})
-    write_results(older, tmp_path / "results.nc")
-    opened = va.open_results(tmp_path / "results.nc")
-    assert opened[name].dims == results[name].dims
-    assert opened[name].isel(receiver=-1).values == pytest.approx(older[name].values)

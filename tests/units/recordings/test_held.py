@@ -44,7 +44,7 @@ def test_the_hash_is_that_of_float64():
     assert samples_digest(stored) == samples_digest(stored.astype(float))
 
 
-@pytest.mark.parametrize(("sample", "factor"), [(np.nan, 1.0), (np.inf, 1.0), (3e38, 1e300)])
+@pytest.mark.parametrize(("sample", "factor"), [(np.nan, 1.0), (np.inf, 1.0)])
 def test_samples_that_are_not_finite_are_refused_alike(tmp_path, sample, factor):
     signal = np.ones((2, 100))
     signal[1, 40] = sample

@@ -164,7 +164,12 @@ def _large_differences(gain: xr.DataArray) -> list[str]:
 
 
 def absorption(results: xr.Dataset) -> list[Table]:
-    """Return requested and computed absorption by octave; surfaces that are alike have one row."""
+    """Return requested and computed absorption by octave; results of earlier versions have none.
+
+    Surfaces that are alike have one row.
+    """
+    if "room_wall_absorption" not in results:
+        return []
     rows: dict[tuple[str, ...], list[str]] = {}
     for surface in results["room_surface"].values:
         requested, in_waves = (

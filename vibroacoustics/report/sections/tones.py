@@ -89,6 +89,8 @@ def tone_data(results: xr.Dataset) -> dict[str, DataTable]:
 
 def _audibility(results: xr.Dataset, case: dict[str, Any]) -> tuple[str, ...]:
     """Audibility and adjustment, with their intervals where they are sampled."""
+    if AUDIBILITY not in results:
+        return ()
     texts = []
     for variable, write in ((AUDIBILITY, rounding.fixed), ("tonal_adjustment", "{:g}".format)):
         low, value, high = map(write, estimate(results, variable, **case))
