@@ -5,6 +5,7 @@ import shutil
 import tomllib
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import islice
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -262,20 +263,23 @@ def by_table(folder: Path) -> tuple[Path, Path]:
 BASES: Final = {each.__name__: each for each in (rigid, machine, with_sources, by_table)}
 
 
-def changed_values(file: Path) -> Iterator[str]:
-    """Write a file with one value changed, or a value or table removed, at a time; give what."""
+def changed_values(file: Path, every: int, first: int) -> Iterator[str]:
+    """Write a file with one value changed, or a value or table removed, at a time; give what.
+
+    Only every n-th of all changes is made, from the first that is wanted on.
+    """
     written = tomllib.loads(file.read_text(encoding="utf-8"))
-    for keys in leaves(written):
-        for value in (None, *VALUES):
-            content = copy.deepcopy(written)
-            table = content
-            for key in keys[:-1]:
-                table = table[key]
-            table[keys[-1]] = value
-            if value is None:
-                del table[keys[-1]]
-            file.write_text("\n".join(f"{key} = {toml(each)}" for key, each in content.items()))
-            yield f"{'.'.join(keys)} = {value!r}"
+    changes = ((keys, value) for keys in leaves(written) for value in (None, *VALUES))
+    for keys, value in islice(changes, first, None, every):
+        content = copy.deepcopy(written)
+        table = content
+        for key in keys[:-1]:
+            table = table[key]
+        table[keys[-1]] = value
+        if value is None:
+            del table[keys[-1]]
+        file.write_text("\n".join(f"{key} = {toml(each)}" for key, each in content.items()))
+        yield f"{'.'.join(keys)} = {value!r}"
 
 
 LOUDER: Final = "the model alone gives"

@@ -26,6 +26,7 @@ from vibroacoustics.base.vocabulary import (
     YES_OR_NO,
 )
 from vibroacoustics.commands import outputs
+from vibroacoustics.report.drawing import machine as drawn
 from vibroacoustics.results import hashed
 from vibroacoustics.results.complete import check_run
 from vibroacoustics.results.run_attributes import Parameters, Words
@@ -157,8 +158,9 @@ def test_what_is_checked_is_all_that_a_report_reads(name: str) -> None:
     """Without the variables and keys that no check knows it is the same."""
     results = run(name)
     optional = {"supply_frequency", "projection_error", "force", "transfer_vector_closed_form",
-                "transfer_vector_error", "stopping_order_map", "total_band_level",
-                "alternative_effective"}  # fmt: skip
+                "transfer_vector_error", "stopping_order_map", "rank_acceptability",
+                "total_band_level", "alternative_effective",
+                *drawn.NEEDED}  # fmt: skip
     with_interval = [name for name in map(str, results) if f"{name}{SUFFIXES[LOW]}" in results]
     sampled = {name + suffix for name in with_interval for suffix in ("", *SUFFIXES.values())}
     needed = {*needed_variables(results), *optional, *sampled} & results.keys()

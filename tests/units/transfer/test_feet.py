@@ -219,7 +219,7 @@ def test_study_on_three_feet_goes_to_its_results(tmp_path):
         ("mount_stiffness", HEAD + "1,2,3,nan\n", "line 2: loss_factor = nan: must be a finite"),
         ("mount_stiffness", HEAD + "1,2,,0.1\n", "vertical_n_per_mm = nothing: must be a finite"),
         ("mount_stiffness", HEAD + "1,2,-3,0.1\n",
-         "line 2: vertical_n_per_m = -3000: must be above"),
+         "line 2: vertical_n_per_m = -3000 N/m: must be 100 to 1e+09 N/m"),
         ("mount_stiffness", HEAD + "1,2,3,11\n", "loss_factor = 11: allowed 0 to 10"),
         ("mount_stiffness", HEAD + "9,2,3,0\n9,2,3,0\n", "line 3: frequency_hz = 9: must rise"),
         ("floor_mobility", "frequency_hz,vertical_mobility_m_per_ns,vertical_phase_deg\n0,1,2\n",
