@@ -23,6 +23,8 @@ from .lock import locked
 from .netcdf import from_bytes, write_netcdf
 from .provenance import RECORDING_SCHEMA_VERSION, SCHEMA_VERSION
 
+_ENTRY: Final = "cache_entry"
+"""Attribute of a cached result: the name of its entry."""
 _CACHE_IS_USED: Final = ContextVar("_CACHE_IS_USED", default=True)
 
 
@@ -191,10 +193,16 @@ def _entry(kind: str, material: Mapping[str, Any]) -> str:
 
 
 def _known(folder: Folder, name: str) -> xr.Dataset | None:
-    """The cached result, where it is there and whole."""
+    """The cached result, where it is there, whole and stored for this entry.
+
+    A file of another entry has a right hash, too.
+    """
     try:
         result = results_in(folder, name)
     except StorageError:
+        return None
+    if result.attrs.pop(_ENTRY, None) != name:
+        cache.warn(StorageError(f"{folder.path / name}: is no result of this entry"))
         return None
     cache.mark_used(folder, name)
     return result
@@ -215,7 +223,7 @@ def _locked_entry(stack: ExitStack, folder: Folder, name: str) -> bool:
 def _keep(result: xr.Dataset, folder: Folder, name: str, study: str) -> None:
     try:
         with staging(folder, cache.staging_of(name)) as staged:
-            stage_results(result, staged, name)
+            stage_results(result.assign_attrs({_ENTRY: name}), staged, name)
             if study:
                 write(staged, cache.study_of(name), study.encode())
             size = staged.size_bytes()
