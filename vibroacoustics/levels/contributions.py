@@ -16,7 +16,6 @@ from .axes import LevelAxes
 from .bands import Band
 from .by_source import gain_band_number, membership, weighting_power
 from .labelled import level
-from .measured_points import BASELINE_BANDS
 
 SILENT: Final = 1e-12
 """Share of the largest mean square, 120 dB below it: a smaller sum is near rounding and has no
