@@ -14,13 +14,7 @@ import xarray as xr
 from ....base import rounding
 from ....base.vocabulary import REFERENCE_OPTION
 from ....results.bands import Band, band
-from ....results.estimates import (
-    QUANTILES,
-    effective_samples,
-    has_samples,
-    prior_ensemble,
-    weighted_estimate,
-)
+from ....results.estimates import QUANTILES, effective_samples, has_samples
 from ....results.stored_study import (
     assumed_level,
     at_catalogue,
@@ -165,15 +159,12 @@ def _basis(results: xr.Dataset, speed_rpm: float) -> str:
 
 def _model_alone(results: xr.Dataset) -> str:
     """Give the level of the model where samples are fitted, and their number where they are few."""
-    parts, ensemble = [], prior_ensemble(results) if has_samples(results) else None
-    if overall_noise(results) is not None and ensemble is not None:
-        solved = np.isfinite(ensemble.level_dba)
-        alone = weighted_estimate(ensemble.level_dba[solved], ensemble.before[solved])
-        level = Band(alone.low, alone.value, alone.high).middle_and_ends(
-            partial(rounding.fixed, decimals=0)
-        )
-        parts.append(f"the model alone: {level}")
-    if ensemble is not None and effective_samples(results) < _FEW_SAMPLES:
+    parts = []
+    if "model_level" in results and has_samples(results):
+        alone = Band(*results["model_level"].values.tolist())
+        whole = partial(rounding.fixed, decimals=0)
+        parts.append(f"the model alone: {alone.middle_and_ends(whole)}")
+    if has_samples(results) and effective_samples(results) < _FEW_SAMPLES:
         parts.append(f"{effective_samples(results):.0f} effective samples")
     text = "; ".join(parts)
     return f"{text[0].upper()}{text[1:]}." if text else ""
