@@ -423,3 +423,15 @@ def test_changes_by_option_are_those_of_the_results(sampled: xr.Dataset) -> None
     assert chart.zone == (-0.5, 0.5)
     assert chart.scale[0] == -chart.scale[1]
     assert first_screen.changes(make_results({"none": 1.0})) is None
+
+
+@pytest.mark.parametrize(
+    ("gain_db", "grown", "fallen", "speed"),
+    [([-3.0, 1.0], 0.8, 0.2, 1), ([3.0, -1.0], 0.2, 0.8, 1), ([-3.0, 1.0], 0.8, 0.8, 0)],
+)
+def test_a_change_is_shown_where_it_goes_the_way_that_is_said(gain_db, grown, fallen, speed):
+    """An option that may raise the level is not shown with a fall of 3 dB at another speed."""
+    bands = tuple(Band(gain - 1.0, gain, gain + 1.0) for gain in gain_db)
+    one = np.ones(2)
+    of_total = Shift(TOTAL, one, one, np.array(gain_db), bands, grown, fallen, Measurable())
+    assert first_screen.largest(of_total) == speed

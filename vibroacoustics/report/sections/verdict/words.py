@@ -132,8 +132,16 @@ def word(of_total: Shift) -> IntervalWord:
 
 
 def largest(of_quantity: Shift) -> int:
-    """Return the number of the speed at which a quantity changes most."""
-    return int(np.argmax(np.abs(np.nan_to_num(of_quantity.gain_db))))
+    """Return the number of the speed at which a quantity changes most, in the way that is said.
+
+    A quantity that is said to grow is shown where it grows most, one that falls where it falls.
+    """
+    gain_db = np.nan_to_num(of_quantity.gain_db)
+    if of_quantity.worsens and not of_quantity.improves:
+        return int(np.argmax(gain_db))
+    if of_quantity.improves and not of_quantity.worsens:
+        return int(np.argmin(gain_db))
+    return int(np.argmax(np.abs(gain_db)))
 
 
 def _level(results: xr.Dataset) -> str:
