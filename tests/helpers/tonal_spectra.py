@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from vibroacoustics.sound.ingredients import HALF_BAND, Ingredients
+from vibroacoustics.levels.bands import HALF_BAND
+from vibroacoustics.sound.ingredients import Ingredients
 from vibroacoustics.sound.tonality import TonalSpectrum
 
 

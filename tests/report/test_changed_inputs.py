@@ -14,7 +14,8 @@ from vibroacoustics.report.sections.changed_inputs import (
     headline_table,
     rows_of,
 )
-from vibroacoustics.report.sections.verdict.words import by_effect, leading_source
+from vibroacoustics.report.sections.sources.words import dominant_source
+from vibroacoustics.report.sections.verdict.words import by_effect
 from vibroacoustics.results.alternatives import (
     LEAST_EFFECTIVE,
     headline_variables,
@@ -70,8 +71,8 @@ def plain(text: str) -> str:
 def test_results_with_an_alternative_have_its_headlines(results: xr.Dataset) -> None:
     headlines = headline_variables(results)
     other = with_alternative(headlines, "level alone")
-    assert leading_source(results) == ("gas", False)
-    assert leading_source(other) == ("gas", True)
+    assert dominant_source(results) == ("gas", False)
+    assert dominant_source(other) == ("gas", True)
     assert by_effect(results) == ([], ["rattles"])
     assert by_effect(other) == ([], [])
     assert estimate(other, "level_total", **AT) == (53.0, 55.0, 57.0)

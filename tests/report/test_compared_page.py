@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from sources_study import sources_run
 from support import assert_refused, command_here, tiny_run
 
 from vibroacoustics import (
@@ -136,3 +137,37 @@ def test_command_with_runs_options_and_limits(study, tmp_path):
     assert_refused(command_here("compare", *files, result), "only recordings are averaged")
     assert_refused(command_here(*to, "--other-option", "hood"), "'hood': mean of 2 recordings")
     assert_refused(command_here("compare", result, result, "--other-option", "hood"), "is none of")
+
+
+def test_recordings_of_own_samples_agree_in_four_of_five():
+    """Levels of a hundred samples by their weights: the 80 % interval; 10 dB off differs."""
+    sampled = sources_run()
+    at = {"speed": 2900.0, "option": "none", "receiver": "front_1m"}
+    rows = sampled["level_total_by_sample"].sel(at).values
+    weight = sampled["sample_weight"].values[0]
+    picked = np.random.default_rng(3).choice(rows.size, 100, p=weight / weight.sum())
+    orders = recording(sampled, 1.0)
+    level = orders["equivalent_level"].sel(channel="front", weighting="A").item()
+
+    def verdict(level_dba):
+        shifted = orders.assign(equivalent_level=orders["equivalent_level"] + level_dba - level)
+        compared = compare(sampled, shifted, {MICROPHONE: "front"})
+        total, *_ = validations_of(Compared(compared, sampled, shifted))
+        assert total.data == pytest.approx(level_dba)
+        assert total.inputs > 0.0
+        return total.verdict
+
+    verdicts = [verdict(float(rows[row])) for row in picked]
+    assert 76 <= verdicts.count("agrees") <= 84
+    assert verdict(float(sampled["level_total"].sel(at)) + 10.0) == "differs"
+
+
+def test_orders_have_the_spread_of_the_samples():
+    sampled = sources_run()
+    run = recording(sampled, 2.0)
+    orders = compare(sampled, run, {MICROPHONE: "front"})
+    rows = validations_of(Compared(orders, sampled, run))
+    order = next(row for row in rows if row.quantity.startswith("Order 1 of"))
+    at = {"speed": 2900.0, "option": "none", "receiver": "front_1m", "order": 1, "weighting": "Z"}
+    high, value = (sampled[f"order_level{end}"].sel(at).item() for end in ("_90_percent", ""))
+    assert order.inputs == pytest.approx((high - value) / 1.2816, rel=1e-9)

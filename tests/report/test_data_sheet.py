@@ -401,3 +401,15 @@ def _distance_squared(results: xr.Dataset, name: str) -> float:
     """From the axis on the floor to a microphone, m²."""
     at = json.loads(results.attrs["parameters"])["receivers"][name]
     return float(at["x_m"] ** 2 + at["y_m"] ** 2 + at["height_m"] ** 2)
+
+
+def test_a_sheet_of_example_values_says_so_first(results: xr.Dataset) -> None:
+    study = json.loads(results.attrs["parameters"])
+    for record in study["records"][:2]:
+        record["example"] = "2900"
+    own = results.assign_attrs(parameters=json.dumps(study))
+    sheet = va.data_sheet(own, "none")
+    first = f"2 of {len(study['records'])} values that this study reads are the example's."
+    assert sheet.example == first
+    assert analysis_of_data_sheet(sheet).summary[0] == first
+    assert not va.data_sheet(results, "none").example

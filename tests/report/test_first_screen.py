@@ -280,14 +280,14 @@ def test_the_level_is_that_of_comparison_csv(
 ) -> None:
     none = next(row for row in tables["comparison.csv"] if row["option"] == "none")
     (text, *_) = sentences(sampled)
-    name, _, rest = text.partition(" at 2900 rpm: predicted ")
+    name, _, rest = text.partition(" at 2900 rpm: ")
     assert name == json.loads(sampled.attrs["parameters"])["machine"]["name"]
     level, rest = rest.split(" dB(A) at front_1m ")
-    interval, published = rest.split("; published ")
+    interval, published = rest.split("), fitted to the published ")
     value, low, high = of_parts(none, "level_total", "_dba")
     assert_written(level, [value])
     assert_written(interval.replace("80\u00a0% interval ", ""), [low, high])
-    assert published == "56)."
+    assert published == "56."
 
 
 def test_the_dominant_source_is_that_of_sources_csv(
@@ -295,7 +295,7 @@ def test_the_dominant_source_is_that_of_sources_csv(
 ) -> None:
     rows = [row for row in tables["sources.csv"] if row["option"] == "none"]
     largest = max(rows, key=lambda row: float(row["share_of_energy"]))
-    text = sentences(sampled)[1].replace("<1\u00a0%", "0\u00a0%")
+    text = sentences(sampled)[2].replace("<1\u00a0%", "0\u00a0%")
     assert json.loads(sampled.attrs["words"])["sources"][largest["source"]] in text
     assert "not settled" in text
     assert_written(text, of_parts(largest, "share_of_energy", "", 100.0))
@@ -423,3 +423,15 @@ def test_changes_by_option_are_those_of_the_results(sampled: xr.Dataset) -> None
     assert chart.zone == (-0.5, 0.5)
     assert chart.scale[0] == -chart.scale[1]
     assert first_screen.changes(make_results({"none": 1.0})) is None
+
+
+@pytest.mark.parametrize(
+    ("gain_db", "grown", "fallen", "speed"),
+    [([-3.0, 1.0], 0.8, 0.2, 1), ([3.0, -1.0], 0.2, 0.8, 1), ([-3.0, 1.0], 0.8, 0.8, 0)],
+)
+def test_a_change_is_shown_where_it_goes_the_way_that_is_said(gain_db, grown, fallen, speed):
+    """An option that may raise the level is not shown with a fall of 3 dB at another speed."""
+    bands = tuple(Band(gain - 1.0, gain, gain + 1.0) for gain in gain_db)
+    one = np.ones(2)
+    of_total = Shift(TOTAL, one, one, np.array(gain_db), bands, grown, fallen, Measurable())
+    assert first_screen.largest(of_total) == speed

@@ -3,8 +3,8 @@
 import os
 import re
 import resource
-import shutil
 import signal
+import subprocess
 from collections.abc import Iterator, Mapping
 from contextlib import chdir, contextmanager
 from pathlib import Path
@@ -200,9 +200,14 @@ def _with(base: list[str], option: Option, value: str) -> list[str]:
     return [*base[:at], *behind, "--", *base[1:at], value]
 
 
+def remove(folder: Path) -> None:
+    """Remove a folder of any depth; Python's own function recurses."""
+    subprocess.run(["rm", "-rf", "--", str(folder)], check=True)
+
+
 def write_strange(folder: Path) -> None:
     """Write files of other kinds, and the recordings that the trials need."""
-    shutil.rmtree(folder, ignore_errors=True)
+    remove(folder)
     (folder / "folder").mkdir(parents=True)
     for suffix in ("csv", "toml", "nc", "wav", "py"):
         (folder / f"empty.{suffix}").write_bytes(b"")
@@ -242,7 +247,7 @@ def fault(folder: Path, trial: Trial) -> str:
     """What is wrong with the outcome of a trial; nothing where it is as it should be."""
     strange = folder / "strange"
     write_strange(strange)
-    shutil.rmtree(folder / "out", ignore_errors=True)
+    remove(folder / "out")
     try:
         with chdir(strange), _bounded():
             outcome = command_here(*trial.words)
@@ -256,7 +261,8 @@ def fault(folder: Path, trial: Trial) -> str:
             last = last.tb_next
         place = "" if last is None else f"{last.tb_frame.f_code.co_filename}:{last.tb_lineno}"
         return f"traceback: {type(error).__name__}: {str(error)[:100]} {place[-60:]}"
-    is_table = trial.value.endswith((".toml", ".csv"))  # of which all refusals are printed
+    # All refusals of a table are printed; an empty file of any name is an empty table.
+    is_table = trial.value.endswith((".toml", ".csv", "empty.nc"))
     return _judged(outcome.returncode, outcome.stdout, outcome.stderr, is_table)
 
 

@@ -10,6 +10,7 @@ from ..base.errors import ParameterError, SchemaError
 from ..base.hashing import sha256
 from ..results.data_sheet import DataSheet
 from ..results.stored_study import parameters, words
+from ..study.example import example_sentence
 from .facts import mounting, not_available, operating
 from .rated_windows import rated_windows
 from .sound import sound_power, surfaces_m2
@@ -68,7 +69,9 @@ def data_sheet(
     case = results.sel(option=option, speed=speed, receiver=chosen)
     study = parameters(results)
     floor = study["radiation"]["surroundings"]["floor"]
+    examples = sum(bool(record.get("example")) for record in study["records"])
     return DataSheet(
+        example=example_sentence(examples, len(study["records"])),
         title=study["title"],
         machine=study["machine"]["name"],
         option=option,

@@ -12,6 +12,8 @@ from ..base.errors import ParameterError
 
 OCTAVE_RATIO: Final = 10.0**0.3
 """G (equation 1)."""
+HALF_BAND: Final = OCTAVE_RATIO ** (1.0 / 6.0)
+"""Upper edge of a third octave over its centre, 10^0.05."""
 REFERENCE_FREQUENCY_HZ: Final = 1000.0
 """f_r (3.4)."""
 

@@ -1,23 +1,48 @@
 """Levels and shares of the paths of sound, labelled."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
+from ..base.decibel import SILENCE_DB, amplitude_of_level, sound_pressure_level
 from ..base.vocabulary import stamped
 from ..machine.source import CaseKey
 from ..mechanics.contributions import Contributions, PathName
 from .axes import LevelAxes
 from .bands import Band
-from .by_source import membership, weighting_power
+from .by_source import gain_band_number, membership, weighting_power
 from .labelled import level
 
 SILENT: Final = 1e-12
 """Share of the largest mean square, 120 dB below it: a smaller sum is near rounding and has no
 shares."""
+
+
+def with_gain(split: Contributions, gain: Array) -> Contributions:
+    """Return the contributions with the gains of a discrepancy.
+
+    Parameters
+    ----------
+    split : of a case
+    gain : factors on the power, shape (source, receiver, gain band)
+    """
+    root = np.sqrt(gain)[..., gain_band_number(split.frequency_hz)]
+    number = [split.sources.index(name.source) for name in split.names]
+    noise = []
+    for part in split.noise:
+        sources = [number[row] for row in part.rows]
+        factor = gain[sources][..., gain_band_number(part.frequency_hz)]
+        noise.append(replace(part, alone=factor * part.alone, part=factor * part.part))
+    return replace(
+        split,
+        pressure=root[number] * split.pressure,
+        noise=tuple(noise),
+        by_motion=root * split.by_motion,
+    )
 
 
 def energies(split: Contributions, bands: Sequence[Band]) -> tuple[Array, Array]:
@@ -48,7 +73,7 @@ def of_motions(split: Contributions) -> Array:
     -------
     shape (2, motion, receiver), Pa²
     """
-    pressure = split.by_motion
+    pressure = split.by_motion.sum(axis=1)
     audible = _audible(split.frequency_hz)
     alone = 0.5 * np.abs(pressure) ** 2 @ audible
     return np.stack([alone, 0.5 * (pressure * pressure.sum(axis=0).conj()).real @ audible])
@@ -64,9 +89,21 @@ def _audible(frequency_hz: Array) -> Array:
 
 
 def contribution_variables(
-    axes: LevelAxes, cases: Mapping[CaseKey, Contributions], orders: Sequence[int]
+    axes: LevelAxes,
+    cases: Mapping[CaseKey, Contributions],
+    orders: Sequence[int],
+    medians: xr.Dataset | None = None,
 ) -> xr.Dataset:
-    """Pressure of the paths at some orders, levels alone and shares in band and in all."""
+    """Label the pressure of the paths at some orders, levels alone and shares in band and in all.
+
+    Parameters
+    ----------
+    axes : axes of the levels
+    cases : contributions of every case
+    orders : orders whose pressure is kept
+    medians : `order_level`, `sources_band_level` and `level_modelled` of all samples, which the
+        sums of the paths get; none with nominal values
+    """
     names = list(dict.fromkeys(name for split in cases.values() for name in split.names))
     speeds = list(dict.fromkeys(speed for speed, _ in cases))
     shape = len(speeds), len(axes.options), len(names), len(axes.receivers)
@@ -108,10 +145,59 @@ def contribution_variables(
         f"path_{part}": ("path", [getattr(name, part) for name in names])
         for part in PathName._fields
     }
-    return stamped(values, coords).assign_coords(of_paths)
+    paths = stamped(values, coords).assign_coords(of_paths)
+    if medians is None:
+        return paths
+    return _at_medians(paths, level(total[:, :, 0, :, -1]), medians)
 
 
 def _shares(part: Array, total: Array) -> Array:
     """Parts over their sum; none of what is silent beside the loudest."""
     sounds = total > SILENT * total.max(initial=0.0)
     return np.where(sounds, part / np.where(sounds, total, 1.0), 0.0)
+
+
+def _at_medians(paths: xr.Dataset, total_db: Array, medians: xr.Dataset) -> xr.Dataset:
+    """Return the paths of a sample with the median levels of all samples.
+
+    Their sum has the level that the results have of each order, each third octave and in all.
+    Shares and phases stay those of the sample.
+
+    Parameters
+    ----------
+    paths : labelled paths
+    total_db : their A-weighted levels, shape (speed, option, receiver), dB
+    medians : `order_level`, `sources_band_level` and `level_modelled`
+    """
+    names = ["order_level", "sources_band_level", "level_modelled"]
+    median = medians[names].reset_coords(drop=True).sel(speed=paths["path_speed"].values)
+    median = median.rename(speed="path_speed")
+    pressure = paths["path_pressure"].sum("path")
+    order = median["order_level"].sel(weighting="Z", order=pressure["path_order"].values)
+    order_db = _shift(
+        order.rename(order="path_order"), pressure.copy(data=sound_pressure_level(pressure.values))
+    )
+    bands = paths["modelled_band_level"]
+    band = median["sources_band_level"].rename(noise_band="band").reindex(band=bands["band"].values)
+    band_db = _shift(band, bands)
+    total = xr.DataArray(total_db, dims=("path_speed", "option", "receiver"))
+    in_all_db = _shift(median["level_modelled"].sel(weighting="A", drop=True), total)
+    shifted = {
+        "path_pressure": paths["path_pressure"] * amplitude_of_level(order_db),
+        "path_level": paths["path_level"] + in_all_db,
+        "motion_level": paths["motion_level"] + in_all_db,
+        "path_band_level": paths["path_band_level"] + band_db,
+        "modelled_band_level": bands + band_db,
+    }
+    return paths.assign(
+        {
+            name: values.transpose(*paths[name].dims).assign_attrs(paths[name].attrs)
+            for name, values in shifted.items()
+        }
+    )
+
+
+def _shift(median_db: xr.DataArray, own_db: xr.DataArray) -> xr.DataArray:
+    """Return what brings levels to the medians, dB; nothing where either is silent or unknown."""
+    sounds = (own_db > SILENCE_DB) & (median_db > SILENCE_DB)
+    return (median_db - own_db).where(sounds, 0.0)

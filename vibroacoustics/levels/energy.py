@@ -64,6 +64,7 @@ def energy_variables(
     sound: Sequence[ReceivedSound],
     pressure_line: xr.DataArray,
     level: xr.DataArray,
+    factor: Array,
 ) -> xr.Dataset:
     """Label the energies whose sums over sources are those of all sound.
 
@@ -73,6 +74,7 @@ def energy_variables(
     sound : sound of each option at the receivers
     pressure_line : (option, sound_source, receiver, line), with `tone_frequency`
     level : level of unmodelled noise, (option, receiver, noise_band)
+    factor : factors on the energy of third octaves, shape (option, receiver, noise_band)
     """
     parts = [sound_by_source(case, axes.bands).mutual.sum(axis=1) for case in sound]
     noise = unmodelled_energy(level.transpose("option", "receiver", "noise_band"))[:, None]
@@ -80,7 +82,7 @@ def energy_variables(
     of_lines = energy_of_lines(lines.values, lines["tone_frequency"].values)
     values = {
         "line_energy": np.moveaxis(of_lines, 0, 1),
-        "band_energy": np.concatenate([np.array(parts), noise], axis=1),
+        "band_energy": np.concatenate([np.array(parts), noise], axis=1) * factor[:, None],
     }
     coords = {
         "shown_option": list(axes.options),

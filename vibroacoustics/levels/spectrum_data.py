@@ -47,6 +47,7 @@ def spectrum_data(study: Study) -> SpectrumData | None:
     spectrum = study.evidence.spectrum
     if spectrum is None:
         return None
+    spectrum = spectrum.within(study.radiation.maximum_frequency_hz)
     at_published = spectrum.operating_point not in (None, study.operation.point)
     case = study.catalogue_case if at_published else (spectrum.speed_rpm, REFERENCE_OPTION)
     column = gain_band_number(np.array(spectrum.band_hz))

@@ -53,7 +53,8 @@ class Contributions:
     pressure : complex peaks, shape (path, receiver, line), Pa; their sum is that of all sources
     noise : noise of the sources that have some
     motions : motions that radiate: the housing's six motions as a rigid body, modes of its shell
-    by_motion : pressure of all sources by motion, shape (motion, receiver, line), Pa; same sum
+    sources : names of the sources
+    by_motion : pressure by motion and source, shape (motion, source, receiver, line), Pa; same sum
     """
 
     names: tuple[PathName, ...]
@@ -61,6 +62,7 @@ class Contributions:
     pressure: ComplexArray
     noise: tuple[NoiseContribution, ...]
     motions: tuple[str, ...]
+    sources: tuple[str, ...]
     by_motion: ComplexArray
 
     def behind(self, loss: InsertionLoss | None) -> "Contributions":

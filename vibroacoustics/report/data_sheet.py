@@ -57,7 +57,7 @@ def analysis_of_data_sheet(sheet: DataSheet) -> Analysis:
             Part("limits", "Neglected effects", (Bullets(sheet.leaves_out),)),
             Part("not_available", "Not available (ISO 4871)", (Bullets(sheet.not_available),)),
         ),
-        summary=(headline(sheet),),
+        summary=tuple(filter(None, (sheet.example, headline(sheet)))),
         tables={f"data_sheet_{name}.csv": columns_of(_HEAD, _rows(sheet))},
         further={f"data_sheet_{name}.json": content},
         figures=f"data_sheet_{name}_",

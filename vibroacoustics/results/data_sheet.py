@@ -140,6 +140,8 @@ class DataSheet(_Part):
 
     schema_version: Literal["2"] = "2"
     statement: Literal["predicted, not measured"] = STATEMENT
+    example: str = ""
+    """Number of values that are still those of a template; empty where none is."""
     title: str
     machine: str
     option: str

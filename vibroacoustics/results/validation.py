@@ -4,6 +4,7 @@ Simulation S, data D, error E = S - D; validation uncertainty u = √(u_num² + 
 standard uncertainties (ASME V&V 20-2009, sections 1 and 6). With a tolerance T stated before, S
 agrees with D within T where |E| + 1.64 u <= T (equivalence test: Schuirmann 1987, J.
 Pharmacokinetics and Biopharmaceutics 15, 657); it differs where |E| > 2 u; else that is undecided.
+A recording agrees with a study with samples where it lies in the 80 % interval, |E| <= 1.28 u.
 """
 
 from dataclasses import dataclass, fields
@@ -14,6 +15,8 @@ import xarray as xr
 
 COVERAGE: Final = 2.0
 """Factor of the standard uncertainty: about 95 % of a normal distribution."""
+WITHIN_80_PERCENT: Final = 1.2816
+"""80 % of a normal distribution lie within that many standard deviations."""
 ONE_SIDED: Final = 1.64
 """95 % of a normal distribution lie below it."""
 LEVEL_TOLERANCE_DB: Final = 5.0
@@ -68,6 +71,17 @@ class Validation:
         if abs(self.error) + ONE_SIDED * self.uncertainty <= self.tolerance:
             return AGREES
         return DIFFERS if abs(self.error) > COVERAGE * self.uncertainty else UNDECIDED
+
+
+class OfInterval(Validation):
+    """Recording beside a study, whose samples decide where it has some."""
+
+    @property
+    def verdict(self) -> str:
+        """`AGREES` within the 80 % interval, else that of the tolerance."""
+        if self.inputs > 0.0 and abs(self.error) <= WITHIN_80_PERCENT * self.uncertainty:
+            return AGREES
+        return super().verdict
 
 
 def validations(results: xr.Dataset) -> list[Validation]:

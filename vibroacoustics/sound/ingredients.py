@@ -18,18 +18,17 @@ from ..base.decibel import (
 from ..base.errors import ParameterError, SchemaError
 from ..base.units import shaft_frequency_hz
 from ..base.weighting import WEIGHTING
-from ..levels.bands import OCTAVE_RATIO, Band
+from ..levels.bands import Band
 from ..mechanics.added import third_octave_number
+from .predicted_audibility import NO_TONE_AUDIBILITY_DB, predicted_audibility
 
 _ORDER: Final = "order "
 _AT_1_KHZ: Final = 30
 """Number of its third octave."""
-HALF_BAND: Final = OCTAVE_RATIO ** (1.0 / 6.0)
-"""Upper edge of a third octave over its centre, 10^0.05."""
 AT_MICROPHONE: Final = (
     "pressure_line", "noise_band_level", "unmodelled_band_level", "baseline_band_level",
     "baseline_order_level", "level_total", "representative_noise_band_level",
-    "representative_unmodelled_band_level", "total_band_level",
+    "representative_unmodelled_band_level", "total_band_level", "tone_audibility",
 )  # fmt: skip
 IN_ROOM: Final = (
     "room_pressure_line", "room_plate_line_level", "room_noise_band_level", "room_level",
@@ -37,10 +36,17 @@ IN_ROOM: Final = (
 )  # fmt: skip
 _ALONG: Final = (
     "speed", "line", "tone_frequency", "noise_band", "baseline_band", "baseline_order",
+    "judged_tone",
 )  # fmt: skip
 """Coordinates of a case."""
 _Case = dict[str, Any]
 """Values of an option at a position and speed, by name of variable or coordinate."""
+_STEPS: Final = 30
+"""Steps towards the audibility of the tones."""
+_STEP_DB: Final = 3.0
+"""Largest change of a line in a step."""
+_INAUDIBLE_DB: Final = -3.0
+"""Audibility of a line that is no audible tone in the median."""
 ROUNDING_SHARE: Final = 1e-9
 """Share of a band's mean square: less is what rounding leaves where lines are taken out."""
 
@@ -122,8 +128,8 @@ def ingredients(results: xr.Dataset, option: str, microphone: str, speed: float)
     the sum of all sources; orders of a measured baseline have its levels, with the phases of the
     model (0 where it has no such order). Noise is that of the sources and what the model does not
     explain: unmodelled noise or, in bands that were measured, the baseline. In a run with samples
-    they are those of the representative sample, set to the median level of the option in each third
-    octave, then to its median `level_total`.
+    they are those of the representative sample, set to the median audibility of tones and median
+    level of the option in each third octave, then to its median `level_total`.
 
     At a listener in a room they are set to `room_level` and, where the feet push a plate,
     `room_plate_level` together: structure-borne sound adds to the energy of the lines and leaves
@@ -170,12 +176,36 @@ def _in_room(case: _Case) -> Ingredients:
 def _at_median(case: _Case, sound: Ingredients) -> Ingredients:
     """The sound at the median levels of its option, first by third octave; silence is itself."""
     if "total_band_level" in case:
+        sound = _with_audibility(case, sound) if "tone_audibility" in case else sound
         sound = _in_bands(case, sound)
     names = [name for name in ("level_total", "room_level", "room_plate_level") if name in case]
     wanted = energy_sum(np.array([float(case[name]) for name in names]), axis=0)
     level_db = sound.a_weighted_db
     sounds = np.isfinite(level_db) and level_db > SILENCE_DB
     return sound.louder(float(wanted) - level_db) if sounds else sound
+
+
+def _with_audibility(case: _Case, sound: Ingredients) -> Ingredients:
+    """The sound with tones as audible as in the median, at the levels of its third octaves.
+
+    Lines and noise of a third octave share its level; a change of one tone changes what masks its
+    neighbours, hence the steps.
+    """
+    median = dict(zip(case["judged_tone"].tolist(), case["tone_audibility"], strict=True))
+    wanted = np.array([median.get(name, np.nan) for name in sound.lines.name], dtype=float)
+    inaudible = wanted <= NO_TONE_AUDIBILITY_DB
+    for _ in range(_STEPS):
+        sound = _in_bands(case, sound)
+        lines, bands = sound.lines, sound.bands
+        square = 0.5 * np.abs(lines.pressure_pa) ** 2
+        rated = predicted_audibility(
+            lines.frequency_hz, square, bands.pressure_pa**2, bands.centre_hz
+        ).tone_db
+        change_db = np.where(rated > NO_TONE_AUDIBILITY_DB, wanted - rated, 0.0)
+        change_db = np.where(inaudible, np.minimum(_INAUDIBLE_DB - rated, 0.0), change_db)
+        factor = amplitude_of_level(np.clip(np.nan_to_num(change_db), -_STEP_DB, _STEP_DB))
+        sound = replace(sound, lines=replace(lines, pressure_pa=factor * lines.pressure_pa))
+    return sound
 
 
 def _in_bands(case: _Case, sound: Ingredients) -> Ingredients:

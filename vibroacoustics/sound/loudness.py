@@ -10,8 +10,8 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level
-from ..levels.bands import bands_between
-from .ingredients import HALF_BAND, Ingredients
+from ..levels.bands import HALF_BAND, bands_between
+from .ingredients import Ingredients
 from .recorded import NarrowBands
 from .zwicker import SoundField, core_loudness, specific_loudness, total_loudness
 

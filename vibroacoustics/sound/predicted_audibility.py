@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ..base.arrays import Array
 from ..base.constants import LOWEST_AUDIBLE_TONE_HZ, REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_power, mean_square_level, power_of_level
+from ..levels.bands import HALF_BAND
 from ..levels.by_source import weighting_power
 from ..levels.hearing import hearing_threshold_db
 from .audibility import (
@@ -20,7 +21,6 @@ from .audibility import (
 )
 from .audible_tones import FEWEST_LINES, HIGHEST_HZ, STEP_HZ
 from .critical_bands import critical_bandwidth, proximity_hz
-from .ingredients import HALF_BAND
 from .prominence import strongest
 
 MOST_AUDIBLE_DB: Final = 60.0

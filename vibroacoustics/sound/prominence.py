@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ..base.arrays import Array
 from ..base.constants import LOWEST_PROMINENT_TONE_HZ, REFERENCE_PRESSURE_PA
 from ..base.decibel import NO_TONE_DB, SILENCE_DB, level_of_power, mean_square_level
+from ..levels.bands import HALF_BAND
 from ..levels.hearing import hearing_threshold_db
 from .critical_bands import (
     CUT_BELOW_HZ,
@@ -21,7 +22,6 @@ from .critical_bands import (
     prominence_criterion_db,
     proximity_hz,
 )
-from .ingredients import HALF_BAND
 
 MOST_EXCESS_DB: Final = 60.0
 

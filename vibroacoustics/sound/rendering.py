@@ -8,8 +8,9 @@ from scipy import fft
 from ..base.allowed import check_range
 from ..base.arrays import Array
 from ..base.units import shaft_frequency_hz
+from ..levels.bands import HALF_BAND
 from ..levels.by_source import weighting_power
-from .ingredients import HALF_BAND, Ingredients, SoundBands, SoundLines
+from .ingredients import Ingredients, SoundBands, SoundLines
 
 SAMPLE_RATE_HZ: Final = 48000
 SEED: Final = 1

@@ -9,10 +9,9 @@ from scipy import fft
 
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import AIR_IMPEDANCE_PA_S_PER_M, SPEED_OF_SOUND_M_PER_S
-from ..levels.bands import bands_between
+from ..levels.bands import HALF_BAND, bands_between
 from ..levels.in_room import RoomPaths
 from ..levels.sound_power import hemisphere_area_m2
-from .ingredients import HALF_BAND
 from .least_phase import Numbers, between, least_phase
 from .rendering import SAMPLE_RATE_HZ, SEED
 

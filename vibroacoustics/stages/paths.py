@@ -2,7 +2,7 @@
 
 from ..base.registry import register
 from ..levels.contribution_choice import chosen_speeds, loudest_orders
-from ..levels.contributions import contribution_variables
+from ..levels.contributions import contribution_variables, with_gain
 from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
 from ..measured.sound_functions import force_sound_of
@@ -51,10 +51,16 @@ class MeasuredForceSound(Stage):
 
 @register
 class ContributionsByPath(Stage):
-    """Pressure and shares of the transfer paths, of the representative sample if there is one."""
+    """Pressure and shares of the transfer paths, of the representative sample if there is one.
+
+    Its discrepancy counts, and levels are the medians of all samples.
+    """
 
     name = "contributions"
-    reads = (Cases, Transmission, NominalSound, Representative, "order_level")
+    reads = (
+        Cases, Transmission, NominalSound, Representative, "order_level", "sources_band_level",
+        "level_modelled",
+    )  # fmt: skip
     gives = ("path_*", "motion_*", "modelled_band_level")
 
     def run(self, chain: Chain) -> Given:
@@ -64,7 +70,8 @@ class ContributionsByPath(Stage):
         cases = every.some(key for key in nominal.cases if key[0] in speeds)
         chain.progress("sound by path", 0, len(cases.cases))
         for key, of_case in chain[Transmission].contributions(cases):
-            split[key] = of_case
+            split[key] = of_case if chosen is None else with_gain(of_case, chosen.gain[key])
             chain.progress("sound by path", len(split), len(cases.cases))
+        medians = None if chosen is None else chain.results
         orders = loudest_orders(chain.results)
-        return Given(contribution_variables(chain[NominalSound].axes, split, orders))
+        return Given(contribution_variables(chain[NominalSound].axes, split, orders, medians))

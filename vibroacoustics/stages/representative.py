@@ -29,7 +29,7 @@ from .forces import PublishedCases, motion_of, with_published
 from .sampled import deviating
 from .stage import Given, Stage
 
-_NOISE = ("noise_band_level", "unmodelled_band_level")
+_BANDS = ("noise_band_level", "total_band_level", "unmodelled_band_level")
 
 
 @dataclass(frozen=True)
@@ -115,6 +115,6 @@ def _sound(
     unmodelled = remaining(chain.study, axes, sample.machine, sample.unmodelled[chosen.pair])
     noise = noise_levels(axes, received, unmodelled)
     lines = line_pressure(axes, received, chain.results["line"].values.tolist())
-    return with_order_levels(lines, chain.results["order_level"]), noise[list(_NOISE)].rename(
-        {name: f"representative_{name}" for name in _NOISE}
+    return with_order_levels(lines, chain.results["order_level"]), noise[list(_BANDS)].rename(
+        {name: f"representative_{name}" for name in _BANDS}
     )

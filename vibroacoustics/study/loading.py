@@ -138,7 +138,7 @@ def _study_of(written: Written) -> Study:
         machine_records += change_records
     content["machine"] = machine
     content["catalogue_machine"] = at_catalogue and _under(plate, at_catalogue[0])
-    if machine.overall_noise is None and isinstance(content.get("receivers"), dict):
+    if isinstance(content.get("receivers"), dict):
         content.setdefault("catalogue_receiver", next(iter(content["receivers"]), ""))
     fill_in_automatic(content, machine)
     if reader.problems:

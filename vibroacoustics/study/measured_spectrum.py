@@ -1,5 +1,6 @@
 """The user's measured third octaves of the machine, which weigh the samples with the level."""
 
+import re
 from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any, ClassVar, Final
@@ -7,8 +8,11 @@ from typing import Any, ClassVar, Final
 import numpy as np
 from pydantic import Field, field_validator
 
+from ..base.arrays import Array
 from ..base.column_file import read_layouts
 from ..base.column_head import Layout
+from ..base.csv_rows import read_lines
+from ..base.csv_text import fused
 from ..base.decibel import power_of_level
 from ..base.errors import ParameterError
 from ..base.file_table import FileTable
@@ -24,6 +28,8 @@ _HALF_A_BAND: Final = power_of_level(0.5)
 _ROUNDING: Final = 1e-3
 _UNWEIGHTED: Final = "level_db"
 _WEIGHTED: Final = "level_dba"
+_BAND: Final = re.compile(r"leq_([\d.]+)_hz_db")
+"""Columns of third octaves in `levels.csv`."""
 LAYOUTS: Final = [Layout(("frequency_hz", name)) for name in (_WEIGHTED, _UNWEIGHTED)]
 
 
@@ -40,6 +46,9 @@ class MeasuredSpectrum(FileTable):
     """Standard deviation of a measured level."""
     omitted_bands_hz: tuple[float, ...] = ()
     """Bands of the file that do not weigh."""
+    channel: str = ""
+    """Channel of a `levels.csv` that `orders` wrote, whose bands beyond those of the study do not
+    weigh; empty for a file of third octaves."""
     band_hz: tuple[float, ...] = ()
     """Nominal midband frequencies."""
     level_dba: tuple[float, ...] = ()
@@ -52,8 +61,14 @@ class MeasuredSpectrum(FileTable):
 
     @classmethod
     def read(cls, path: Path, table: dict[str, Any]) -> dict[str, Any]:
-        """Read `frequency_hz` and `level_dba`, or the unweighted `level_db`; omit bands."""
-        numbers = read_layouts(path, LAYOUTS).numbers
+        """Read `frequency_hz` and `level_dba`, or the unweighted `level_db`; omit bands.
+
+        With `channel` those of a recording.
+        """
+        if table.get("channel"):
+            numbers = _of_recording(path, str(table["channel"]))
+        else:
+            numbers = read_layouts(path, LAYOUTS).numbers
         band_hz = numbers["frequency_hz"]
         if _WEIGHTED in numbers:
             level_dba = numbers[_WEIGHTED]
@@ -80,6 +95,18 @@ class MeasuredSpectrum(FileTable):
             if not -100.0 <= level <= 200.0:
                 yield f"{self.file}: level = {level:g} dB: must be -100 to 200 dB"
 
+    def within(self, maximum_hz: float) -> "MeasuredSpectrum":
+        """Return the spectrum without bands of a recording that reach above a frequency."""
+        if not self.channel:
+            return self
+        kept = [
+            (band, level)
+            for band, level in zip(self.band_hz, self.level_dba, strict=True)
+            if band <= _highest_hz(maximum_hz)
+        ]
+        band_hz, level_dba = zip(*kept, strict=True) if kept else ((), ())
+        return self.model_copy(update={"band_hz": band_hz, _WEIGHTED: level_dba})
+
     def problems(
         self,
         receivers: Collection[str],
@@ -103,11 +130,47 @@ class MeasuredSpectrum(FileTable):
         if self.operating_point is not None and self.operating_point not in points:
             allowed = ", ".join(filter(None, points)) or "none, as the study names no point"
             yield f"operating_point = {self.operating_point}: must be {allowed}"
-        highest_hz = maximum_hz / _HALF_A_BAND * (1.0 + _ROUNDING)
-        outside = [band for band in self.band_hz if not LOWEST_HZ <= band <= highest_hz]
+        highest_hz = _highest_hz(maximum_hz)
+        bands_hz = self.within(maximum_hz).band_hz
+        outside = [band for band in bands_hz if not LOWEST_HZ <= band <= highest_hz]
         if outside:
             bands = ", ".join(f"{band:g}" for band in outside)
             yield (
                 f"{self.file}: bands {bands} Hz: must be {LOWEST_HZ:g} to {highest_hz:.4g} Hz, "
                 "whole bands up to radiation.maximum_frequency_hz; name them in omitted_bands_hz"
             )
+
+
+def _highest_hz(maximum_hz: float) -> float:
+    """Return the highest nominal midband frequency whose band is whole below a frequency."""
+    return maximum_hz / _HALF_A_BAND * (1.0 + _ROUNDING)
+
+
+def _of_recording(path: Path, channel: str) -> dict[str, Array]:
+    """Read the A-weighted third octaves of a channel from 25 Hz on from `levels.csv` of `orders`.
+
+    Raises
+    ------
+    ParameterError
+        The file is no such file, or has no such channel.
+    """
+    head, *rows = read_lines(path).rows(",") or [[]]
+    bands = {
+        number: float(match[1])
+        for number, name in enumerate(head)
+        if (match := _BAND.fullmatch(name)) and float(match[1]) >= LOWEST_HZ
+    }
+    if head[:2] != ["channel", "weighting"] or not bands:
+        raise ParameterError(f"channel = {channel!r}: {path}: is no levels.csv of orders")
+    weighted = {fused(row[0]): row for row in rows if row[1:2] == ["A"]}
+    if channel not in weighted:
+        names = ", ".join(map(repr, weighted)) or "none"
+        raise ParameterError(f"channel = {channel!r}: {path}: must be one of {names}")
+    row = weighted[channel]
+    known = {
+        number: hz for number, hz in bands.items() if row[number : number + 1] not in ([], [""])
+    }
+    return {
+        "frequency_hz": np.array([*known.values()]),
+        _WEIGHTED: np.array([float(row[number]) for number in known]),
+    }

@@ -36,7 +36,7 @@ class StudyTables(Parameters):
     options: dict[str, AnyOption]
     receivers: dict[str, Receiver] = Field(min_length=1)
     catalogue_receiver: str = ""
-    """Receiver of the machine's published level; the first where the machine's file gives none."""
+    """Receiver of the machine's published level; the first where the study names none."""
     catalogue_point: str | None = None
     """Operating point of the machine's file at which its overall noise holds; none for the values
     of the study."""

@@ -9,7 +9,7 @@ from ..base.decibel import amplitude_of_level
 from ..base.vocabulary import RIGID_BODY_DOFS
 from ..machine.frame import PARTS, Part
 from ..mechanics.contributions import Contributions, NoiseContribution, PathName
-from ..mechanics.loads import Lines, Loads, Noise, PortLoads, in_shell, summed
+from ..mechanics.loads import Lines, Loads, Noise, PortLoads, in_shell
 from ..mechanics.ports import HOUSING, WRENCH, BodyPort, Port
 from .bending import BendingShell, rows_of
 from .load_path import LoadPath
@@ -97,28 +97,31 @@ def contributions(
     pressure = pressure or every  # of a machine without sound
     names = tuple(pressure)
     stacked = np.array([pressure[name] for name in names])
-    motions, radiated = _by_motion(path, microphones, lines, names, stacked)
     of_noise = tuple(_of_noise(per_force, part, names) for per_force, part in noise)
-    return Contributions(names, lines.frequency_hz, stacked, of_noise, motions, radiated)
+    radiated = [
+        _by_motion(path, microphones, lines, source, dict(zip(names, stacked, strict=True)))
+        for source in loads
+    ]
+    modes = () if path.shell is None else path.shell.path.modes
+    return Contributions(
+        names, lines.frequency_hz, stacked, of_noise,
+        (*RIGID_BODY_DOFS, *(mode.name for mode in modes)), tuple(loads),
+        np.stack(radiated, axis=1),
+    )  # fmt: skip
 
 
 def _by_motion(
-    path: LoadPath,
-    microphones: Observers,
-    lines: Lines,
-    names: tuple[PathName, ...],
-    pressure: ComplexArray,
-) -> tuple[tuple[str, ...], ComplexArray]:
-    """Names of the housing's motions and the shell's modes, and the pressure of each."""
-    rows = [[name[1:] == (HOUSING.name, motion) for name in names] for motion in RIGID_BODY_DOFS]
-    rigid = np.array([pressure[row].sum(axis=0) for row in rows])
+    path: LoadPath, microphones: Observers, lines: Lines, source: str, pressure: Paths
+) -> ComplexArray:
+    """Pressure of a source by the housing's motions and the shell's modes."""
+    silent = np.zeros_like(next(iter(pressure.values())))
+    rigid = np.array(
+        [pressure.get(PathName(source, HOUSING.name, dof), silent) for dof in RIGID_BODY_DOFS]
+    )
     if path.shell is None:
-        return RIGID_BODY_DOFS, rigid
-    loads = summed(in_shell(each) for each in lines.loads.values())
-    of_shell = by_motion(path.shell, microphones, loads, lines.frequency_hz)
-    modes, as_body = of_shell[:-6], of_shell[-6:]
-    names_of_modes = [mode.name for mode in path.shell.path.modes]
-    return (*RIGID_BODY_DOFS, *names_of_modes), np.concatenate([rigid + as_body, modes])
+        return rigid
+    of_shell = by_motion(path.shell, microphones, in_shell(lines.loads[source]), lines.frequency_hz)
+    return np.concatenate([rigid + of_shell[-6:], of_shell[:-6]])
 
 
 def _of_source(

@@ -1,22 +1,25 @@
 """Samples of a study's ranges, weighted by published data and by measurements."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import chain as joined
 
 import numpy as np
 import xarray as xr
 from scipy.special import logsumexp
 
-from ..base.arrays import Array
+from ..base.arrays import Array, IndexArray
 from ..base.decibel import power_of_level
 from ..base.progress import Progress
+from ..base.quantiles import weighted_quantiles
+from ..base.vocabulary import stamped
 from ..levels.agreement import LEVELS_DB
+from ..levels.labelled import level
 from ..levels.nominal import Sound
 from ..levels.spectrum_data import SpectrumData
 from ..study.samples import batches_of_samples, with_sample
 from ..study.sampling import Sample
-from .conflict import conflict_variables
-from .evidence import Evidence
+from .conflict import QUANTILES, conflict_variables
+from .evidence import Evidence, with_gain
 from .hammer_test import HammerTest
 from .prior_ensemble import PriorEnsemble, Weighted, prior_ensemble_of
 from .share_variables import level_shares
@@ -100,6 +103,30 @@ def _beside_data(evidence: Evidence, ensemble: PriorEnsemble, before: Array) -> 
         data = (*data, *spectrum.data)
         values += [datum.predicted(bands) for datum in spectrum.data]
     results = conflict_variables(data, np.array(values), weight, generator)
+    results = results.merge(_model_alone(evidence, sounds, solved, weight))
     if spectrum is not None and ensemble.suffices:
         results = results.merge(spectrum_variables(evidence, spectrum, ensemble, bands, weight))
     return results
+
+
+def _model_alone(
+    evidence: Evidence, sounds: Sequence[Sound], solved: IndexArray, weight: Array
+) -> xr.Dataset:
+    """A-weighted level of all modelled sources with discrepancy, before published data.
+
+    Parameters
+    ----------
+    evidence : published data
+    sounds : sounds of all samples
+    solved : numbers of those with a solution
+    weight : weights of these before the data
+    """
+    square = np.array(
+        [
+            with_gain(evidence.mutual(sounds[n]), evidence.discrepancy(n).gain).sum(axis=1)
+            for n in solved.tolist()
+        ]
+    )
+    each = np.repeat(weight, square.shape[1])
+    quantiles = weighted_quantiles(level(square.ravel()), each, QUANTILES)
+    return stamped({"model_level": quantiles}, {"datum_quantile": list(QUANTILES)})

@@ -129,6 +129,22 @@ def test_level_of_the_machine(tmp_path: Path) -> None:
         starting_files("oldham-scroll", True, 200.0)
 
 
+@pytest.mark.parametrize(
+    ("kind", "with_sources"),
+    [*((kind, False) for kind in STUDIES), *((kind, True) for kind in WITH_SOURCES)],
+)
+@pytest.mark.filterwarnings("ignore:.*contradict themselves")
+def test_every_kind_takes_a_level(kind: str, with_sources: bool, tmp_path: Path) -> None:
+    """At the first microphone, 1 m from the shell; a run may be planned."""
+    for name, content in starting_files(kind, with_sources, 52.0).items():
+        (tmp_path / name).write_bytes(content)
+    study = load_study(tmp_path / "study.toml")
+    assert study.machine.overall_noise is not None
+    microphone = study.receivers[study.catalogue_receiver]
+    distance_m = study.machine.shell.distance_m(microphone.x_m, microphone.y_m, microphone.height_m)
+    assert distance_m == pytest.approx(1.0, rel=0.05)
+
+
 def test_kind_without_sources_is_refused(tmp_path: Path) -> None:
     outcome = command_here("new", "table", "--with", "sources", "--out", tmp_path / "out")
     assert_refused(outcome, "--with sources", "table", "oldham-scroll")

@@ -107,7 +107,11 @@ def test_ranges_that_are_not_sampled_are_told(rigid):
 
 def test_what_contradicts_it_is_refused():
     study = load_study(SOURCES_STUDY)
-    with pytest.raises(ParameterError, match="catalogue_receiver = : not among the receivers"):
-        study.replace({"catalogue_receiver": None})
+    first = next(iter(study.receivers))
+    assert study.replace({"catalogue_receiver": None}).catalogue_receiver == first
+    with pytest.raises(ParameterError, match=f"catalogue_receiver = {first}: stands 3"):
+        study.replace({"catalogue_receiver": None, f"receivers.{first}.x_mm": 3000.0})
+    with pytest.raises(ParameterError, match="catalogue_receiver = back: not among the receivers"):
+        study.replace({"catalogue_receiver": "back"})
     with pytest.raises(ParameterError, match="catalogue_point = ari: the machine's file gives no"):
         study.replace(NO_LEVEL | {"catalogue_point": "ari"})

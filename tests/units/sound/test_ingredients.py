@@ -14,6 +14,7 @@ from vibroacoustics.levels.continuous import noise_levels
 from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import NoisePower, ReceivedSound
 from vibroacoustics.sound.ingredients import ingredients
+from vibroacoustics.sound.predicted_audibility import predicted_audibility
 
 
 @pytest.mark.parametrize("speed", [900.0, 950.0, 1200.0])  # measured, between, not measured
@@ -152,3 +153,20 @@ def test_lines_of_samples_keep_the_phases_of_the_representative_one(sampled):
         ratio = value / pressure.sel(line=name).item()
         assert abs(ratio.imag) < 1e-9 * abs(ratio)
         assert ratio.real > 0.0
+
+
+def test_tones_are_as_audible_as_the_report_says(sampled):
+    """The three most audible of each option, in the noise with which they are heard."""
+    at = {"receiver": "front_1m", "speed": 2900.0}
+    for option in sampled["option"].values:
+        sound = ingredients(sampled, str(option), "front_1m", 2900.0)
+        lines, bands = sound.lines, sound.bands
+        square = 0.5 * np.abs(lines.pressure_pa) ** 2
+        rated = predicted_audibility(
+            lines.frequency_hz, square, bands.pressure_pa**2, bands.centre_hz
+        ).tone_db
+        median = sampled["tone_audibility"].sel(at).sel(option=option, judged_tone=list(lines.name))
+        loudest = np.argsort(-median.values)[:3]
+        loudest = loudest[median.values[loudest] > -3.0]  # weaker ones are hardly heard
+        assert loudest.size
+        np.testing.assert_allclose(rated[loudest], median.values[loudest], atol=0.2)

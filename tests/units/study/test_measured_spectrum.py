@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from sources_study import SOURCES_STUDY
-from support import ROOT, TINY
+from support import ROOT, TINY, command_here
 
+from vibroacoustics import export_recording, label_recording
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.weighting import a_weighting
 from vibroacoustics.study.loading import load_study
@@ -147,3 +149,31 @@ def test_the_point_of_the_published_level_has_its_speed(tmp_path: Path) -> None:
         else:
             with pytest.raises(ParameterError, match="published level it must be 2900 rpm"):
                 load_study(file)
+
+
+def levels_csv(folder: Path) -> str:
+    """What `orders` writes of white noise of a microphone, beside another one."""
+    noise = np.random.default_rng(2).standard_normal((2, 40960))
+    recording = label_recording(noise, 10240.0, ["front", "back"], ["Pa", "Pa"])
+    file = export_recording(recording, folder / "bench.nc")
+    outcome = command_here("orders", file, "--rpm", "2900", "--out", folder / "out")
+    assert outcome.returncode == 0, outcome.stderr
+    return (folder / "out" / "levels.csv").read_text(encoding="utf-8")
+
+
+def test_levels_of_orders_are_a_spectrum(tmp_path: Path) -> None:
+    """Bands of the recording beyond those of the study do not weigh; levels are A-weighted."""
+    csv = levels_csv(tmp_path)
+    spectrum = study_of(tmp_path, csv, f"{SETTINGS}channel = 'front'\n").evidence.spectrum
+    assert spectrum is not None
+    assert spectrum.band_hz[0] == 25.0
+    head, *rows = (line.split(",") for line in csv.splitlines())
+    row = next(row for row in rows if row[:2] == ["front", "A"])
+    level = dict(zip(spectrum.band_hz, spectrum.level_dba, strict=True))
+    assert level[1000.0] == float(row[head.index("leq_1000_hz_db")])
+    assert spectrum.within(900.0).band_hz[-1] == 800.0
+    for channel in ("side", "=front"):
+        with pytest.raises(ParameterError, match="must be one of 'front', 'back'"):
+            study_of(tmp_path, csv, f"{SETTINGS}channel = '{channel}'\n")
+    with pytest.raises(ParameterError, match=r"rows\.csv: is no levels\.csv of orders"):
+        study_of(tmp_path, ROWS, f"{SETTINGS}channel = 'front'\n")

@@ -14,6 +14,7 @@ from vibroacoustics.study.uncertainty import Uncertainty
 from vibroacoustics.uncertainty.conflict import conflict_variables
 from vibroacoustics.uncertainty.discrepancy import Discrepancy
 from vibroacoustics.uncertainty.evidence import PAIRS, Evidence, systematic, with_gain
+from vibroacoustics.uncertainty.posterior import _model_alone
 
 SETTINGS = Uncertainty()
 NONE = Uncertainty(
@@ -177,6 +178,22 @@ def test_conflict_is_the_tail_of_the_prior_predictive():
     assert found["conflict_tail"].item() == pytest.approx(2.0 * tail, abs=0.05)  # both sides
     expected = 60.0 + 3.0 * norm.ppf([0.1, 0.5, 0.9])
     assert found["datum_expected"].values[0] == pytest.approx(expected, abs=0.2)
+
+
+def test_level_of_the_model_alone_has_the_discrepancy():
+    """Samples of 60 ± 4 dB whose path deviates by 3 dB: a normal level of 60 ± 5 dB."""
+    rng = np.random.default_rng(1)
+    settings = Uncertainty(
+        path_deviation_db=3.0, source_deviation_db=0.0, band_deviation_db=0.0, seed=1
+    )
+    sounds = 4e-10 * 10.0 ** (rng.normal(60.0, 4.0, 6000) / 10.0)
+    evidence = SimpleNamespace(
+        mutual=lambda square: np.full((1, 1, len(GAIN_BANDS)), square / len(GAIN_BANDS)),
+        discrepancy=lambda number: Discrepancy.of(settings, 1, number),
+    )
+    found = _model_alone(evidence, sounds, np.arange(6000), np.ones(6000))
+    expected = 60.0 + 5.0 * norm.ppf([0.1, 0.5, 0.9])
+    assert found["model_level"].values == pytest.approx(expected, abs=0.4)  # 3.5 sampling errors
 
 
 def test_data_that_exclude_each_other_conflict_together_only():

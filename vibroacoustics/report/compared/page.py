@@ -134,8 +134,9 @@ def _agreement(validations: Sequence[Validation]) -> str:
     )
     count = sum(each.uncertainty > 0.0 for each in validations)
     return (
-        f"{agree} of {len(validations)} figures of the study agree with the recordings within "
-        f"{LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)}. {differ} differ by more than "
+        f"{agree} of {len(validations)} figures of the study agree with the recordings: within "
+        f"the 80 % interval, {LEVEL_TOLERANCE_DB:g} dB or {percent(FORCE_TOLERANCE)}. {differ} "
+        "differ by more than "
         f"{COVERAGE:g} times the validation uncertainty, which is known, at least in part, for "
         f"{count}."
     )
@@ -146,7 +147,7 @@ def _validation(validations: Sequence[Validation]) -> tuple[Block, ...]:
         return ()
     note = (
         "E = S − D; u is the root of the sum of squares of u_num (grids of the radiation), u_input "
-        "(spread of the samples; of levels in all) and u_D (scatter of the runs and specimens), in "
+        "(samples, on the side of the data) and u_D (scatter of the runs and specimens), in "
         "the form of ASME V&V 20. What is not known counts as zero, so u is a lower limit."
     )
     table: Block = validation_table("The study beside the recordings", validations)

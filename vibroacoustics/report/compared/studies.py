@@ -97,7 +97,8 @@ def _criteria(first: xr.Dataset, option: str, second: xr.Dataset, other: str) ->
 def _cells(first: float, second: float, unit: str) -> tuple[str, ...]:
     is_level = unit.startswith("dB")
     write = rounding.fixed if is_level else rounding.significant
-    difference = second - first
+    digits = 1 if is_level else 12
+    difference = round(second, digits) - round(first, digits)  # of the levels that are shown
     signed = write(difference)
     if difference > 0.0 and signed.strip("0.") != "":
         signed = f"+{signed}"

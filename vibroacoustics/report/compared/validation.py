@@ -1,8 +1,8 @@
 """Levels of two results; error and validation uncertainty of a study beside recordings."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import product
-from typing import NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -11,13 +11,20 @@ from ...base import rounding
 from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_amplitude
-from ...results.estimates import has_samples, in_samples
+from ...results.estimates import estimate, is_sampled
 from ...results.figure_limits import PRESSURE, Compared
 from ...results.grid_error import grid_error_db
-from ...results.validation import Validation
+from ...results.validation import WITHIN_80_PERCENT, OfInterval, Validation
 from ..recordings import shown_speeds
 from ..tables import Table
 from .orders import is_pressure, known_channels, loud_orders
+
+_AMPLITUDES: Final = {
+    "force ": "force_amplitude",
+    "moment ": "moment_amplitude",
+    "foot force ": "foot_force_amplitude",
+}
+"""Amplitudes over the samples by the first words of a channel; of the vector, not along an axis."""
 
 
 class Levels(NamedTuple):
@@ -120,7 +127,7 @@ def _row(name: str, first: tuple[float, float], second: tuple[float, float]) -> 
         name,
         rounding.level(first[0]),
         rounding.level(second[0]),
-        rounding.signed(second[0] - first[0]),
+        rounding.signed(round(second[0], 1) - round(first[0], 1)),  # of the levels that are shown
         rounding.fixed(float(np.linalg.norm(spreads)), 2) if spreads else rounding.NOTHING,
     )
 
@@ -152,7 +159,7 @@ def _points(compared: Compared, study_first: bool) -> Iterator[tuple[xr.Dataset,
 
 
 def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
-    study = compared.first if study_first else compared.second
+    _, study, option, _ = list(compared.sides())[0 if study_first else 1]
     for at_speed, named in _points(compared, study_first):
         unit = str(at_speed["channel_unit"].item())
         for order in loud_orders(at_speed):
@@ -162,22 +169,28 @@ def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
             ]
             simulation, data = levels if study_first else levels[::-1]
             spread = float(at_order.get("order_mean_uncertainty", np.nan))
-            yield Validation(
+            variable, label = _sampled(study, named)
+            at = {"option": option, "speed": _rpm(at_order, study_first), "order": order, **label}
+            yield OfInterval(
                 f"Order {order:g} of {at_order['channel'].item()}, "
                 f"{at_order['speed'].item():.0f} rpm",
                 "dB" if unit == "Pa" else f"dB re 1 {unit}",
                 simulation,
                 data,
                 _numerical(study, named),
-                0.0,
+                _inputs(study, variable, data, at),
                 spread if np.isfinite(spread) else 0.0,
                 str(at_order.attrs["second" if study_first else "first"]),
             )
 
 
+def _rpm(at_speed: xr.Dataset, study_first: bool) -> float:
+    """Speed of the study, rpm."""
+    return float(at_speed["speed" if study_first else "compared_speed"])
+
+
 def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
-    study = compared.first if study_first else compared.second
-    _, _, option, _ = list(compared.sides())[0 if study_first else 1]
+    _, study, option, _ = list(compared.sides())[0 if study_first else 1]
     for at_point, named in _points(compared, study_first):
         channel, speed = str(at_point["channel"].item()), float(at_point["speed"])
         is_sound = str(at_point["channel_unit"].item()) == "Pa"
@@ -185,15 +198,16 @@ def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
         if pair is None:
             continue
         simulated, data = pair if study_first else pair[::-1]
-        study_rpm = speed if study_first else float(at_point["compared_speed"])
+        receiver = named.removeprefix(PRESSURE)
+        at = {"option": option, "speed": _rpm(at_point, study_first), "receiver": receiver}
         spread = data.total_uncertainty_db
-        yield Validation(
+        yield OfInterval(
             f"Level in all at {channel}, {speed:.0f} rpm",
             "dB(A)",
             simulated.total_dba,
             data.total_dba,
             _numerical(study, named),
-            _inputs(study, option, named, study_rpm),
+            _inputs(study, "level_total", data.total_dba, at),
             spread if np.isfinite(spread) else 0.0,
             str(at_point.attrs["second" if study_first else "first"]),
         )
@@ -206,14 +220,30 @@ def _numerical(study: xr.Dataset, channel: str) -> float:
     return grid_error_db(study, channel.removeprefix(PRESSURE))
 
 
-def _inputs(study: xr.Dataset, option: str, channel: str, speed: float) -> float:
-    """Spread of the total over the samples; 0 where nothing was sampled."""
-    if not has_samples(study):
+def _inputs(study: xr.Dataset, variable: str, data: float, at: Mapping[str, Any]) -> float:
+    """Standard uncertainty by the samples on the side of the data; 0 where nothing was sampled.
+
+    A normal distribution with it has the same end of the 80 % interval there.
+    """
+    if not variable or not is_sampled(study, variable):
         return 0.0
-    receiver = channel.removeprefix(PRESSURE)
-    total = in_samples(study, "level_total")
-    level = total.values.sel(option=option, receiver=receiver, speed=speed).values
-    return float(np.sqrt(total.weight @ (level - total.weight @ level) ** 2))
+    sampled = estimate(study, variable, **at)
+    values = [sampled.low, sampled.value, sampled.high]
+    if variable in _AMPLITUDES.values():
+        values = level_of_amplitude(np.array(values) / np.sqrt(2.0)).tolist()
+    low, value, high = values
+    return max(high - value if data > value else value - low, 0.0) / WITHIN_80_PERCENT
+
+
+def _sampled(study: xr.Dataset, channel: str) -> tuple[str, dict[str, str]]:
+    """Variable of the orders of a channel over the samples, and its label; empty without one."""
+    if channel.startswith(PRESSURE):
+        return "order_level", {"receiver": channel.removeprefix(PRESSURE), "weighting": "Z"}
+    for word, variable in _AMPLITUDES.items():
+        if channel.startswith(word):
+            where = channel.removeprefix(word).rpartition(" ")[0].strip()
+            return variable, {"foot": where} if where else {}
+    return "", {}
 
 
 def _level(rms: xr.DataArray, unit: str) -> float:

@@ -15,8 +15,8 @@ from ...results.estimates import has_samples
 from ...results.stored_study import (
     balancers,
     catalogue_receiver,
+    nearest_speed,
     options,
-    quoted_speed,
     source_name,
     speeds,
 )
@@ -49,10 +49,10 @@ def source_third_octaves(
         band), dB
     receiver : one of the microphones; default: that of the catalogue's noise
     option : one of the results
-    speed_rpm : one of the results; default: that of the catalogue's noise
+    speed_rpm : one of the results; default: the nearest to that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    speed = chosen(results, "speed", speed_rpm or quoted_speed(results))
+    speed = chosen(results, "speed", speed_rpm or nearest_speed(results))
     case = {"option": chosen(results, "option", option), "receiver": mic, "speed": speed}
     spectra = results["source_band_level"].sel(case).transpose("sound_source", "band")
     sources = [source_name(results, str(name)) for name in spectra["sound_source"].values]

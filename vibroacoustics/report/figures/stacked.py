@@ -117,11 +117,19 @@ def _chart(name: str, what: str, results: xr.Dataset, panels: tuple[Panel, ...])
     return Chart(
         name,
         f"{levels}, divided among the sources.",
-        f"{levels}, of the representative sample. The height of a bar is the "
-        "level of the sum. Its colours are shares of the energy; sources that are not seen, or "
-        "work against the others, are omitted.",
+        f"{levels}. The height of a bar is the level of the sum{_median(results)}. Its colours are "
+        f"shares of the energy{_sample(results)}; sources that are not seen, or work against the "
+        "others, are omitted.",
         panels,
     )
+
+
+def _median(results: xr.Dataset) -> str:
+    return ", the median of the samples" if "representative_value" in results else ""
+
+
+def _sample(results: xr.Dataset) -> str:
+    return " of the representative sample" if "representative_value" in results else ""
 
 
 @needs("run_up_level", "run_up_source_level", from_="`run` of a study with few speeds")

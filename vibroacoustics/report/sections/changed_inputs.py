@@ -31,7 +31,8 @@ from ...results.stored_study import (
 from ..blocks import Block, Definition, Definitions, Text
 from ..tables import DataTable, Table, columns_of
 from . import Section
-from .verdict.words import best_for_feet, by_effect, leading_source
+from .sources.words import dominant_source
+from .verdict.words import best_for_feet, by_effect
 
 AS_REPORTED: Final = "as in this report"
 SOURCE: Final = "dominant source"
@@ -93,7 +94,7 @@ def _row(results: xr.Dataset, name: str, sizes: tuple[float, float]) -> Row:
     claims, source = {}, ""
     changes: tuple[tuple[str, Estimate], ...] = ()
     if of_level and (reported or at_published(results)):
-        source, makes_most = leading_source(results)
+        source, makes_most = dominant_source(results)
         level = estimate(results, "level_total", **point)
         share = estimate(results, "source_share", **point, sound_source=source)
         words = source_name(results, source)

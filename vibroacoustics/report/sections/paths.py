@@ -12,7 +12,7 @@ from ...base.registry import register
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results.bands import percent
 from ...results.labels import DOF_WORDS
-from ...results.stored_study import a_weighted, at_catalogue, catalogue_receiver
+from ...results.stored_study import a_weighted, at_catalogue, catalogue_receiver, source_name
 from ..blocks import Block, Heading, Pictures, Text
 from ..figures.paths import (
     PARTS_OF_PATH,
@@ -27,6 +27,7 @@ from ..figures.paths import (
 )
 from ..tables import DataTable, Table, data_table, phase_deg
 from . import Section
+from .sources.words import ranked, source_share
 
 _RELATIONS: Final = (
     (0.5, "works with it"),
@@ -217,13 +218,29 @@ def paths_data(results: xr.Dataset) -> DataTable:
     return data_table(dims, columns)
 
 
+def _in_samples(results: xr.Dataset) -> str:
+    """Say what one sample cannot show: the shares of the sources in all samples."""
+    if "representative_value" not in results:
+        return ""
+    speed = path_speed(results)
+    shares = [
+        f"{source_name(results, source)} {source_share(results, source, speed).in_percent()}"
+        for source in ranked(results, speed)
+    ]
+    return (
+        " Shares and phases are those of the representative sample, levels are medians of all "
+        f"samples. In all samples the sources have these shares of the machine's energy: "
+        f"{'; '.join(shares)}."
+    )
+
+
 def _blocks(results: xr.Dataset) -> list[Block]:
     receiver, speed = catalogue_receiver(results), path_speed(results)
     blocks: list[Block] = [
         Text(leading_sentence(results, receiver), "strong"),
         Text(
             "A path is a source, the part it acts on and a direction. Lines of one frequency add "
-            "as phasors, so shares can be negative and add up to 100 %.",
+            f"as phasors, so shares can be negative and add up to 100 %.{_in_samples(results)}",
             "note",
         ),
         paths_table(results, receiver),

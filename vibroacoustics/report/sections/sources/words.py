@@ -28,6 +28,8 @@ from ..unknowns import sampled_sentences
 
 LINE_FIGURE: Final = "foot_force_2x_line_n"
 UNMODELLED: Final = "unmodelled noise"
+_HALF: Final = 0.5
+"""Share of the energy above which a source makes most of it."""
 
 
 def elsewhere(results: xr.Dataset) -> str:
@@ -98,16 +100,32 @@ def _unresolved(results: xr.Dataset, tried: int, effective: float) -> str:
     )
 
 
-def _ranking(results: xr.Dataset) -> str:
+def dominant_source(results: xr.Dataset) -> tuple[str, bool]:
+    """Return the source with the largest share, and whether it makes most of the energy.
+
+    It does where its interval is above one half and above those of all other parts of the sound.
+    """
     speed = nearest_speed(results)
-    names = ranked(results, speed)[:2]
-    if len(names) < 2:
+    first, *others = ranked(results, speed)
+    shares = [source_share(results, name, speed) for name in others]
+    highest = [share.highest for share in (*shares, unmodelled_share(results, speed))]
+    return first, source_share(results, first, speed).lowest > max(_HALF, *highest)
+
+
+def _ranking(results: xr.Dataset) -> str:
+    if results.sizes["sound_source"] < 2:
         return ""
-    first, second = (source_share(results, name, speed) for name in names)
-    words = " and ".join(source_name(results, name) for name in names)
-    if first.lowest > second.highest:
-        return f"The intervals of {words} do not overlap: the dominant source is settled."
-    return f"The intervals of {words} overlap: the dominant source is not settled."
+    source, is_settled = dominant_source(results)
+    name, share = (
+        source_name(results, source),
+        source_share(results, source, nearest_speed(results)),
+    )
+    if is_settled:
+        return f"The dominant source is settled: {name}, {share.in_percent()} of the energy."
+    return (
+        f"The dominant source is not settled: the interval of {name} is not above one half and "
+        "above all others."
+    )
 
 
 def _up_to(results: xr.Dataset) -> str:

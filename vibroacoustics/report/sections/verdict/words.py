@@ -5,6 +5,7 @@ they do to vibration, which measurement is most valuable.
 """
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -13,7 +14,7 @@ import xarray as xr
 from ....base import rounding
 from ....base.vocabulary import REFERENCE_OPTION
 from ....results.bands import Band, band
-from ....results.estimates import QUANTILES, has_samples
+from ....results.estimates import QUANTILES, effective_samples, has_samples
 from ....results.stored_study import (
     assumed_level,
     at_catalogue,
@@ -30,13 +31,13 @@ from ...blocks import Interval, Intervals, IntervalWord
 from ...quantities import FOOT_FORCE, NO_BREAK, TOTAL
 from ...shifts import Shift, measurable, shift
 from ..rating import rating_sentence, windows, worst_window
-from ..sources.words import UNMODELLED, ranked, source_share, unmodelled_share
+from ..sources.words import UNMODELLED, dominant_source, ranked, source_share
 from ..unknowns import most_valuable
 
-_HALF: Final = 0.5
-"""Share of the energy above which a source makes most of it."""
 _UNCERTAIN: Final = QUANTILES[0]
 """Probability of a measurable change from which on there may be one."""
+_FEW_SAMPLES: Final = 30
+"""Effective samples below which their number is said."""
 _QUIETEST_DB: Final = 30.0
 """Sources so far below the machine are not shown."""
 _LEAST_SPAN_DB: Final = 2.0
@@ -46,7 +47,7 @@ _LEAST_SPAN_DB: Final = 2.0
 def sentences(results: xr.Dataset) -> tuple[str, ...]:
     """Return the sentences of the first screen."""
     vibration = () if "rating_level" in results else (_vibration,)
-    each = (_windows, _level, _room, _source, _options, *vibration, _measurement)
+    each = (_windows, _level, _model_alone, _room, _source, _options, *vibration, _measurement)
     return tuple(filter(None, (sentence(results) for sentence in each)))
 
 
@@ -131,30 +132,50 @@ def word(of_total: Shift) -> IntervalWord:
 
 
 def largest(of_quantity: Shift) -> int:
-    """Return the number of the speed at which a quantity changes most."""
-    return int(np.argmax(np.abs(np.nan_to_num(of_quantity.gain_db))))
+    """Return the number of the speed at which a quantity changes most, in the way that is said.
+
+    A quantity that is said to grow is shown where it grows most, one that falls where it falls.
+    """
+    gain_db = np.nan_to_num(of_quantity.gain_db)
+    if of_quantity.worsens and not of_quantity.improves:
+        return int(np.argmax(gain_db))
+    if of_quantity.improves and not of_quantity.worsens:
+        return int(np.argmin(gain_db))
+    return int(np.argmax(np.abs(gain_db)))
 
 
 def _level(results: xr.Dataset) -> str:
     speed = nearest_speed(results)
     level = band(results, "level_total", **at_catalogue(results, speed=speed))
     ends = level.ends(rounding.level)
-    interval = f"80{NO_BREAK}% interval {ends}" if has_samples(results) else ""
-    notes = "; ".join(filter(None, [interval, _published(results, speed)]))
-    where = catalogue_receiver(results)
+    interval = f" (80{NO_BREAK}% interval {ends})" if has_samples(results) else ""
     return (
-        f"{parameters(results)['machine']['name']} at {speed:g} rpm: predicted "
-        f"{level.middle_text(rounding.level)} dB(A) at {where} ({notes})."
+        f"{parameters(results)['machine']['name']} at {speed:g} rpm: "
+        f"{level.middle_text(rounding.level)} dB(A) at {catalogue_receiver(results)}{interval}, "
+        f"{_basis(results, speed)}."
     )
 
 
-def _published(results: xr.Dataset, speed_rpm: float) -> str:
-    """Return the published level, with its speed where that differs."""
+def _basis(results: xr.Dataset, speed_rpm: float) -> str:
+    """Say whether the level is predicted or fitted to one that is published."""
     noise = overall_noise(results)
     if noise is None:
-        return "no published level"
+        return "predicted; no level is published"
     speed = "" if speed_rpm == noise["speed_rpm"] else f" at {noise['speed_rpm']:g} rpm"
-    return f"{_kind(results)} {noise['level_dba']:g}{speed}"
+    return f"fitted to the {_kind(results)} {noise['level_dba']:g}{speed}"
+
+
+def _model_alone(results: xr.Dataset) -> str:
+    """Give the level of the model where samples are fitted, and their number where they are few."""
+    parts = []
+    if "model_level" in results and has_samples(results):
+        alone = Band(*results["model_level"].values.tolist())
+        whole = partial(rounding.fixed, decimals=0)
+        parts.append(f"the model alone: {alone.middle_and_ends(whole)}")
+    if has_samples(results) and effective_samples(results) < _FEW_SAMPLES:
+        parts.append(f"{effective_samples(results):.0f} effective samples")
+    text = "; ".join(parts)
+    return f"{text[0].upper()}{text[1:]}." if text else ""
 
 
 def _kind(results: xr.Dataset) -> str:
@@ -191,23 +212,14 @@ def _source(results: xr.Dataset) -> str:
         fill = f"; unmodelled noise fills up the {_kind(results)} level"
         unmodelled = "" if overall_noise(results) is None else fill
         return f"Shaft orders of the rigid machine alone make {modelled} dB(A){unmodelled}."
-    source, makes_most = leading_source(results)
+    source, makes_most = dominant_source(results)
     name = source_name(results, source)
-    text = f"{source_share(results, source, speed).in_percent()} of the sound energy"
+    text = f"{source_share(results, source, speed).in_percent()} of the energy"
     if makes_most:
         return f"The dominant source is {name}: {text}."
     if not has_samples(results):
         return f"The dominant modelled source is {name}: {text}."
-    return f"The dominant source is not settled; the largest modelled one: {name}, {text}."
-
-
-def leading_source(results: xr.Dataset) -> tuple[str, bool]:
-    """Return the source with the largest share, and whether it makes most of the energy."""
-    speed = nearest_speed(results)
-    first, *others = ranked(results, speed)
-    shares = [source_share(results, name, speed) for name in others]
-    highest = [share.highest for share in (*shares, unmodelled_share(results, speed))]
-    return first, source_share(results, first, speed).lowest > max(_HALF, *highest)
+    return f"The dominant source is not settled; largest: {name}, {text}."
 
 
 def _options(results: xr.Dataset) -> str:
