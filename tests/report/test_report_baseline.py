@@ -47,8 +47,8 @@ def test_the_verdict_holds_the_model_against_what_was_measured(results):
     level = results["level_total"].sel(at).item()
     (first, *_) = first_screen.sentences(results)
     assert first == (
-        f"Reciprocating compressor by table at 950 rpm: predicted {level:.1f} dB(A) at front_1m "
-        "(assumed 82 at 1000 rpm)."
+        f"Reciprocating compressor by table at 950 rpm: {level:.1f} dB(A) at front_1m, "
+        "fitted to the assumed 82 at 1000 rpm."
     )
 
 

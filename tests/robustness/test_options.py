@@ -5,17 +5,18 @@ from pathlib import Path
 
 import pytest
 from command_lines import made_up_fields
-from option_trials import Trial, fault, prepared, trials
+from option_trials import Trial, fault, prepared, remove, trials
 
 from vibroacoustics.commands.command import COMMANDS
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """Folder with the inputs of all commands."""
     folder = tmp_path_factory.mktemp("options")
     prepared(folder)
-    return folder
+    yield folder
+    remove(folder)  # pytest's own way recurses
 
 
 @pytest.fixture(autouse=True)

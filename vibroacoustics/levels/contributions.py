@@ -17,6 +17,8 @@ from .bands import Band
 from .by_source import gain_band_number, membership, weighting_power
 from .labelled import level
 
+MEDIANS: Final = ("order_level", "sources_band_level", "level_modelled")
+"""Levels of all samples that the sums of the paths get."""
 SILENT: Final = 1e-12
 """Share of the largest mean square, 120 dB below it: a smaller sum is near rounding and has no
 shares."""
@@ -27,7 +29,7 @@ def with_gain(split: Contributions, gain: Array) -> Contributions:
 
     Parameters
     ----------
-    split : of a case
+    split : contributions of a case
     gain : factors on the power, shape (source, receiver, gain band)
     """
     root = np.sqrt(gain)[..., gain_band_number(split.frequency_hz)]
@@ -101,8 +103,7 @@ def contribution_variables(
     axes : axes of the levels
     cases : contributions of every case
     orders : orders whose pressure is kept
-    medians : `order_level`, `sources_band_level` and `level_modelled` of all samples, which the
-        sums of the paths get; none with nominal values
+    medians : `MEDIANS`; none with nominal values
     """
     names = list(dict.fromkeys(name for split in cases.values() for name in split.names))
     speeds = list(dict.fromkeys(speed for speed, _ in cases))
@@ -167,10 +168,9 @@ def _at_medians(paths: xr.Dataset, total_db: Array, medians: xr.Dataset) -> xr.D
     ----------
     paths : labelled paths
     total_db : their A-weighted levels, shape (speed, option, receiver), dB
-    medians : `order_level`, `sources_band_level` and `level_modelled`
+    medians : `MEDIANS`
     """
-    names = ["order_level", "sources_band_level", "level_modelled"]
-    median = medians[names].reset_coords(drop=True).sel(speed=paths["path_speed"].values)
+    median = medians[list(MEDIANS)].reset_coords(drop=True).sel(speed=paths["path_speed"].values)
     median = median.rename(speed="path_speed")
     pressure = paths["path_pressure"].sum("path")
     order = median["order_level"].sel(weighting="Z", order=pressure["path_order"].values)

@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import power_of_level
+from ..base.decibel import SILENCE_DB, power_of_level
 from ..base.vocabulary import stamped
 from ..mechanics.received_sound import ReceivedSound
 from .axes import LevelAxes
@@ -64,7 +64,7 @@ def energy_variables(
     sound: Sequence[ReceivedSound],
     pressure_line: xr.DataArray,
     level: xr.DataArray,
-    factor: Array,
+    medians: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """Label the energies whose sums over sources are those of all sound.
 
@@ -74,15 +74,19 @@ def energy_variables(
     sound : sound of each option at the receivers
     pressure_line : (option, sound_source, receiver, line), with `tone_frequency`
     level : level of unmodelled noise, (option, receiver, noise_band)
-    factor : factors on the energy of third octaves, shape (option, receiver, noise_band)
+    medians : `total_band_level` of all samples, which the sums of the third octaves get, and
+        `representative_total_band_level`, of the same speed and options; none with nominal values
     """
     parts = [sound_by_source(case, axes.bands).mutual.sum(axis=1) for case in sound]
     noise = unmodelled_energy(level.transpose("option", "receiver", "noise_band"))[:, None]
     lines = pressure_line.transpose("sound_source", "option", "receiver", "line")
     of_lines = energy_of_lines(lines.values, lines["tone_frequency"].values)
+    bands = np.concatenate([np.array(parts), noise], axis=1)
+    if medians is not None:
+        bands *= _to_medians(medians)[:, None]
     values = {
         "line_energy": np.moveaxis(of_lines, 0, 1),
-        "band_energy": np.concatenate([np.array(parts), noise], axis=1) * factor[:, None],
+        "band_energy": bands,
     }
     coords = {
         "shown_option": list(axes.options),
@@ -93,3 +97,18 @@ def energy_variables(
         "noise_band": [band.nominal_hz for band in BASELINE_BANDS],
     }
     return stamped(values, coords)
+
+
+def _to_medians(results: xr.Dataset) -> Array:
+    """Factors from the third octaves of the representative sample to the medians of all samples.
+
+    Returns
+    -------
+    shape (option, receiver, noise band)
+    """
+    median_db, sample_db = (
+        results[name].transpose("option", "receiver", "noise_band").values
+        for name in ("total_band_level", "representative_total_band_level")
+    )
+    sounds = (sample_db > SILENCE_DB) & (median_db > SILENCE_DB)
+    return np.asarray(power_of_level(np.where(sounds, median_db - sample_db, 0.0)))

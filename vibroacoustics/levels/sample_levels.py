@@ -10,6 +10,7 @@ from ..base.arrays import Array, ComplexArray
 from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS
 from ..machine.machine import Machine
 from ..machine.source import CaseKey
+from ..mechanics.loads import Lines
 from ..mechanics.received_sound import ReceivedSound
 from ..study.study import Study
 from .axes import LevelAxes
@@ -92,6 +93,22 @@ def with_discrepancy(received: ReceivedSound, gain: Array) -> ReceivedSound:
         for part in received.noise
     )
     return ReceivedSound(received.lines, with_gain(received, gain[None])[0], noise)
+
+
+def loads_with_gain(lines: Lines, gain: Array) -> Lines:
+    """Return lines whose loads have the gains of one discrepancy, as for one microphone.
+
+    Parameters
+    ----------
+    lines : loads of all sources
+    gain : factors on the power, shape (source, gain band)
+    """
+    root = np.sqrt(gain)[:, gain_band_number(lines.frequency_hz)]
+    loads = {
+        source: {port: factor * load for port, load in by_port.items()}
+        for factor, (source, by_port) in zip(root, lines.loads.items(), strict=True)
+    }
+    return replace(lines, loads=loads)
 
 
 def lines_of(received: ReceivedSound, gain: Array, orders: int) -> CaseLines:

@@ -20,7 +20,8 @@ from ..base.units import shaft_frequency_hz
 from ..base.weighting import WEIGHTING
 from ..levels.bands import Band
 from ..mechanics.added import third_octave_number
-from .predicted_audibility import NO_TONE_AUDIBILITY_DB, predicted_audibility
+from .audibility import NO_TONE_AUDIBILITY_DB
+from .predicted_audibility import predicted_audibility
 
 _ORDER: Final = "order "
 _AT_1_KHZ: Final = 30
@@ -176,7 +177,8 @@ def _in_room(case: _Case) -> Ingredients:
 def _at_median(case: _Case, sound: Ingredients) -> Ingredients:
     """The sound at the median levels of its option, first by third octave; silence is itself."""
     if "total_band_level" in case:
-        sound = _with_audibility(case, sound) if "tone_audibility" in case else sound
+        if "tone_audibility" in case and sound.bands.centre_hz.size:  # else nothing masks tones
+            sound = _with_audibility(case, sound)
         sound = _in_bands(case, sound)
     names = [name for name in ("level_total", "room_level", "room_plate_level") if name in case]
     wanted = energy_sum(np.array([float(case[name]) for name in names]), axis=0)

@@ -35,8 +35,7 @@ class PosteriorEnsemble(Stage):
     reads = (Cases, PublishedCases, Transmission, NominalSound, ShellPath, HammerTest)
     gives = (
         PriorEnsemble, Evidence, "prior_sample_*", "datum_*", "conflict_tail", "model_level",
-        "spectrum_*",
-        "level_share*", "projection_error", "shell_likelihood", "shell_gain",
+        "spectrum_*", "level_share*", "projection_error", "shell_likelihood", "shell_gain",
         "shell_*_ratio", "shell_value", "shell_level_before", "shell_weight", "shell_peak_loss",
     )  # fmt: skip
 

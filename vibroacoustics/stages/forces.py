@@ -50,10 +50,8 @@ class Forces(Stage):
         """Time the first speed, with which code is compiled, and try every other one."""
         after, costs = timed(chain, self)
         check_size(study, after.results, no_progress)
-        further_s = 0.0
-        for speed in study.operation.speed_rpm[1:]:
-            at_speed = at_speeds(study, (speed,), study.options)
-            further_s += processor_time_s(partial(motion_of, at_speed, no_progress))
+        further = [at_speeds(study, (rpm,), study.options) for rpm in study.operation.speed_rpm[1:]]
+        further_s = sum(processor_time_s(partial(motion_of, each, no_progress)) for each in further)
         if further_s:
             costs += (about("forces at further speeds", further_s, "measured"),)
         return Trial(after, costs)

@@ -2,7 +2,7 @@
 
 from ..base.registry import register
 from ..levels.contribution_choice import chosen_speeds, loudest_orders
-from ..levels.contributions import contribution_variables, with_gain
+from ..levels.contributions import MEDIANS, contribution_variables, with_gain
 from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
 from ..measured.sound_functions import force_sound_of
@@ -51,23 +51,18 @@ class MeasuredForceSound(Stage):
 
 @register
 class ContributionsByPath(Stage):
-    """Pressure and shares of the transfer paths, of the representative sample if there is one.
-
-    Its discrepancy counts, and levels are the medians of all samples.
-    """
+    """Pressure and shares of the transfer paths; with samples of one of them, at median levels."""
 
     name = "contributions"
-    reads = (
-        Cases, Transmission, NominalSound, Representative, "order_level", "sources_band_level",
-        "level_modelled",
-    )  # fmt: skip
+    reads = (Cases, Transmission, NominalSound, Representative, *MEDIANS)
     gives = ("path_*", "motion_*", "modelled_band_level")
 
     def run(self, chain: Chain) -> Given:
         speeds, nominal, split = chosen_speeds(chain.study), chain[Cases], {}
         chosen = chain.get(Representative)
-        every = nominal if chosen is None else chosen.cases
-        cases = every.some(key for key in nominal.cases if key[0] in speeds)
+        cases = (nominal if chosen is None else chosen.cases).some(
+            key for key in nominal.cases if key[0] in speeds
+        )
         chain.progress("sound by path", 0, len(cases.cases))
         for key, of_case in chain[Transmission].contributions(cases):
             split[key] = of_case if chosen is None else with_gain(of_case, chosen.gain[key])

@@ -4,22 +4,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
-import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.decibel import SILENCE_DB, power_of_level
 from ..base.registry import register
 from ..base.vocabulary import REFERENCE_OPTION, stamp
-from ..levels.by_source import gain_band_number
 from ..levels.contribution_choice import chosen_speeds
 from ..levels.energy import energy_variables, loudest_line
 from ..levels.nominal import NominalSound
-from ..levels.sample_levels import with_discrepancy
+from ..levels.sample_levels import loads_with_gain, with_discrepancy
 from ..machine.cases import Cases
 from ..machine.machine import Machine
 from ..machine.source import CaseKey, Shared
-from ..mechanics.loads import Lines
 from ..mechanics.received_sound import ReceivedSound
 from ..study.study import Study
 from ..transfer.deflection import MovingCase, deflection_variables
@@ -94,23 +90,6 @@ class Shown:
             for key, case in path.received(self.cases).items()
         ]
 
-    def heard(self, key: CaseKey, lines: Lines) -> Lines:
-        """Return the lines of a case with the discrepancy at the published microphone.
-
-        Parameters
-        ----------
-        key : speed and option of the case
-        lines : loads of all sources
-        """
-        if not self.gain:
-            return lines
-        root = np.sqrt(self.gain[key][:, self.receiver])[:, gain_band_number(lines.frequency_hz)]
-        loads = {
-            source: {port: factor * load for port, load in by_port.items()}
-            for factor, (source, by_port) in zip(root, lines.loads.items(), strict=True)
-        }
-        return replace(lines, loads=loads)
-
 
 def _first_ranked(results: xr.Dataset) -> list[str]:
     """Name of the option that ranks first; empty in a trial, which has no scores."""
@@ -124,8 +103,7 @@ def _first_ranked(results: xr.Dataset) -> list[str]:
 class Energies(Stage):
     """Energies that each source and unmodelled noise add to lines and third octaves.
 
-    Their sums are the medians of all samples. None with a measured baseline, which takes the place
-    of what the sources make.
+    Sums are medians of all samples. None with a measured baseline, which replaces the sources.
     """
 
     name = "energies"
@@ -141,23 +119,8 @@ class Energies(Stage):
         case = {"speed": shown.speed_rpm, "option": list(shown.options)}
         pressure = chain.results["pressure_line"].sel(case)
         sound = shown.received(chain[Transmission])
-        factor = _to_medians(chain.results.sel(case)) if shown.gain else np.ones((1, 1, 1))
-        return Given(energy_variables(axes, sound, pressure, shown.unmodelled, factor))
-
-
-def _to_medians(results: xr.Dataset) -> Array:
-    """Factors from the third octaves of the representative sample to the medians of all samples.
-
-    Returns
-    -------
-    shape (option, receiver, noise band)
-    """
-    median, own = (
-        results[name].transpose("option", "receiver", "noise_band").values
-        for name in ("total_band_level", "representative_total_band_level")
-    )
-    sounds = (own > SILENCE_DB) & (median > SILENCE_DB)
-    return np.asarray(power_of_level(np.where(sounds, median - own, 0.0)))
+        medians = chain.results.sel(case) if shown.gain else None
+        return Given(energy_variables(axes, sound, pressure, shown.unmodelled, medians))
 
 
 @register
@@ -169,8 +132,7 @@ class Deflection(Stage):
     gives = ("shown_speed", "deflection*", "section_force")
 
     def run(self, chain: Chain) -> Given:
-        shown, transmission = Shown.of(chain), chain[Transmission]
-        cases: dict[str, MovingCase] = {}
+        shown, transmission, cases = Shown.of(chain), chain[Transmission], {}
         pressure = chain.results["pressure_line"].sel(receiver=chain.study.catalogue_receiver)
         for (speed, option), case in shown.cases.cases.items():
             key = speed, option
@@ -179,10 +141,11 @@ class Deflection(Stage):
                 transmission.lines(key, shown.cases),
                 loudest_line(pressure.sel(speed=speed, option=option)),
             )
-        heard = {
-            option: case._replace(lines=shown.heard((shown.speed_rpm, option), case.lines))
+        louder = {
+            option: case._replace(lines=loads_with_gain(case.lines, gain[:, shown.receiver]))
             for option, case in cases.items()
+            if (gain := shown.gain.get((shown.speed_rpm, option))) is not None
         }
-        results = deflection_variables(heard, shown.machine.shell)
+        results = deflection_variables(louder or cases, shown.machine.shell)
         results = results.merge(section_variables(cases, shown.machine))
         return Given(results.assign(shown_speed=stamp("shown_speed", shown.speed_rpm)))

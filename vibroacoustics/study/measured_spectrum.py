@@ -167,10 +167,8 @@ def _of_recording(path: Path, channel: str) -> dict[str, Array]:
         names = ", ".join(map(repr, weighted)) or "none"
         raise ParameterError(f"channel = {channel!r}: {path}: must be one of {names}")
     row = weighted[channel]
-    known = {
-        number: hz for number, hz in bands.items() if row[number : number + 1] not in ([], [""])
-    }
+    measured = {number: hz for number, hz in bands.items() if number < len(row) and row[number]}
     return {
-        "frequency_hz": np.array([*known.values()]),
-        _WEIGHTED: np.array([float(row[number]) for number in known]),
+        "frequency_hz": np.array([*measured.values()]),
+        _WEIGHTED: np.array([float(row[number]) for number in measured]),
     }

@@ -118,8 +118,8 @@ def _model_alone(
     ----------
     evidence : published data
     sounds : sounds of all samples
-    solved : numbers of those with a solution
-    weight : weights of these before the data
+    solved : numbers of those with a solution, shape (solved,)
+    weight : weights of these before the data, shape (solved,)
     """
     square = np.array(
         [

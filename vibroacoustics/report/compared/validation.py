@@ -170,7 +170,7 @@ def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
             simulation, data = levels if study_first else levels[::-1]
             spread = float(at_order.get("order_mean_uncertainty", np.nan))
             variable, label = _sampled(study, named)
-            at = {"option": option, "speed": _rpm(at_order, study_first), "order": order, **label}
+            point = {"option": option, "speed": _rpm(at_order, study_first), "order": order}
             yield OfInterval(
                 f"Order {order:g} of {at_order['channel'].item()}, "
                 f"{at_order['speed'].item():.0f} rpm",
@@ -178,7 +178,7 @@ def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
                 simulation,
                 data,
                 _numerical(study, named),
-                _inputs(study, variable, data, at),
+                _inputs(study, variable, data, point | label),
                 spread if np.isfinite(spread) else 0.0,
                 str(at_order.attrs["second" if study_first else "first"]),
             )
@@ -199,7 +199,7 @@ def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
             continue
         simulated, data = pair if study_first else pair[::-1]
         receiver = named.removeprefix(PRESSURE)
-        at = {"option": option, "speed": _rpm(at_point, study_first), "receiver": receiver}
+        point = {"option": option, "speed": _rpm(at_point, study_first), "receiver": receiver}
         spread = data.total_uncertainty_db
         yield OfInterval(
             f"Level in all at {channel}, {speed:.0f} rpm",
@@ -207,7 +207,7 @@ def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
             simulated.total_dba,
             data.total_dba,
             _numerical(study, named),
-            _inputs(study, "level_total", data.total_dba, at),
+            _inputs(study, "level_total", data.total_dba, point),
             spread if np.isfinite(spread) else 0.0,
             str(at_point.attrs["second" if study_first else "first"]),
         )
@@ -220,14 +220,14 @@ def _numerical(study: xr.Dataset, channel: str) -> float:
     return grid_error_db(study, channel.removeprefix(PRESSURE))
 
 
-def _inputs(study: xr.Dataset, variable: str, data: float, at: Mapping[str, Any]) -> float:
+def _inputs(study: xr.Dataset, variable: str, data: float, point: Mapping[str, Any]) -> float:
     """Standard uncertainty by the samples on the side of the data; 0 where nothing was sampled.
 
     A normal distribution with it has the same end of the 80 % interval there.
     """
     if not variable or not is_sampled(study, variable):
         return 0.0
-    sampled = estimate(study, variable, **at)
+    sampled = estimate(study, variable, **point)
     values = [sampled.low, sampled.value, sampled.high]
     if variable in _AMPLITUDES.values():
         values = level_of_amplitude(np.array(values) / np.sqrt(2.0)).tolist()

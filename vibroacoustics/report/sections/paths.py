@@ -219,18 +219,15 @@ def paths_data(results: xr.Dataset) -> DataTable:
 
 
 def _in_samples(results: xr.Dataset) -> str:
-    """Say what one sample cannot show: the shares of the sources in all samples."""
+    """Say what one sample cannot show: the share of the largest source in all samples."""
     if "representative_value" not in results:
         return ""
     speed = path_speed(results)
-    shares = [
-        f"{source_name(results, source)} {source_share(results, source, speed).in_percent()}"
-        for source in ranked(results, speed)
-    ]
+    first = ranked(results, speed)[0]
+    share = source_share(results, first, speed).in_percent()
     return (
         " Shares and phases are those of the representative sample, levels are medians of all "
-        f"samples. In all samples the sources have these shares of the machine's energy: "
-        f"{'; '.join(shares)}."
+        f"samples. Share of {source_name(results, first)} in all samples: {share}."
     )
 
 

@@ -46,8 +46,9 @@ _LEAST_SPAN_DB: Final = 2.0
 
 def sentences(results: xr.Dataset) -> tuple[str, ...]:
     """Return the sentences of the first screen."""
-    vibration = () if "rating_level" in results else (_vibration,)
-    each = (_windows, _level, _model_alone, _room, _source, _options, *vibration, _measurement)
+    rated = "rating_level" in results
+    model, vibration = ((), ()) if rated else ((_model_alone,), (_vibration,))
+    each = (_windows, _level, *model, _room, _source, _options, *vibration, _measurement)
     return tuple(filter(None, (sentence(results) for sentence in each)))
 
 
@@ -170,8 +171,8 @@ def _model_alone(results: xr.Dataset) -> str:
     parts = []
     if "model_level" in results and has_samples(results):
         alone = Band(*results["model_level"].values.tolist())
-        whole = partial(rounding.fixed, decimals=0)
-        parts.append(f"the model alone: {alone.middle_and_ends(whole)}")
+        text = alone.middle_and_ends(partial(rounding.fixed, decimals=0))
+        parts.append(f"the model alone: {text}")
     if has_samples(results) and effective_samples(results) < _FEW_SAMPLES:
         parts.append(f"{effective_samples(results):.0f} effective samples")
     text = "; ".join(parts)
