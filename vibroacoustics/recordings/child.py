@@ -105,6 +105,7 @@ def _handed_over(read: Recorded, request: Request) -> tuple[dict[str, Any], Iter
         "first_sample": recording.first_sample,
         "total_samples": recording.total_samples,
         "calibration": list(recording.calibration) or [None] * len(recording.names),
+        "counts": list(recording.counts) or [""] * len(recording.names),
         "remarks": [*recording.remarks],
         "overloads": [overload and overload._asdict() for overload in overloads(recording)],
         "extents": [extent._asdict() for extent in extents(recording)],
@@ -196,6 +197,7 @@ def _request(fields: Mapping[str, Any]) -> Request:
         fields.get("to_s"),
         None if samples is None else (samples[0], samples[1]),
         None if opening is None else (opening[0], opening[1]),
+        tuple(fields.get("units", ())),
     )
 
 

@@ -1,0 +1,126 @@
+"""Time axes of channels, each stated or read, brought to one time line."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..base.arrays import Array
+from .recorded import Request, check_rate, check_size
+from .time_axis import (
+    MAXIMUM_TIME_DEVIATION,
+    Times,
+    UnevenError,
+    check_gap,
+    check_growing,
+    even_part,
+)
+from .time_line import ChannelTime, TimeLine, time_line
+
+_DIGITS: Final = range(7)
+"""Decimal digits of times that may be rounded to them."""
+_ROUNDING: Final = 0.55
+"""Share of the last digit by which rounded times deviate from an even grid."""
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """Time axis of channels.
+
+    Attributes
+    ----------
+    samples : number of samples
+    rate_hz : sample rate; None where the times give it
+    start_s : time of the first sample, s; of times their origin
+    times : times in s from one sample to another; None where the rate is stated alone
+    """
+
+    samples: int
+    rate_hz: float | None = None
+    start_s: float = 0.0
+    times: Times | None = None
+
+
+def line_of(names: Sequence[str], axes: Sequence[Axis], request: Request) -> TimeLine:
+    """Time line of channels.
+
+    Of a single axis only the times of the part that is wanted are read.
+
+    Parameters
+    ----------
+    names : names of the channels
+    axes : axis of each channel; channels may share one
+    request : part that is wanted, and the sample rate that overrides those of the axes
+
+    Raises
+    ------
+    ParameterError
+        Times do not grow or have a gap, or channels have no common time.
+    """
+    single = axes[0] if axes and all(axis is axes[0] for axis in axes) else None
+    if single is not None and single.times is not None:
+        try:
+            return _even_line(names, single, request)
+        except UnevenError:
+            pass
+    read = {id(axis): _channel_time(axis, request) for axis in axes}
+    times = [
+        ChannelTime(name, time.samples, time.rate_hz, time.start_s, time.uneven_s)
+        for name, time in zip(names, (read[id(axis)] for axis in axes), strict=True)
+    ]
+    return time_line(times, request)
+
+
+def _even_line(names: Sequence[str], axis: Axis, request: Request) -> TimeLine:
+    """Line of even times, of which the part alone must be even."""
+    assert axis.times is not None  # noqa: S101 - the caller has looked
+    first, last, rate_hz = even_part(axis.times, axis.samples, request)
+    check_rate(rate_hz := axis.rate_hz or rate_hz)
+    start_s = axis.start_s + float(axis.times(0, 1)[0])
+    time = [ChannelTime(name, axis.samples, rate_hz, start_s) for name in names]
+    return TimeLine(time, rate_hz, start_s, axis.samples, first, last, request.is_block)
+
+
+def _channel_time(axis: Axis, request: Request) -> ChannelTime:
+    """Time of a channel without its name."""
+    rate_hz = request.sample_rate_hz or axis.rate_hz
+    if axis.times is None:
+        check_rate(float(rate_hz or 0.0))
+        return ChannelTime("", axis.samples, float(rate_hz or 0.0), axis.start_s)
+    check_size(0, axis.samples)
+    time_s = np.asarray(axis.times(0, axis.samples), dtype=float)
+    check_growing(time_s, 0)
+    check_gap(time_s, 0, float(time_s[0]), request.sample_rate_hz)
+    time_s = time_s + axis.start_s
+    mean_hz = float((time_s.size - 1) / (time_s[-1] - time_s[0]))
+    if rate_hz is None and not is_even(time_s, mean_hz):
+        rounded_hz = rounded_rate_hz(time_s)
+        if rounded_hz is None:
+            return ChannelTime("", axis.samples, mean_hz, float(time_s[0]), time_s)
+        rate_hz = rounded_hz
+    return ChannelTime("", axis.samples, rate_hz or mean_hz, float(time_s[0]))
+
+
+def is_even(time_s: Array, rate_hz: float) -> bool:
+    """Whether times, s, shape (time,), are on the grid of a rate from the first."""
+    off = (time_s - time_s[0]) * rate_hz - np.arange(time_s.size)
+    return bool(np.max(np.abs(off)) <= MAXIMUM_TIME_DEVIATION)
+
+
+def rounded_rate_hz(time_s: Array) -> float | None:
+    """Sample rate of even times that are rounded to a decimal digit; None where they are not.
+
+    Parameters
+    ----------
+    time_s : growing times, s, shape (time,)
+    """
+    number = np.arange(time_s.size, dtype=float)
+    slope, start = np.polyfit(number, time_s, 1)
+    off_s = float(np.max(np.abs(time_s - start - slope * number)))
+    for digits in _DIGITS:
+        quantum = 10.0**-digits
+        steps = time_s / quantum
+        if np.max(np.abs(steps - np.rint(steps))) < 1e-3:
+            return float(1.0 / slope) if off_s <= _ROUNDING * quantum else None
+    return None
