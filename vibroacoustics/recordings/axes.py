@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from ..base.arrays import Array
+from ..base.errors import ParameterError
 from .recorded import Request, check_rate, check_size
 from .time_axis import (
     MAXIMUM_TIME_DEVIATION,
@@ -76,7 +77,8 @@ def _even_line(names: Sequence[str], axis: Axis, request: Request) -> TimeLine:
     """Line of even times, of which the part alone must be even."""
     assert axis.times is not None  # noqa: S101 - the caller has looked
     first, last, rate_hz = even_part(axis.times, axis.samples, request)
-    check_rate(rate_hz := axis.rate_hz or rate_hz)
+    rate_hz = _agreed_hz(axis.rate_hz, rate_hz, last - first, request)
+    check_rate(rate_hz)
     start_s = axis.start_s + float(axis.times(0, 1)[0])
     time = [ChannelTime(name, axis.samples, rate_hz, start_s) for name in names]
     return TimeLine(time, rate_hz, start_s, axis.samples, first, last, request.is_block)
@@ -99,7 +101,26 @@ def _channel_time(axis: Axis, request: Request) -> ChannelTime:
         if rounded_hz is None:
             return ChannelTime("", axis.samples, mean_hz, float(time_s[0]), time_s)
         rate_hz = rounded_hz
-    return ChannelTime("", axis.samples, rate_hz or mean_hz, float(time_s[0]))
+    rate_hz = _agreed_hz(rate_hz, mean_hz, time_s.size, request)
+    return ChannelTime("", axis.samples, rate_hz, float(time_s[0]))
+
+
+def _agreed_hz(stated_hz: float | None, rate_hz: float, samples: int, request: Request) -> float:
+    """Sample rate that is stated, with which that of the times must agree.
+
+    Raises
+    ------
+    ParameterError
+        They differ by more than a sample.
+    """
+    if stated_hz is None or request.sample_rate_hz is not None:
+        return request.sample_rate_hz or rate_hz
+    if not abs(stated_hz / rate_hz - 1.0) * samples <= 1.0:
+        raise ParameterError(
+            f"states a sample rate of {stated_hz:.9g} Hz, but its time axis has {rate_hz:.9g} Hz: "
+            "give sample_rate_hz"
+        )
+    return stated_hz
 
 
 def is_even(time_s: Array, rate_hz: float) -> bool:

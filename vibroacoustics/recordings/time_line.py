@@ -1,7 +1,7 @@
 """One time line for channels that start, or are sampled, at different times."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from math import ceil, floor
 from typing import Final
@@ -77,6 +77,15 @@ class TimeLine:
     def parts(self) -> list[tuple[int, int]]:
         """First sample that is needed of each channel, and the one after the last."""
         return [self._part(time) for time in self.times]
+
+    def planned(self, request: Request) -> "TimeLine":
+        """Line with the samples that are wanted now or, of a file that is opened, in blocks."""
+        first, last = request.planned(self.total, self.rate_hz)
+        return replace(self, first=first, last=last)
+
+    def is_resampled(self, channel: int) -> bool:
+        """Whether the samples of a channel are interpolated."""
+        return not self._is_even_copy(self.times[channel])
 
     def on_grid(self, stored: Sequence[Samples]) -> list[Samples]:
         """Samples of each channel at the times of the line.

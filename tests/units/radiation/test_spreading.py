@@ -9,7 +9,6 @@ import vibroacoustics as va
 from vibroacoustics.base.constants import SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.levels.axes import LevelAxes
 from vibroacoustics.radiation.spreading import spreading_of
-from vibroacoustics.results.storage import write_results
 
 STUDY = Path(__file__).parents[2] / "studies" / "small.toml"
 BANDS_HZ = np.array([100.0, 1000.0, 4000.0])

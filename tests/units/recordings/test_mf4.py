@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from trade_files import RATE_HZ, SIGNALS, mf4
 
-from vibroacoustics.base.errors import ParameterError, StorageError
+from vibroacoustics.base.errors import StorageError
 from vibroacoustics.recordings import open_recording, read_recording
 
 pytest.importorskip("asammdf")

@@ -12,7 +12,8 @@ from ...base.errors import StorageError
 from ...base.registry import register
 from ..array_recording import recorded
 from ..claims import DEFLATE_RATIO, check_claim
-from ..named_arrays import UNIT_NAMES, NamedArray, Part, as_text, is_rate
+from ..counts import is_factor
+from ..named_arrays import UNIT_NAMES, NamedArray, Part, as_text, is_rate, is_start
 from ..packing import PACKING_NAMES
 from ..reader import Reader
 from ..recorded import MAXIMUM_READING_BYTES, Recorded, Request, check_size
@@ -97,7 +98,20 @@ def named_dataset(name: str, dataset: Any) -> NamedArray:
         check(part)
         return dataset[part]
 
-    return NamedArray(name, shape, dataset.dtype.kind in "iuf", load, _attributes(dataset), check)
+    kind = dataset.dtype.kind
+    return NamedArray(
+        name, shape, kind in "iuf", load, _attributes(dataset), check, _dimensions(dataset),
+        kind in "iu",
+    )  # fmt: skip
+
+
+def _dimensions(dataset: Any) -> tuple[str, ...]:
+    """Names of the coordinates of the dimensions; a dimension without one is empty."""
+    if "DIMENSION_LIST" not in dataset.attrs:
+        return ()
+    return tuple(
+        next((scale.name.lstrip("/") for scale in axis.values()), "") for axis in dataset.dims
+    )
 
 
 def _check_piece(name: str, dataset: Any) -> None:
@@ -149,8 +163,12 @@ def _attributes(dataset: Any) -> Mapping[str, Any]:
 
 def _plain(attributes: Any) -> Mapping[str, Any]:
     """The attributes that we know; others may be of types that cannot be read."""
-    wanted = (*UNIT_NAMES, *PACKING_NAMES, "start_time")
-    return {name: attributes[name] for name in attributes if name in wanted or is_rate(name)}
+    wanted = (*UNIT_NAMES, *PACKING_NAMES, "start_time", "wf_increment", "wf_start_time")
+    return {
+        name: attributes[name]
+        for name in attributes
+        if name in wanted or is_rate(name) or is_start(name) or is_factor(name)
+    }
 
 
 def _read_classic(request: Request) -> Recorded:
@@ -170,6 +188,8 @@ def _read_classic(request: Request) -> Recorded:
                 variable.data.dtype.kind in "iuf",
                 partial(_part_of, variable.data),
                 variable._attributes,
+                dimensions=tuple(map(as_text, variable.dimensions)),
+                is_whole=variable.data.dtype.kind in "iu",
             )
             for name, variable in file.variables.items()
         ]

@@ -1,7 +1,6 @@
 """TDMS of National Instruments, through npTDMS."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from ...base.errors import ParameterError, StorageError
@@ -13,7 +12,6 @@ from ..named_arrays import is_rate
 from ..quantities import axis_factor
 from ..reader import Reader
 from ..recorded import MissingError, Recorded, Request, check_rate
-from ..time_line import TimeLine
 
 if TYPE_CHECKING:
     from ..tdms_segments import Change
@@ -45,7 +43,7 @@ def read(request: Request) -> Recorded:
         check_claim(request.path, max(map(len, channels)), len(channels))  # of a byte each
         axes, origin = _axes(file, names, channels, pieces, request)
         line = line_of(names, axes, request)
-        parts = _planned(line, request).parts
+        parts = line.planned(request).parts
         about = list(zip(names, channels, pieces, parts, strict=True))
         units = [
             str(segments.check_constant(name, piece, segments.UNIT, part, line.rate_hz) or "")
@@ -77,12 +75,6 @@ def read(request: Request) -> Recorded:
         counts=counts,
         remarks=[*remarks, *dict.fromkeys(filter(None, gaps)), *line.remarks(units, stored)],
     )
-
-
-def _planned(line: TimeLine, request: Request) -> TimeLine:
-    """Line with the samples that are wanted, now or in blocks later."""
-    first, last = request.planned(line.total, line.rate_hz)
-    return replace(line, first=first, last=last)
 
 
 def _channels(file: Any, request: Request) -> tuple[list[str], list[Any], list[str]]:
