@@ -19,6 +19,8 @@ from .time_axis import (
 )
 from .time_line import ChannelTime, TimeLine, time_line
 
+_MOST_TIMES: Final = 2**22
+"""Most times that are read for every block."""
 _DIGITS: Final = range(7)
 """Decimal digits of times that may be rounded to them."""
 _ROUNDING: Final = 0.55
@@ -35,12 +37,14 @@ class Axis:
     rate_hz : sample rate; None where the times give it
     start_s : time of the first sample, s; of times their origin
     times : times in s from one sample to another; None where the rate is stated alone
+    origin_s : time of the recording's first sample, where that is not of the times
     """
 
     samples: int
     rate_hz: float | None = None
     start_s: float = 0.0
     times: Times | None = None
+    origin_s: float | None = None
 
 
 def line_of(names: Sequence[str], axes: Sequence[Axis], request: Request) -> TimeLine:
@@ -60,11 +64,12 @@ def line_of(names: Sequence[str], axes: Sequence[Axis], request: Request) -> Tim
         Times do not grow or have a gap, or channels have no common time.
     """
     single = axes[0] if axes and all(axis is axes[0] for axis in axes) else None
-    if single is not None and single.times is not None:
+    if single is not None and single.times is not None and _may_be_even(single, request):
         try:
             return _even_line(names, single, request)
         except UnevenError:
-            pass
+            if request.samples is not None:
+                raise
     read = {id(axis): _channel_time(axis, request) for axis in axes}
     times = [
         ChannelTime(name, time.samples, time.rate_hz, time.start_s, time.uneven_s)
@@ -73,10 +78,41 @@ def line_of(names: Sequence[str], axes: Sequence[Axis], request: Request) -> Tim
     return time_line(times, request)
 
 
+def line_of_times(
+    names: Sequence[str], time_s: Array, request: Request, origin_s: float | None = None
+) -> TimeLine:
+    """Time line of all of the channels that share times which are in memory.
+
+    Parameters
+    ----------
+    names : names of the channels
+    time_s : growing times, s, shape (time,)
+    request : its sample rate overrides that of the times
+    origin_s : time of the recording's first sample, where that is not of the times
+    """
+    every = Request(request.path, sample_rate_hz=request.sample_rate_hz)
+    axis = Axis(time_s.size, times=lambda first, last: time_s[first:last], origin_s=origin_s)
+    return line_of(names, [axis] * len(names), every)
+
+
+def _may_be_even(axis: Axis, request: Request) -> bool:
+    """Whether even times are looked for in what is wanted alone; blocks must agree in it."""
+    if request.samples is None or axis.samples > _MOST_TIMES or axis.times is None:
+        return True
+    time_s = np.asarray(axis.times(0, axis.samples), dtype=float)
+    try:
+        check_growing(time_s, 0)
+        check_gap(time_s, 0, 0.0, request.sample_rate_hz)
+    except ParameterError:
+        return True  # the part without it may be read
+    is_stated = request.sample_rate_hz is not None or axis.rate_hz is not None
+    return is_stated or is_even(time_s, (time_s.size - 1) / (time_s[-1] - time_s[0]))
+
+
 def _even_line(names: Sequence[str], axis: Axis, request: Request) -> TimeLine:
     """Line of even times, of which the part alone must be even."""
     assert axis.times is not None  # noqa: S101 - the caller has looked
-    first, last, rate_hz = even_part(axis.times, axis.samples, request)
+    first, last, rate_hz = even_part(axis.times, axis.samples, request, axis.origin_s)
     rate_hz = _agreed_hz(axis.rate_hz, rate_hz, last - first, request)
     check_rate(rate_hz)
     start_s = axis.start_s + float(axis.times(0, 1)[0])

@@ -195,14 +195,14 @@ class TimeLine:
         if time.uneven_s is not None:
             seconds = time.uneven_s[: values.size]
         kind = "uneven times" if time.uneven_s is not None else "samples"
-        error = prediction_error(seconds, values)
-        return [
-            *lines,
+        line = (
             f"channel {time.name!r}: {kind} of {time.rate_hz:.6g} Hz are interpolated to "
-            f"{self.rate_hz:.6g} Hz: every second sample is predicted from the others within "
-            f"{error:.2g} {unit}".rstrip()
-            + " (RMS)",
-        ]
+            f"{self.rate_hz:.6g} Hz"
+        )
+        if self.first == self.last:  # samples are read in blocks later
+            return [*lines, line]
+        error = f"{prediction_error(seconds, values):.2g} {unit}".rstrip()
+        return [*lines, f"{line}: every second sample is predicted from the others: {error} RMS"]
 
 
 def time_line(times: Sequence[ChannelTime], request: Request) -> TimeLine:
