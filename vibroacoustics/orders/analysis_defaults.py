@@ -79,7 +79,7 @@ def with_defaults(
 def _rate_limit(rate_hz: float, samples: int, motion: CrankMotion, needed: float) -> float:
     """Highest order that the sample rate holds at the highest speed."""
     first, last = known_samples(motion, rate_hz, samples)
-    time_s: Array = np.linspace(first, last - 1, _PROBES) / rate_hz
+    time_s: Array = np.asarray(np.linspace(first, last - 1, _PROBES) / rate_hz, dtype=float)
     passed_hz = 0.5 * HIGHEST_PASS_BAND_RATIO * rate_hz
     limit = passed_hz / float(np.max(motion.frequency_hz(time_s)))
     if limit > _SPARE * needed:

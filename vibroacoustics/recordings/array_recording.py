@@ -54,7 +54,7 @@ def recorded(
     remarks = [*remarks, *request.omissions(names, units), *_unread(arrays, columns, request)]
     times = [leading.get(c.array.name) or time_of(arrays, c) for c in columns]
     rates_hz = [stated_rate_hz(arrays, column, attributes) for column in columns]
-    axis_of, date = axes_of(columns, times, rates_hz, request)
+    axis_of, date = axes_of(arrays, columns, times, rates_hz, request)
     _check_lengths(columns, axis_of)
     line = line_of([column.name for column in columns], axis_of, request)
     check_claims(columns, line.planned(request).parts)
@@ -69,6 +69,7 @@ def recorded(
         units=[column.unit for column in columns],
         samples=line.on_grid(samples),
         sample_rate_hz=line.rate_hz,
+        line=line.key,
         start_time=line.later(start),
         first_sample=line.first,
         total_samples=line.total,

@@ -117,6 +117,7 @@ def stated_rate_hz(
 
 
 def axes_of(
+    arrays: Sequence[NamedArray],
     columns: Sequence[Column],
     times: Sequence[NamedArray | None],
     rates_hz: Sequence[float | None],
@@ -126,6 +127,7 @@ def axes_of(
 
     Parameters
     ----------
+    arrays : arrays of the file
     columns : channels
     times : time of each channel; None without one
     rates_hz : sample rate that is stated of each channel; None without one
@@ -144,12 +146,18 @@ def axes_of(
             made[key] = _axis(column, time, request.sample_rate_hz or rate_hz)
         _check_length(column, made[key][0], time)
         axes.append(made[key])
-    dates = [date for _, date in made.values() if date is not None]
-    origin = min(dates, default=None)
+    origin = _origin(arrays)
     if origin is None:
         return [axis for axis, _ in axes], ""
     shifted = {id(axis): _since(axis, date, origin) for axis, date in made.values()}
     return [shifted[id(axis)] for axis, _ in axes], str(origin)
+
+
+def _origin(arrays: Sequence[NamedArray]) -> np.datetime64 | None:
+    """Earliest date from which an array of the file counts or starts; None without one."""
+    texts = [attribute_text(array, UNIT_NAMES).partition(_SINCE)[2] for array in arrays]
+    texts += [as_text(array.attributes.get(_DATE, "")) for array in arrays]
+    return min((date for text in texts if (date := _date(text)) is not None), default=None)
 
 
 def _since(axis: Axis, date: np.datetime64 | None, origin: np.datetime64) -> Axis:

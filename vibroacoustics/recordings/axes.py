@@ -64,7 +64,8 @@ def line_of(names: Sequence[str], axes: Sequence[Axis], request: Request) -> Tim
         Times do not grow or have a gap, or channels have no common time.
     """
     single = axes[0] if axes and all(axis is axes[0] for axis in axes) else None
-    if single is not None and single.times is not None and _may_be_even(single, request):
+    is_single = single is not None and single.times is not None and request.line is None
+    if single is not None and is_single and _may_be_even(single, request):
         try:
             return _even_line(names, single, request)
         except UnevenError:
@@ -90,7 +91,7 @@ def line_of_times(
     request : its sample rate overrides that of the times
     origin_s : time of the recording's first sample, where that is not of the times
     """
-    every = Request(request.path, sample_rate_hz=request.sample_rate_hz)
+    every = Request(request.path, sample_rate_hz=request.sample_rate_hz, line=request.line)
     axis = Axis(time_s.size, times=lambda first, last: time_s[first:last], origin_s=origin_s)
     return line_of(names, [axis] * len(names), every)
 

@@ -105,6 +105,7 @@ def _handed_over(read: Recorded, request: Request) -> tuple[dict[str, Any], Iter
         "first_sample": recording.first_sample,
         "total_samples": recording.total_samples,
         "calibration": list(recording.calibration) or [None] * len(recording.names),
+        "line": recording.line,
         "counts": list(recording.counts) or [""] * len(recording.names),
         "remarks": [*recording.remarks],
         "overloads": [overload and overload._asdict() for overload in overloads(recording)],
@@ -187,7 +188,7 @@ def _common_type(channels: Sequence[Any]) -> str:
 
 def _request(fields: Mapping[str, Any]) -> Request:
     channels, samples = fields["channels"], fields.get("samples")
-    opening = fields.get("opening")
+    opening, line = fields.get("opening"), fields.get("line")
     return Request(
         Path(fields["path"]),
         None if channels is None else tuple(channels),
@@ -198,6 +199,7 @@ def _request(fields: Mapping[str, Any]) -> Request:
         None if samples is None else (samples[0], samples[1]),
         None if opening is None else (opening[0], opening[1]),
         tuple(fields.get("units", ())),
+        None if line is None else (line[0], line[1], line[2]),
     )
 
 

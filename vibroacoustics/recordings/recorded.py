@@ -51,6 +51,8 @@ class Request:
     samples : part that is wanted, first sample and the one behind the last; instead of times
     opening : times of the part that is read in blocks later; None unless the header alone is wanted
     units : names of channels whose unit the user states; `*` for all
+    line : rate, start and samples of the time line of an opened recording, of which a block has
+        some of the channels; None where each channel has its samples
 
     Examples
     --------
@@ -70,6 +72,7 @@ class Request:
     samples: tuple[int, int] | None = None
     opening: tuple[float | None, float | None] | None = None
     units: tuple[str, ...] = ()
+    line: tuple[float, float, int] | None = None
 
     @property
     def is_block(self) -> bool:
@@ -182,6 +185,7 @@ class Recorded:
         one that the user gives counts instead. Empty or None where the file states none
     counts : words on samples that are counts without a factor, one a channel, empty where they are
         values; a calibration must be given for them
+    line : see `Request`
     remarks : remarks on the file for the user, a line each
 
     Examples
@@ -204,6 +208,7 @@ class Recorded:
     limits: Sequence[tuple[float, float] | None] = ()
     calibration: Sequence[float | None] = ()
     counts: Sequence[str] = ()
+    line: tuple[float, float, int] | None = None
     remarks: Sequence[str] = ()
 
 

@@ -68,6 +68,12 @@ class SegmentReader(TdmsReader):  # type: ignore[misc]
             history = self.histories.setdefault(path, _History())
             history.update(self._before.get(path, 0), properties)
 
+    @property
+    def origin_s(self) -> int:
+        """Whole second at which the first waveform starts, s since 1904; 0 without one."""
+        first = [history.changes[0][1].get(START) for history in self.histories.values()]
+        return min((int(start.seconds) for start in first if start is not None), default=0)
+
     def pieces(self, channel: Any) -> list[Change]:
         """Properties of a channel by the sample from which they hold; those of the last last.
 
@@ -75,8 +81,8 @@ class SegmentReader(TdmsReader):  # type: ignore[misc]
         """
         changes = self.histories.get(channel.path, _History()).changes or [(0, {})]
         changes = [change for change in changes if change[0] < len(channel)] or changes[-1:]
-        first = dict(channel.properties) | changes[0][1]
-        later = [(sample, first | properties) for sample, properties in changes[1:]]
+        first = {**channel.properties, **changes[0][1]}
+        later = [(sample, {**first, **properties}) for sample, properties in changes[1:]]
         return [(0, first), *later]
 
 
@@ -169,19 +175,27 @@ def _check_scales(channel: Any, file: Any, pieces: Sequence[Change]) -> None:
             )
 
 
-def start_s(properties: Properties, factor: float = 1.0) -> float | None:
-    """Start of a waveform, s since 1904; None where no start time is stated.
+def date_of(properties: Properties, origin_s: int) -> str:
+    """Date of an origin, ISO 8601, s since 1904, by a waveform that states its start time."""
+    start = properties[START]
+    whole = np.datetime64(str(start).partition(".")[0], "s") - np.timedelta64(start.seconds, "s")
+    return str(whole + np.timedelta64(origin_s, "s"))
+
+
+def start_s(properties: Properties, factor: float = 1.0, origin_s: int = 0) -> float | None:
+    """Start of a waveform, s from an origin; None where no start time is stated.
 
     Parameters
     ----------
     properties : properties of the channel
     factor : factor of the start offset to s
+    origin_s : origin, s since 1904
     """
     start = properties.get(START)
     if start is None:
         return None
     fraction = start.second_fractions * 2.0**-64
-    return float(start.seconds + fraction + factor * float(properties.get(OFFSET, 0.0)))
+    return float(start.seconds - origin_s + fraction + factor * float(properties.get(OFFSET, 0.0)))
 
 
 def gap_line(pieces: Sequence[Change], interval_s: float, part: tuple[int, int]) -> str:

@@ -101,6 +101,7 @@ def recorded_signals(structs: Sequence[Struct], request: Request) -> Recorded:
         units=units,
         samples=line.on_grid(stored),
         sample_rate_hz=line.rate_hz,
+        line=line.key,
         first_sample=line.first,
         total_samples=line.total,
         limits=[

@@ -78,6 +78,16 @@ class TimeLine:
         """First sample that is needed of each channel, and the one after the last."""
         return [self._part(time) for time in self.times]
 
+    @property
+    def key(self) -> tuple[float, float, int] | None:
+        """Rate, start and samples; None where each channel has its samples at all of its times."""
+        copies = all(self._is_even_copy(time) for time in self.times)
+        if copies and {(time.start_s, time.samples) for time in self.times} == {
+            (self.start_s, self.total)
+        }:
+            return None
+        return self.rate_hz, self.start_s, self.total
+
     def planned(self, request: Request) -> "TimeLine":
         """Line with the samples that are wanted now or, of a file that is opened, in blocks."""
         first, last = request.planned(self.total, self.rate_hz)
@@ -217,6 +227,14 @@ def time_line(times: Sequence[ChannelTime], request: Request) -> TimeLine:
     """
     if not times:
         raise ParameterError("no channel is chosen")
+    rate_hz, start_s, total = request.line or _common(times)
+    first, last = request.part(total, rate_hz)
+    check_size(len(times), last - first)
+    return TimeLine(times, rate_hz, start_s, total, first, last, request.is_block)
+
+
+def _common(times: Sequence[ChannelTime]) -> tuple[float, float, int]:
+    """Rate, start and number of samples of the part that all channels have."""
     rate_hz = max(time.rate_hz for time in times)
     check_rate(rate_hz)
     master = next(time for time in times if _same_rate(time, rate_hz))
@@ -231,10 +249,7 @@ def time_line(times: Sequence[ChannelTime], request: Request) -> TimeLine:
         raise ParameterError(
             f"channels have no common time ({listed(spans)}): choose channels that do"
         )
-    first, last = request.part(total, rate_hz)
-    check_size(len(times), last - first)
-    start_s = master.start_s + begin / rate_hz
-    return TimeLine(times, rate_hz, start_s, total, first, last, request.is_block)
+    return rate_hz, master.start_s + begin / rate_hz, total
 
 
 def _bounds(line: TimeLine, time: ChannelTime) -> tuple[float, float]:

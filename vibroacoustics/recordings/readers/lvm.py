@@ -75,6 +75,7 @@ def read(request: Request) -> Recorded:
         units=units,
         samples=line.on_grid(stored),
         sample_rate_hz=line.rate_hz,
+        line=line.key,
         start_time=line.later(head.start_time),
         remarks=[*_remarks(segments, request), *omissions, *line.remarks(units, stored)],
     )
@@ -82,7 +83,7 @@ def read(request: Request) -> Recorded:
 
 def _every(request: Request) -> Request:
     """All of the recording, which is cut later."""
-    return Request(request.path, sample_rate_hz=request.sample_rate_hz)
+    return Request(request.path, sample_rate_hz=request.sample_rate_hz, line=request.line)
 
 
 def _axes(segments: list[_Rows], request: Request) -> list[Axis]:
@@ -94,7 +95,7 @@ def _axes(segments: list[_Rows], request: Request) -> list[Axis]:
     head, chosen = first.head, first.channels
     values = np.concatenate([part.values for part in segments])
     if not first.times:
-        origin_s = min(head.starts_s[c] for c in chosen)
+        origin_s = min(head.starts_s)
         made: dict[tuple[float, float, int], Axis] = {}
         axes = []
         for number, channel in enumerate(chosen):
@@ -103,7 +104,7 @@ def _axes(segments: list[_Rows], request: Request) -> list[Axis]:
             key = (rate_hz, head.starts_s[channel] - origin_s, count)
             axes.append(made.setdefault(key, Axis(count, rate_hz, key[1])))
         return axes
-    origin_s = min(head.dates_s[c] for c in chosen)
+    origin_s = min(head.dates_s)
     by_column: dict[tuple[int, float, int], Axis] = {}
     axes = []
     for number, channel in enumerate(chosen):

@@ -64,6 +64,7 @@ def read(request: Request) -> Recorded:
         units=units,
         samples=line.on_grid(stored),
         sample_rate_hz=line.rate_hz,
+        line=line.key,
         start_time="" if start is None else line.later(start.isoformat()),
         first_sample=line.first,
         total_samples=line.total,

@@ -41,7 +41,7 @@ def read(request: Request) -> Recorded:
         reader = segments.SegmentReader(request.path)
         pieces = [reader.pieces(channel) for channel in channels]
         check_claim(request.path, max(map(len, channels)), len(channels))  # of a byte each
-        axes, origin = _axes(file, names, channels, pieces, request)
+        axes, origin = _axes(file, names, channels, pieces, reader.origin_s, request)
         line = line_of(names, axes, request)
         parts = line.planned(request).parts
         about = list(zip(names, channels, pieces, parts, strict=True))
@@ -69,6 +69,7 @@ def read(request: Request) -> Recorded:
         units=units,
         samples=line.on_grid(stored),
         sample_rate_hz=line.rate_hz,
+        line=line.key,
         start_time=line.later(origin),
         first_sample=line.first,
         total_samples=line.total,
@@ -106,15 +107,14 @@ def _check_whole(file: Any) -> None:
 
 def _axes(
     file: Any, names: Sequence[str], channels: Sequence[Any], pieces: "Sequence[Sequence[Change]]",
-    request: Request,
+    origin_s: int, request: Request,
 ) -> tuple[list[Axis], str]:  # fmt: skip
     """Time axis of each channel, and the start time of their origin."""
     from .. import tdms_segments as segments
 
     factors = [_time_factor(n, c.properties) for n, c in zip(names, channels, strict=True)]
     firsts = [piece[0][1] for piece in pieces]
-    starts = [segments.start_s(p, f) for p, f in zip(firsts, factors, strict=True)]
-    origin_s = min((start for start in starts if start is not None), default=0.0)
+    starts = [segments.start_s(p, f, origin_s) for p, f in zip(firsts, factors, strict=True)]
     axes = []
     for name, channel, piece, factor, start in zip(
         names, channels, pieces, factors, starts, strict=True
@@ -122,9 +122,9 @@ def _axes(
         segments.check_constant(name, piece, segments.INCREMENT, (0, len(channel)), 1.0)
         rate_hz = request.sample_rate_hz or _rate_hz(file, name, channel, factor)
         offset_s = factor * float(piece[0][1].get(segments.OFFSET, 0.0))
-        axes.append(Axis(len(channel), rate_hz, offset_s if start is None else start - origin_s))
-    earliest = [p for p, s in zip(firsts, starts, strict=True) if s == origin_s]
-    return axes, str(earliest[0].get(segments.START, "")) if earliest else ""
+        axes.append(Axis(len(channel), rate_hz, offset_s if start is None else start))
+    dated = next((p for p, s in zip(firsts, starts, strict=True) if s is not None), None)
+    return axes, "" if dated is None else segments.date_of(dated, origin_s)
 
 
 def _time_factor(name: str, properties: Mapping[str, Any]) -> float:

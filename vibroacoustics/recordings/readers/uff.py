@@ -48,7 +48,7 @@ def read(request: Request) -> Recorded:
         units = [units[c] for c in chosen]
         _check_first(responses, request)
         axes = [_axis(file, name, h) for name, h in zip(names, responses, strict=True)]
-        line = line_of(names, _shared(axes, responses, file), request)
+        line = line_of(names, _shared(axes), request)
         stored = [
             values(file, header, *part)[0]
             for header, part in zip(responses, line.parts, strict=True)
@@ -58,6 +58,7 @@ def read(request: Request) -> Recorded:
         units=units,
         samples=line.on_grid(stored),
         sample_rate_hz=line.rate_hz,
+        line=line.key,
         start_time=line.later(responses[0].start_time),
         first_sample=line.first,
         total_samples=line.total,
@@ -113,18 +114,16 @@ def _axis(file: BinaryIO, name: str, header: Header) -> Axis:
     return Axis(header.points, None, 0.0, times)
 
 
-def _shared(axes: Sequence[Axis], responses: Sequence[Header], file: BinaryIO) -> list[Axis]:
+def _shared(axes: Sequence[Axis]) -> list[Axis]:
     """Axes of which equal uneven ones are one."""
     first = axes[0]
     if first.times is None or any(axis.times is None for axis in axes):
         return list(axes)
-    if len({header.points for header in responses}) > 1:
+    if len({axis.samples for axis in axes}) > 1:
         return list(axes)
-    _, times = values(file, responses[0], 0, first.samples)
-    for header in responses[1:]:
-        if not np.array_equal(values(file, header, 0, first.samples)[1], times):
-            return list(axes)
-    return [first] * len(axes)
+    times = first.times(0, first.samples)
+    others = (axis.times(0, axis.samples) for axis in axes[1:] if axis.times is not None)
+    return [first] * len(axes) if all(np.array_equal(t, times) for t in others) else list(axes)
 
 
 def _rate_hz(increment: float) -> float:
