@@ -11,7 +11,9 @@ from vibroacoustics.recordings.resampling import HALF_LENGTH, band_limited, cubi
 
 UNITS = {"testlab": {}, "mat_structs": {"*": "Pa"}, "mat_names": {"*": "Pa"}}
 UNITS["mat_tables"] = {"*": "Pa"}
-pytestmark = pytest.mark.filterwarnings("ignore::vibroacoustics.recordings.remarks.RecordingWarning")
+pytestmark = pytest.mark.filterwarnings(
+    "ignore::vibroacoustics.recordings.remarks.RecordingWarning"
+)
 
 
 def read(writer, path, offset_s, **options):

@@ -1,6 +1,7 @@
 """HDF5 and netCDF: datasets with the attributes `units` and `sample_rate_hz`, or our own form."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 from itertools import count, product
 from pathlib import Path
@@ -50,8 +51,37 @@ def _read_hdf5(request: Request) -> Recorded:
     import h5py
 
     with h5py.File(request.path, "r", rdcc_nbytes=CHUNK_CACHE_BYTES) as file:
-        arrays = [named_dataset(name, dataset) for name, dataset in datasets(file)]
+        arrays = [a for name, dataset in datasets(file) for a in _named_arrays(name, dataset)]
         return recorded(arrays, _plain(file.attrs), request)
+
+
+def _named_arrays(name: str, dataset: Any) -> list[NamedArray]:
+    """A dataset, or of one of records its fields, as `table.field`."""
+    whole = named_dataset(name, dataset)
+    if dataset.dtype.names is None:
+        return [whole]
+    fields = {field: dataset.dtype[field] for field in dataset.dtype.names}
+    return [
+        replace(
+            whole,
+            name=f"{name}.{field}",
+            shape=whole.shape + kind.shape,
+            is_number=kind.base.kind in "iuf",
+            is_whole=kind.base.kind in "iu",
+            load=partial(_field, whole.load, field, len(whole.shape)),
+            check=partial(_check_field, whole.check, len(whole.shape)),
+            dimensions=(),
+        )
+        for field, kind in fields.items()
+    ]
+
+
+def _field(load: Any, field: str, sides: int, part: Part) -> Any:
+    return load(part[:sides])[field][(..., *part[sides:]) if part[sides:] else ...]
+
+
+def _check_field(check: Any, sides: int, part: Part) -> None:
+    check(part[:sides])
 
 
 def datasets(file: Any) -> list[tuple[str, Any]]:

@@ -2,6 +2,7 @@
 
 import logging
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Final
@@ -10,6 +11,7 @@ from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ..axes import Axis, line_of
 from ..claims import DEFLATE_RATIO, check_claim
+from ..interleaved import interleaved_columns
 from ..quantities import axis_factor
 from ..reader import Reader
 from ..recorded import Recorded, Request, Samples, listed, numbered
@@ -58,6 +60,8 @@ def read(request: Request) -> Recorded:
             for channel, part in zip(channels, line.parts, strict=True)
         ]
         start = getattr(file.header, "start_time", None)
+        if file.identification.program_identification.startswith(b"amdf") and not request.is_block:
+            remarks += _interleaved(names, stored)
     units = [channel.unit for channel in channels]
     return Recorded(
         names=names,
@@ -70,6 +74,17 @@ def read(request: Request) -> Recorded:
         total_samples=line.total,
         remarks=[*remarks, *line.remarks(units, stored)],
     )
+
+
+def _interleaved(names: Sequence[str], stored: Sequence[Samples]) -> list[str]:
+    """Remarks on channels of which asammdf may have written columns one after the other."""
+    columns = [interleaved_columns(samples.astype(float)) for samples in stored]
+    return [
+        f"channel {name!r}: its samples look like {number} columns one after the other, as asammdf "
+        "writes an array of two dimensions: write each column as a signal"
+        for name, number in zip(names, columns, strict=True)
+        if number > 1
+    ]
 
 
 def _channels_of(file: Any, request: Request) -> tuple[list[_Channel], list[str]]:
