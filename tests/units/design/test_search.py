@@ -170,7 +170,9 @@ def test_a_front_of_failed_designs_is_that_of_the_finite_ones() -> None:
     objectives = searched.evaluation.objectives
     finite = np.isfinite(objectives).all(axis=1)
     front = nondominated(objectives)
-    assert front.sum() > 1 and finite[front].all() and not finite.all()
+    assert front.sum() > 1
+    assert finite[front].all()
+    assert not finite.all()
     np.testing.assert_array_equal(front[finite], nondominated(objectives[finite]))
     assert finite[searched.best]
     np.testing.assert_array_equal(np.isfinite(searched.evaluation.violation), finite)

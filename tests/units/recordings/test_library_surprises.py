@@ -72,7 +72,7 @@ def test_plain_channels_do_not_look_like_columns():
     for frequency in (5.0, 200.0, 512.0, 1000.0, 1024.0, 1600.0):
         assert interleaved_columns(np.sin(2.0 * np.pi * frequency * time)) == 1
     assert interleaved_columns(np.sign(np.sin(2.0 * np.pi * 30.0 * time))) == 1
-    assert interleaved_columns(np.c_[time, 5.0 - time, time**2].ravel()) == 3
+    assert interleaved_columns((np.sin(30.0 * time)[:, None] * [1.0, 2.0, 4.0]).ravel()) == 3
 
 
 # --- TDMS: what changes between segments ---------------------------------------------------------
