@@ -8,7 +8,7 @@ from ..base.arrays import Array
 
 _MOST_COLUMNS: Final = 4
 _RATIO: Final = 0.1
-"""Mean square of differences over k samples to that of neighbours. One sine alone is below it within
+"""Mean square of differences over k samples to that of neighbours. One sine is below it within
 0.05 of the sample rate of its k-th part, sin² πkf / sin² πf. Assumed, 0.03 to 0.15."""
 _LIVELY: Final = 0.05
 """Least share of the variance within columns: a tone of k samples a period has none."""

@@ -11,11 +11,12 @@ import numpy as np
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ..axes import line_of_times
-from ..csv_head import MISSING_TIME, Head, read_head, stamp_ns, stamp_text, time_column
+from ..csv_head import MISSING_TIME, Head, read_head, time_column
 from ..quantities import time_factor
 from ..reader import Reader
 from ..recorded import MissingError, Recorded, Request, Samples, check_rate, check_size
 from ..text_lines import MAXIMUM_LINE_BYTES, last_lines, lines, may_be_cut, opened, reached, text
+from ..time_stamps import stamp_ns, stamp_text
 
 MAXIMUM_HEAD_LINES: Final = 200
 

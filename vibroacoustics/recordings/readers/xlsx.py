@@ -15,11 +15,12 @@ import numpy as np
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ..axes import line_of_times
-from ..csv_head import MISSING_TIME, Head, read_head, stamp_text, time_column
+from ..csv_head import MISSING_TIME, Head, read_head, time_column
 from ..named_arrays import is_rate
 from ..quantities import time_factor
 from ..reader import Reader
 from ..recorded import MissingError, Recorded, Request, Samples, check_rate, check_size, listed
+from ..time_stamps import stamp_text
 
 MAXIMUM_HEAD_ROWS: Final = 200
 MAXIMUM_ROWS: Final = 2**20
