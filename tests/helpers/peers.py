@@ -1,10 +1,10 @@
 """Files both ways with other programs: cells of the table on the page `peers`.
 
-python tests/helpers/peers.py --write   # write the table into docs/peers.md
+python tests/helpers/peers.py   # write docs/peers.csv
 """
 
+import csv
 import re
-import sys
 import tempfile
 import warnings
 from collections.abc import Callable, Iterator
@@ -15,8 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs" / "peers.md"
-MARKS = ("<!-- table -->", "<!-- end of table -->")
+TABLE = ROOT / "docs" / "peers.csv"
 PACKAGES = (
     "asammdf", "h5netcdf", "h5py", "netCDF4", "nptdms", "numpy", "openpyxl", "pandas", "pyuff",
     "scipy", "soundfile", "xarray",
@@ -596,36 +595,28 @@ def cells() -> list[Cell]:
     return [cell for maker in makers for cell in maker()]
 
 
-def rows(outcomes: dict[Cell, str]) -> list[str]:
+def rows(outcomes: dict[Cell, str]) -> list[list[str]]:
     """Rows of the table."""
-    head = ["| written by | read by | content | outcome |", "|---|---|---|---|"]
-    return head + [
-        f"| {cell.writer} | {cell.reader} | {cell.content} | {outcome} |"
-        for cell, outcome in outcomes.items()
-    ]
+    listed = [[c.writer, c.reader, c.content, outcome] for c, outcome in outcomes.items()]
+    return [["written by", "read by", "content", "outcome"], *listed]
 
 
-def versions() -> str:
-    """Versions of the programs, as the page states them."""
-    return ", ".join(f"{name} {version(name)}" for name in PACKAGES)
+def versions() -> list[list[str]]:
+    """Rows of the versions of the programs."""
+    return [[name, version(name), "version", ""] for name in PACKAGES]
 
 
-def page_table() -> str:
-    """What the page has between its marks."""
-    text = PAGE.read_text("utf-8")
-    return text.partition(MARKS[0])[2].partition(MARKS[1])[0].strip()
+def committed() -> list[list[str]]:
+    """Rows of the table in the documentation."""
+    with TABLE.open(encoding="utf-8", newline="") as file:
+        return list(csv.reader(file))
 
 
 def main() -> None:
-    """Write the table into the page."""
-    table = "\n".join([f"Versions: {versions()}.", "", *rows({c: c.outcome() for c in cells()})])
-    if "--write" not in sys.argv:
-        print(table)
-        return
-    text = PAGE.read_text("utf-8")
-    before, _, behind = text.partition(MARKS[0])
-    after = behind.partition(MARKS[1])[2]
-    PAGE.write_text(f"{before}{MARKS[0]}\n{table}\n{MARKS[1]}{after}", "utf-8")
+    """Write the table of the documentation."""
+    table = [*rows({cell: cell.outcome() for cell in cells()}), *versions()]
+    with TABLE.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows(table)
 
 
 if __name__ == "__main__":

@@ -118,10 +118,10 @@ def samples_of_parts(columns: Sequence[Column], parts: Sequence[tuple[int, int]]
     """Stored samples of the parts of the channels; tables are read at once."""
     stored: dict[int, Samples] = {}
     for part in dict.fromkeys(parts):
-        places = [place for place, each in enumerate(parts) if each == part]
-        values = stored_samples([columns[place] for place in places], *part)
-        stored.update(zip(places, values, strict=True))
-    return [stored[place] for place in range(len(columns))]
+        rows = [row for row, each in enumerate(parts) if each == part]
+        values = stored_samples([columns[row] for row in rows], *part)
+        stored.update(zip(rows, values, strict=True))
+    return [stored[row] for row in range(len(columns))]
 
 
 def _rows(column: Column, low: int, high: int, first: int, last: int) -> Samples:

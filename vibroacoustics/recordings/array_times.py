@@ -65,8 +65,10 @@ def time_of(arrays: Sequence[NamedArray], column: Column) -> NamedArray | None:
                 f"channel {column.name!r}: its axis {axis.name!r} has the unit {unit!r}: a "
                 "recording needs a time"
             )
-    own = [each for each in arrays if is_time_of(each.name, array.name)]
-    return own[0] if own else nearest([each for each in arrays if is_time(each.name)], array.name)
+    named = [each for each in arrays if is_time_of(each.name, array.name)]
+    return (
+        named[0] if named else nearest([each for each in arrays if is_time(each.name)], array.name)
+    )
 
 
 def leading_time(columns: Sequence[Column]) -> NamedArray | None:
@@ -223,5 +225,5 @@ def _stored_times(time: NamedArray, first: int, last: int) -> Samples:
 def _times(time: NamedArray, factor: float, origin: int, first: int, last: int) -> Samples:
     """Times in s from one sample to another; whole numbers from the first of all."""
     stored = _stored_times(time, first, last)
-    whole = stored.astype(np.int64) - origin if time.is_whole else stored
-    return whole.astype(float) * factor
+    numbers = stored.astype(np.int64) - origin if time.is_whole else stored
+    return numbers.astype(float) * factor

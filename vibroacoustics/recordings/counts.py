@@ -13,7 +13,7 @@ FACTOR_NAMES: Final = (
     "gain", "scale", "scaling", "scale_factor", "sensitivity", "slope", "lsb", "multiplier",
 )  # fmt: skip
 """Names of factors that programs give; blanks and capitals do not count."""
-_WHOLE: Final = ("rpm", "rad/s", "rad", "1")
+_COUNTED: Final = ("rpm", "rad/s", "rad", "1")
 """SI units of channels that may count whole numbers."""
 
 
@@ -32,7 +32,7 @@ def count_words(unit: str, samples: Samples, attributes: Mapping[str, Any]) -> s
     attributes : attributes of the channel, among which the factor may have another name
     """
     quantity = find_quantity(unit) if unit else None
-    if samples.dtype.kind not in "iu" or quantity is None or quantity.unit in _WHOLE:
+    if samples.dtype.kind not in "iu" or quantity is None or quantity.unit in _COUNTED:
         return ""
     words = f"samples are whole numbers of {8 * samples.dtype.itemsize} bits with the unit {unit!r}"
     for name, value in attributes.items():

@@ -63,9 +63,9 @@ def missing(stored: Samples, attributes: Mapping[str, Any]) -> tuple[Samples, st
 
 def _valid_range(attributes: Mapping[str, Any]) -> tuple[float, float]:
     """Least and greatest stored number that is valid."""
-    both = _numbers(attributes, "valid_range")
-    if len(both) == 2:
-        return float(both[0]), float(both[1])
+    limits = _numbers(attributes, "valid_range")
+    if len(limits) == 2:
+        return float(limits[0]), float(limits[1])
     low, high = _numbers(attributes, "valid_min"), _numbers(attributes, "valid_max")
     return float(low[0]) if len(low) else -np.inf, float(high[0]) if len(high) else np.inf
 

@@ -122,7 +122,7 @@ class Request:
     def chosen(self, names: Sequence[str], units: Sequence[str] = ()) -> list[int]:
         """Places of the wanted channels among those of the file, in the order asked for.
 
-        Where none are named, those of unknown unit are left out, unless all are.
+        Where none are named, those of unknown unit are omitted, unless all are.
 
         Parameters
         ----------
@@ -143,11 +143,11 @@ class Request:
         return [names.index(name) for name in self.channels]
 
     def omissions(self, names: Sequence[str], units: Sequence[str]) -> list[str]:
-        """Remarks on the channels that `chosen` leaves out."""
+        """Remarks on the channels that `chosen` omits."""
         if self.channels is not None:
             return []
         return [
-            f"channel {names[index]!r} is left out: its unit {units[index]!r} is unknown; give "
+            f"channel {names[index]!r} is omitted: its unit {units[index]!r} is unknown; give "
             "units or channels to read it"
             for index in self._unknown(names, units)
         ]

@@ -178,8 +178,8 @@ def _check_scales(channel: Any, file: Any, pieces: Sequence[Change]) -> None:
 def date_of(properties: Properties, origin_s: int) -> str:
     """Date of an origin, ISO 8601, s since 1904, by a waveform that states its start time."""
     start = properties[START]
-    whole = np.datetime64(str(start).partition(".")[0], "s") - np.timedelta64(start.seconds, "s")
-    return str(whole + np.timedelta64(origin_s, "s"))
+    epoch = np.datetime64(str(start).partition(".")[0], "s") - np.timedelta64(start.seconds, "s")
+    return str(epoch + np.timedelta64(origin_s, "s"))
 
 
 def start_s(properties: Properties, factor: float = 1.0, origin_s: int = 0) -> float | None:
@@ -208,9 +208,9 @@ def gap_line(pieces: Sequence[Change], interval_s: float, part: tuple[int, int])
     part : first sample, and the one behind the last, between which gaps count
     """
     starts = [(sample, start_s(properties)) for sample, properties in pieces]
-    known = [(sample, start) for sample, start in starts if start is not None]
+    dated = [(sample, start) for sample, start in starts if start is not None]
     gaps = []
-    for (before, before_s), (sample, now_s) in pairwise(known):
+    for (before, before_s), (sample, now_s) in pairwise(dated):
         recorded_s = (sample - before) * interval_s
         gap_s = now_s - before_s - recorded_s
         is_gap = abs(gap_s) > _SAMPLES * interval_s + _CLOCK * recorded_s and now_s != before_s

@@ -239,8 +239,8 @@ def _common(times: Sequence[ChannelTime]) -> tuple[float, float, int]:
     check_rate(rate_hz)
     master = next(time for time in times if _same_rate(time, rate_hz))
     rate_hz = master.rate_hz
-    whole = TimeLine(times, rate_hz, master.start_s, 0, 0, 0, False)
-    bounds = [_bounds(whole, time) for time in times]
+    line = TimeLine(times, rate_hz, master.start_s, 0, 0, 0, False)
+    bounds = [_bounds(line, time) for time in times]
     begin = ceil(max(first for first, _ in bounds) * rate_hz - LEAST_SHIFT)
     end = floor(min(last for _, last in bounds) * rate_hz + LEAST_SHIFT) + 1
     total = end - begin

@@ -30,7 +30,7 @@ class Stamp(NamedTuple):
 
     Attributes
     ----------
-    date : ISO 8601; empty of a clock alone, or where day and month cannot be told apart
+    date : ISO 8601; empty of a clock alone, or where day and month cannot be distinguished
     clock : hours, minutes, seconds and fraction
     zone : offset from UTC; empty where it is not stated
     day_ns : nanoseconds since 1970 of the day, which may have day and month exchanged

@@ -216,16 +216,17 @@ def test_rounded_times_are_even():
 # --- channels that nobody asked for --------------------------------------------------------------
 
 
+@pytest.mark.filterwarnings("ignore:.*is omitted")
 def test_channels_of_unknown_units_are_left_out(tmp_path):
     table = ["time [s],mic [Pa],oil [°C],power [kW]"]
     table += [f"{t:.9f},{x:.6f},61.5,7.5" for t, x in zip(TIME_S, SINE, strict=True)]
     path = tmp_path / "a.csv"
     path.write_text("\n".join(table) + "\n")
-    with pytest.warns(RecordingWarning, match="'oil' is left out: its unit '°C' is unknown"):
+    with pytest.warns(RecordingWarning, match="'oil' is omitted: its unit '°C' is unknown"):
         assert read_recording(path)["channel"].values.tolist() == ["mic"]
     with pytest.raises(ParameterError, match="'oil': unit '°C' is unknown"):
         read_recording(path, channels=["mic", "oil"])
-    with pytest.warns(RecordingWarning, match="'power' is left out"):
+    with pytest.warns(RecordingWarning, match="'power' is omitted"):
         read = read_recording(path, units={"oil": "1"})
     assert read["channel"].values.tolist() == ["mic", "oil"]
     with pytest.raises(ParameterError, match="unit '°C' is unknown"):
@@ -253,9 +254,9 @@ def test_a_slow_temperature_does_not_shorten_the_others(tmp_path, suffix):
             for name, x, unit, rate_hz in (("mic", SINE, "Pa", RATE_HZ), ("oil", slow, "°C", 10.0)):
                 file[name] = x
                 file[name].attrs.update({"units": unit, "fs": rate_hz})
-    with pytest.warns(RecordingWarning, match="'oil' is left out"):
+    with pytest.warns(RecordingWarning, match="'oil' is omitted"):
         np.testing.assert_array_equal(read_recording(path)["signal"].values[0], SINE)
-    with pytest.warns(RecordingWarning, match="'oil' is left out"):
+    with pytest.warns(RecordingWarning, match="'oil' is omitted"):
         assert open_recording(path).samples == SINE.size
 
 

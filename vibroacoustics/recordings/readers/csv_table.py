@@ -47,7 +47,9 @@ def read(request: Request) -> Recorded:
         time = time_column(head)
         names = [n for c, n in enumerate(head.names) if c not in (time, head.stamps)]
         columns = [c for c in range(len(head.names)) if c not in (time, head.stamps)]
-        columns = [columns[index] for index in request.chosen(names)]
+        units = [head.units[column] for column in columns]
+        remarks += request.omissions(names, units)
+        columns = [columns[index] for index in request.chosen(names, units)]
         if time is None:
             part = _without_time(table, columns, request)
         else:

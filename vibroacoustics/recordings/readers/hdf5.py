@@ -57,19 +57,19 @@ def _read_hdf5(request: Request) -> Recorded:
 
 def _named_arrays(name: str, dataset: Any) -> list[NamedArray]:
     """A dataset, or of one of records its fields, as `table.field`."""
-    whole = named_dataset(name, dataset)
+    records = named_dataset(name, dataset)
     if dataset.dtype.names is None:
-        return [whole]
+        return [records]
     fields = {field: dataset.dtype[field] for field in dataset.dtype.names}
     return [
         replace(
-            whole,
+            records,
             name=f"{name}.{field}",
-            shape=whole.shape + kind.shape,
+            shape=records.shape + kind.shape,
             is_number=kind.base.kind in "iuf",
             is_whole=kind.base.kind in "iu",
-            load=partial(_field, whole.load, field, len(whole.shape)),
-            check=partial(_check_field, whole.check, len(whole.shape)),
+            load=partial(_field, records.load, field, len(records.shape)),
+            check=partial(_check_field, records.check, len(records.shape)),
             dimensions=(),
         )
         for field, kind in fields.items()

@@ -79,7 +79,7 @@ def read(request: Request) -> Recorded:
 
 
 def _channels(file: Any, request: Request) -> tuple[list[str], list[Any], list[str]]:
-    """Names and channels that are wanted, and remarks on those that are left out."""
+    """Names and channels that are wanted, and remarks on those that are omitted."""
     candidates = [channel for group in file.groups() for channel in group.channels()]
     candidates = [channel for channel in candidates if channel.dtype.kind in "iuf" and len(channel)]
     has_groups = len({channel.group_name for channel in candidates}) > 1

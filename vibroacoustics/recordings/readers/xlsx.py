@@ -68,7 +68,9 @@ def read(request: Request) -> Recorded:
         sheet, remarks = _sheet(book)
         head, time = sheet.head, time_column(sheet.head)
         fields = [c for c in range(len(head.names)) if c not in (time, head.stamps)]
-        fields = [fields[index] for index in request.chosen([head.names[c] for c in fields])]
+        names, units = [head.names[c] for c in fields], [head.units[c] for c in fields]
+        remarks += request.omissions(names, units)
+        fields = [fields[index] for index in request.chosen(names, units)]
         wanted = fields if time is None else [time, *fields]
         values = _numbers(book[sheet.title], sheet, wanted)
         stamp = _first_stamp(book[sheet.title], sheet)
