@@ -93,7 +93,7 @@ def _check_last(reader: Reader, header: Recorded, request: Request) -> None:
 
 
 def _handed_over(read: Recorded, request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
-    recording = cut(read, request)
+    recording = _with_units(cut(read, request), request)
     _check(recording, MINIMUM_SAMPLES if request.samples is None else 0)
     header = {
         "names": list(recording.names),
@@ -112,6 +112,20 @@ def _handed_over(read: Recorded, request: Request) -> tuple[dict[str, Any], Iter
         "extents": [extent._asdict() for extent in extents(recording)],
     }
     return header, recording.samples
+
+
+def _with_units(recording: Recorded, request: Request) -> Recorded:
+    """Recording without the channels of unknown unit that nobody asks for."""
+    chosen = request.chosen(recording.names, recording.units)
+    if request.channels is not None or len(chosen) == len(recording.names):
+        return recording
+    fields = ("names", "units", "samples", "limits", "calibration", "counts")
+    values = {name: getattr(recording, name) for name in fields}
+    changed: dict[str, Any] = {
+        name: [value[c] for c in chosen] for name, value in values.items() if value
+    }
+    omissions = request.omissions(recording.names, recording.units)
+    return replace(recording, **changed, remarks=[*recording.remarks, *omissions])
 
 
 def _digest(path: Path) -> str:

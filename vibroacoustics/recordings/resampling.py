@@ -4,7 +4,6 @@ from functools import cache
 from typing import Final
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from ..base.arrays import Array, IndexArray
 
@@ -92,6 +91,8 @@ def spline(time_s: Array, samples: Array, wanted_s: Array) -> Array:
     """
     if time_s.size < 4:
         return np.interp(wanted_s, time_s, samples)
+    from scipy.interpolate import CubicSpline  # heavy: few recordings need it
+
     return np.asarray(CubicSpline(time_s, samples)(wanted_s))
 
 

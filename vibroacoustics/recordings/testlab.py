@@ -15,7 +15,7 @@ from .array_columns import Column, limits, samples_of_parts
 from .axes import Axis, line_of
 from .named_arrays import NamedArray
 from .quantities import find_quantity, find_time_factor
-from .recorded import Recorded, Request, listed, numbered
+from .recorded import Recorded, Request, check_size, listed, numbered
 
 VALUES: Final = "y_values.values"
 INCREMENT: Final = "x_values.increment"
@@ -93,6 +93,7 @@ def recorded_signals(structs: Sequence[Struct], request: Request) -> Recorded:
         raise ParameterError("no channel is chosen")
     names, signals = [names[c] for c in chosen], [signals[c] for c in chosen]
     line = line_of(names, [signal.axis for signal in signals], request)
+    check_size(len(names), line.last - line.first)
     columns = [signal.column for signal in signals]
     stored = samples_of_parts(columns, line.parts)
     units = [column.unit for column in columns]

@@ -11,7 +11,7 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from .overload import overload
-from .recorded import MINIMUM_SAMPLES, Request, Samples, check_rate, check_size, listed
+from .recorded import MINIMUM_SAMPLES, Request, Samples, check_rate, listed
 from .resampling import HALF_LENGTH, band_limited, cubic, prediction_error, spline
 
 LEAST_SHIFT: Final = 1e-3
@@ -229,7 +229,6 @@ def time_line(times: Sequence[ChannelTime], request: Request) -> TimeLine:
         raise ParameterError("no channel is chosen")
     rate_hz, start_s, total = request.line or _common(times)
     first, last = request.part(total, rate_hz)
-    check_size(len(times), last - first)
     return TimeLine(times, rate_hz, start_s, total, first, last, request.is_block)
 
 

@@ -216,4 +216,4 @@ def _row_texts(table: _Table) -> Iterator[str]:
         yield plain
 
 
-register(Reader("csv", (".csv", ".txt"), "CSV", read))
+register(Reader("csv", (".csv", ".txt", ".tsv", ".prn"), "CSV", read))

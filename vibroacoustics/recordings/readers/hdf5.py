@@ -230,4 +230,4 @@ def _part_of(values: Any, part: Part) -> Any:
     return np.array(values[part])
 
 
-register(Reader("hdf5", (".h5", ".hdf5", ".nc"), "HDF5 and netCDF", read))
+register(Reader("hdf5", (".h5", ".hdf5", ".nc", ".nc4"), "HDF5 and netCDF", read))

@@ -14,7 +14,7 @@ from ..claims import DEFLATE_RATIO, check_claim
 from ..interleaved import interleaved_columns
 from ..quantities import axis_factor
 from ..reader import Reader
-from ..recorded import Recorded, Request, Samples, listed, numbered
+from ..recorded import Recorded, Request, Samples, check_size, listed, numbered
 
 _TIME: Final = 1
 _AXES: Final = {1: "time", 2: "angle", 3: "distance", 4: "index"}
@@ -55,6 +55,7 @@ def read(request: Request) -> Recorded:
             check_claim(request.path, channel.samples, channel.record_bytes, what, DEFLATE_RATIO)
         axes = {channel.group: _axis(file, channel) for channel in channels}
         line = line_of(names, [axes[channel.group] for channel in channels], request)
+        check_size(len(channels), line.last - line.first)
         stored = [
             _samples(file, channel, *part)
             for channel, part in zip(channels, line.parts, strict=True)

@@ -11,7 +11,7 @@ from ..counts import count_words
 from ..named_arrays import is_rate
 from ..quantities import axis_factor
 from ..reader import Reader
-from ..recorded import MissingError, Recorded, Request, check_rate
+from ..recorded import MissingError, Recorded, Request, check_rate, check_size
 
 if TYPE_CHECKING:
     from ..tdms_segments import Change
@@ -43,6 +43,7 @@ def read(request: Request) -> Recorded:
         check_claim(request.path, max(map(len, channels)), len(channels))  # of a byte each
         axes, origin = _axes(file, names, channels, pieces, reader.origin_s, request)
         line = line_of(names, axes, request)
+        check_size(len(names), line.last - line.first)
         parts = line.planned(request).parts
         about = list(zip(names, channels, pieces, parts, strict=True))
         units = [

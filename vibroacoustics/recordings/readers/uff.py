@@ -49,6 +49,7 @@ def read(request: Request) -> Recorded:
         _check_first(responses, request)
         axes = [_axis(file, name, h) for name, h in zip(names, responses, strict=True)]
         line = line_of(names, _shared(axes), request)
+        check_size(len(names), line.last - line.first)
         stored = [
             values(file, header, *part)[0]
             for header, part in zip(responses, line.parts, strict=True)
@@ -132,4 +133,4 @@ def _rate_hz(increment: float) -> float:
     return 1.0 / increment
 
 
-register(Reader("uff", (".uff", ".unv"), "UFF", read))
+register(Reader("uff", (".uff", ".unv", ".ufb", ".bunv", ".uf"), "UFF", read))
