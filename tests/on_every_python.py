@@ -29,7 +29,11 @@ LIGHT = [
     "tests/house/test_doctests.py",
 ]
 RADIATION = ["tests/units/radiation"]
-SHOWN = ("numpy", "scipy", "h5py", "matplotlib", "xarray", "netCDF4", "numba")
+SHOWN = (
+    "numpy", "scipy", "h5py", "matplotlib", "xarray", "netCDF4", "numba", "pyuff", "nptdms",
+    "asammdf", "soundfile", "openpyxl", "h5netcdf",
+)  # fmt: skip
+"""Packages whose versions the table has: what k-Wave or numba hold back, and readers of files."""
 OUTCOMES = ("passed", "failed", "skipped")
 
 
@@ -100,7 +104,7 @@ def outcomes(python: Path, tests: list[object]) -> Counter[str]:
 
 
 def versions(python: Path) -> list[str]:
-    """Versions of Python and of the packages that k-Wave or numba hold back."""
+    """Versions of Python and of the packages that are shown."""
     script = (
         "import importlib.metadata, json, platform; print(json.dumps([platform.python_version(), "
         f"*map(importlib.metadata.version, {SHOWN})]))"

@@ -201,8 +201,12 @@ class OrderOptions:
     """Options of the orders that are analysed; the others are in the settings."""
 
     orders: Annotated[str | None, "Shaft orders, with commas; default: 1,2,3,4."] = None
-    maximum_order: Annotated[float | None, "Highest order of spectra and map; default: 20."] = None
-    resolution: Annotated[float | None, "Coarsest resolution, orders; default: 0.25."] = None
+    maximum_order: Annotated[
+        float | None, "Highest order of spectra and map; default: 20, or what the rate holds."
+    ] = None
+    resolution: Annotated[
+        float | None, "Coarsest resolution, orders; default: 0.25, or what the length allows."
+    ] = None
     speed_step: Annotated[
         float | None, "Step between operating points of a run-up, rpm; default: 100."
     ] = None

@@ -23,7 +23,7 @@ from .reading import (
     SpeedOptions,
 )
 
-Orders = Annotated[str, "Shaft orders, with commas."]
+Orders = Annotated[str | None, "Shaft orders, with commas; default: 1,2,3,4."]
 
 
 @command("orders", "Recordings", "machine.wav --speed-channel tacho --orders 1,2")
@@ -89,7 +89,7 @@ def track_command(
     *,
     bandwidth: Annotated[float, "Full width at -3 dB of what passes around each order, Hz."],
     speed: SpeedOptions,
-    orders: Orders = "1,2,3,4",
+    orders: Orders = None,
     poles: Annotated[int, "1, 2 or 3: steepness of the filter."] = 2,
     reading: Reading,
     out: FileOut = None,
@@ -100,7 +100,7 @@ def track_command(
     from .arguments import order_numbers
 
     source = reading.source(speed, recording_file, plugin)
-    numbers = order_numbers(orders)
+    numbers = None if orders is None else order_numbers(orders)
     recording = reading.at_once(recording_file, plugin)
     from .. import report
     from ..measured.recorded_orders import track_orders

@@ -11,6 +11,7 @@ from ..base.vocabulary import check, label_coordinates
 from ..levels.block_levels import labelled_block_levels
 from ..orders import recorded as of_recording
 from ..orders.analysed import analysed_channels, channels_without_speed
+from ..orders.analysis_defaults import with_defaults
 from ..orders.crank_motion import CrankMotion
 from ..orders.labelled_map import labelled_map, mapped_spectra
 from ..orders.recorded_speed import RecordedSpeed, recorded_speed
@@ -54,6 +55,7 @@ def analyse_orders(
     blocks = LabelledBlocks(recording) if isinstance(recording, xr.Dataset) else recording
     with provenance.naming(blocks.attributes):
         speed = speed or recorded_speed(blocks, settings.speed)
+        settings = with_defaults(settings, blocks.sample_rate_hz, blocks.samples, speed.motion)
         names = analysed_channels(blocks.channels, settings.speed)
         passed = passed_over(blocks, names, speed.motion, settings, progress)
         results = passed.merge(of_recording.fault_times(speed.faults))
@@ -68,7 +70,7 @@ def analyse_orders(
 def track_orders(
     recording: xr.Dataset,
     speed: SpeedSource,
-    orders: Sequence[float],
+    orders: Sequence[float] | None,
     bandwidth_hz: float,
     poles: int = 2,
 ) -> xr.Dataset:
@@ -81,7 +83,8 @@ def track_orders(
     ----------
     recording : from `read_recording` or `label_recording`
     speed : where the speed comes from: `SpeedChannel`, `NominalSpeed` or `TacholessSpeed`
-    orders : multiples of the shaft's speed that are tracked, whole or not
+    orders : multiples of the shaft's speed that are tracked, whole or not; None for those of 1 to
+        4 that the sample rate holds
     bandwidth_hz : full width at -3 dB of what passes around each order; below the distance of
         orders that stay side by side, and up to √s where two cross with s Hz/s
     poles : 1, 2 or 3; each steepens the filter by 40 dB a decade

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
-from ..study.order_analysis import OrderAnalysis
+from ..study.order_analysis import DEFAULT_RESOLUTION_ORDER, OrderAnalysis
 from .angular import AngularSignal, joined
 from .angular_plan import AngularPlan
 from .block_spectra import block_hop, block_starts
@@ -77,14 +77,13 @@ class BlockOrders:
 
     def __init__(self, plan: AngularPlan, channels: int, settings: OrderAnalysis) -> None:
         self._settings = settings
+        self._resolution = settings.resolution_order or DEFAULT_RESOLUTION_ORDER
         first, last = plan.grid
         samples = last + 1 - first
         per_revolution = plan.samples_per_revolution
         spanned = samples / per_revolution
         try:
-            self._revolutions = block_revolutions(
-                window_by_name(WINDOW), settings.resolution_order, spanned
-            )
+            self._revolutions = block_revolutions(window_by_name(WINDOW), self._resolution, spanned)
         except ParameterError as error:
             raise ParameterError(f"{error}; for a few revolutions give is_fit") from None
         self._length = self._revolutions * per_revolution
@@ -118,7 +117,7 @@ class BlockOrders:
         self._pending = signal
         if signal.time_s.size < self._length:
             return
-        spectra = order_map(signal, self._settings.resolution_order, WINDOW, OVERLAP_RATIO)
+        spectra = order_map(signal, self._resolution, WINDOW, OVERLAP_RATIO)
         self._phasors.append(block_phasors(signal, spectra, self._settings.orders))
         self._bands = self._bands or order_bands(spectra, self._settings.orders)
         self._rms.append(rms_in_bands(spectra, self._bands))

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
-from ..study.order_analysis import OrderAnalysis
+from ..study.order_analysis import DEFAULT_MAXIMUM_ORDER, OrderAnalysis
 from .angular_plan import HIGHEST_PASS_BAND_RATIO, known_samples
 from .block_orders import OrdersOfBlocks
 from .crank_motion import CrankMotion
@@ -88,7 +88,7 @@ class FittedOrders:
         self._settings = settings
         self._blocks: list[Array] = []
         spacing = common_spacing(settings.orders)
-        highest = max(settings.maximum_order, *settings.orders)
+        highest = max(settings.maximum_order or DEFAULT_MAXIMUM_ORDER, *settings.orders)
         count = int(highest / spacing * (1.0 + 1e-9))
         self._lines: Array = spacing * np.arange(1, count + 1, dtype=float)
         used = self._known[1] - self._known[0]

@@ -1,7 +1,7 @@
 """Orders of a recording, labelled: by block, at operating points, over the revolution."""
 
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,24 +10,19 @@ from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
 from ..study.order_analysis import OrderAnalysis
+from .analysis_defaults import highest_order
 from .angular_plan import AngularPlan
 from .block_orders import WINDOW, OrdersOfBlocks, is_steady
 from .crank_motion import CrankMotion
 from .pulse_faults import PulseFault
 from .synchronous_average import RevolutionAverage
 
-_HALF_LOBE: Final = 4.0 / 3.0
-"""Half of the window's main lobe over its noise bandwidth: room for the highest order's band."""
-
 
 def angular_plan(
     rate_hz: float, samples: int, motion: CrankMotion, settings: OrderAnalysis
 ) -> AngularPlan:
     """Plan of a recording over the crank angle, up to the highest order that the settings need."""
-    highest = max(
-        settings.maximum_order, max(settings.orders) + _HALF_LOBE * settings.resolution_order
-    )
-    return AngularPlan(rate_hz, samples, motion, highest)
+    return AngularPlan(rate_hz, samples, motion, highest_order(settings))
 
 
 def recorded_orders(

@@ -8,7 +8,8 @@ import xarray as xr
 from ..base.allowed import check_range
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
-from ..study.order_analysis import ORDERS
+from ..study.order_analysis import DEFAULT_ORDERS, ORDERS
+from .angular_plan import known_samples
 from .crank_motion import CrankMotion
 from .vold_kalman import Track, vold_kalman
 
@@ -17,7 +18,7 @@ def tracked_orders(
     signal: xr.DataArray,
     sample_rate_hz: float,
     motion: CrankMotion,
-    orders: Sequence[float],
+    orders: Sequence[float] | None,
     bandwidth_hz: float,
     poles: int,
 ) -> xr.Dataset:
@@ -28,13 +29,19 @@ def tracked_orders(
     signal : (channel, time)
     sample_rate_hz : sample rate of the signal
     motion : motion of the shaft
-    orders, bandwidth_hz, poles : see `vold_kalman`
+    orders : multiples of the shaft's speed; None for those of 1 to 4 that the sample rate holds
+    bandwidth_hz, poles : see `vold_kalman`
 
     Raises
     ------
     ParameterError, SolverError
         See `vold_kalman`; or an order is named twice or out of range.
     """
+    if orders is None:
+        first, last = known_samples(motion, sample_rate_hz, signal.sizes["time"])
+        fastest_hz = float(np.max(motion.frequency_hz(np.arange(first, last) / sample_rate_hz)))
+        limit = (0.5 * sample_rate_hz - bandwidth_hz) / fastest_hz
+        orders = [order for order in DEFAULT_ORDERS if order <= limit] or DEFAULT_ORDERS[:1]
     numbers = [float(order) for order in orders]
     for order in numbers:
         check_range("orders", order, *ORDERS)

@@ -1,15 +1,15 @@
 """Channels among named arrays: vectors, and rows or columns of tables."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 
 from ..base.errors import ParameterError, StorageError
-from .named_arrays import UNIT_NAMES, NamedArray, Part, as_text, is_time
+from .named_arrays import UNIT_NAMES, NamedArray, Part, as_text, attribute_text, is_time
 from .packing import PACKING_NAMES, is_packed, missing, unsigned
-from .recorded import Samples, by_channel, check_size, listed, numbered
+from .recorded import Samples, by_channel, check_size, numbered
 
 MAXIMUM_COLUMNS: Final = 10_000
 
@@ -57,8 +57,13 @@ def _texts(array: NamedArray) -> list[str]:
     return [as_text(text) for text in stored.ravel()]
 
 
-def columns_of(arrays: Sequence[NamedArray]) -> list[Column]:
+def columns_of(arrays: Sequence[NamedArray], axes: Collection[str]) -> list[Column]:
     """All channels: vectors by their name, tables by name and number.
+
+    Parameters
+    ----------
+    arrays : arrays of the file
+    axes : names of those that are axes of others
 
     Raises
     ------
@@ -67,35 +72,17 @@ def columns_of(arrays: Sequence[NamedArray]) -> list[Column]:
     """
     columns = []
     for array in arrays:
-        if is_time(array.name) or not array.may_be_channels:
+        if is_time(array.name) or array.name in axes or not array.may_be_channels:
             continue
         width = min(array.shape) if len(array.shape) == 2 else 1
         if width > MAXIMUM_COLUMNS:
             raise StorageError(f"variable {array.name!r} claims {array.shape} values: too wide")
-        unit = next((as_text(array.attributes[n]) for n in UNIT_NAMES if n in array.attributes), "")
+        unit = attribute_text(array, UNIT_NAMES)
         names = numbered([array.name] * width)
         columns += [
             Column(name, unit, array, index, array.time_axis) for index, name in enumerate(names)
         ]
     return columns
-
-
-def check_lengths(columns: Sequence[Column], time: NamedArray | None) -> None:
-    """Refuse channels that differ in length, among them or from their time axis.
-
-    Raises
-    ------
-    ParameterError
-        They do.
-    """
-    lengths = {column.name: column.samples for column in columns}
-    if time is not None:
-        lengths[time.name] = int(np.prod(time.shape))
-    if len(set(lengths.values())) > 1:
-        listing = [f"{name} {samples}" for name, samples in lengths.items()]
-        raise ParameterError(
-            f"variables differ in length ({listed(listing)}): choose channels of the same length"
-        )
 
 
 def column_of(table: NamedArray, number: int) -> NamedArray:
@@ -127,6 +114,16 @@ def stored_samples(columns: Sequence[Column], first: int, last: int) -> list[Sam
     ]
 
 
+def samples_of_parts(columns: Sequence[Column], parts: Sequence[tuple[int, int]]) -> list[Samples]:
+    """Stored samples of the parts of the channels; tables are read at once."""
+    stored: dict[int, Samples] = {}
+    for part in dict.fromkeys(parts):
+        rows = [row for row, each in enumerate(parts) if each == part]
+        values = stored_samples([columns[row] for row in rows], *part)
+        stored.update(zip(rows, values, strict=True))
+    return [stored[row] for row in range(len(columns))]
+
+
 def _rows(column: Column, low: int, high: int, first: int, last: int) -> Samples:
     """Stored values of the columns from `low` up to `high` of a table, shape (channel, time)."""
 
@@ -142,11 +139,14 @@ def _rows(column: Column, low: int, high: int, first: int, last: int) -> Samples
     return unsigned(np.atleast_2d(load(first, last)), column.array.attributes)
 
 
-def check_claims(columns: Sequence[Column], first: int, last: int) -> None:
+def check_claims(columns: Sequence[Column], parts: Sequence[tuple[int, int]]) -> None:
     """Refuse samples that the bytes of the file cannot hold; see `NamedArray`."""
-    for array in {column.array.name: column.array for column in columns}.values():
+    wanted = {
+        (column.array.name, part): column.array for column, part in zip(columns, parts, strict=True)
+    }
+    for (_, ends), array in wanted.items():
         part = [slice(0, side) for side in array.shape]
-        part[array.time_axis] = slice(first, last)
+        part[array.time_axis] = slice(*ends)
         array.check(tuple(part))
 
 
@@ -160,11 +160,11 @@ def check_present(column: Column, stored: Samples, first: int, rate_hz: float) -
     """
     absent = missing(stored, column.array.attributes)
     if absent is not None:
-        where, fill = absent
+        where, reason = absent
         sample = first + int(np.flatnonzero(where)[0])
         raise ParameterError(
             f"channel {column.name!r}: {np.count_nonzero(where)} of {stored.size} samples are "
-            f"missing (fill value {fill:g}), the first is sample {sample + 1} "
+            f"missing ({reason}), the first is sample {sample + 1} "
             f"({sample / rate_hz:.9g} s): choose a part without them by from_s and to_s"
         )
 

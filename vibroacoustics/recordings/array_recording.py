@@ -3,21 +3,24 @@
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
+import numpy as np
+
 from ..base.errors import ParameterError
 from .array_columns import (
     Column,
     check_claims,
-    check_lengths,
     check_present,
     columns_of,
     limits,
     own_columns,
-    stored_samples,
+    samples_of_parts,
 )
-from .array_times import leading_time, part_of, stated_rate_hz, time_of
+from .array_times import axes_of, coordinates, leading_time, stated_rate_hz, time_of
+from .axes import Axis, line_of
+from .counts import count_words
 from .named_arrays import NamedArray, as_text, is_time
-from .packing import unpacked
-from .recorded import Recorded, Request, check_size, listed
+from .packing import PACKING_NAMES, unpacked
+from .recorded import Recorded, Request, Samples, check_size, listed
 
 OWN_NAMES: Final = frozenset({"signal", "channel", "channel_unit"})
 """Variables of a recording that we wrote as netCDF (vocabulary.py)."""
@@ -36,45 +39,93 @@ def recorded(
         The arrays claim more samples than the cap allows.
     """
     by_name = {array.name: array for array in arrays}
-    columns = own_columns(by_name) if by_name.keys() >= OWN_NAMES else columns_of(arrays)
-    columns, time, remarks = _with_time(arrays, columns, attributes)
+    axes = coordinates(arrays)
+    is_own = by_name.keys() >= OWN_NAMES
+    columns = own_columns(by_name) if is_own else columns_of(arrays, axes)
+    columns, leading, remarks = _without_times(arrays, columns, attributes)
     if not columns:
         raise ParameterError(
             f"holds no vector of numbers beside the time; its variables: {listed(list(by_name))}"
         )
-    columns = [columns[index] for index in request.chosen([column.name for column in columns])]
+    names, units = [column.name for column in columns], [column.unit for column in columns]
+    columns = [columns[index] for index in request.chosen(names, units)]
     if not columns:
         raise ParameterError("no channel is chosen")
-    time = time or time_of(arrays, columns)
-    check_lengths(columns, time)
-    stated = stated_rate_hz(arrays, columns, attributes)
-    first, last, rate_hz = part_of(time, stated, columns[0].samples, request)
-    check_claims(columns, *request.planned(columns[0].samples, rate_hz))
-    check_size(len(columns), last - first)
-    stored = stored_samples(columns, first, last)
-    for column, values in zip(columns, stored, strict=True):
-        check_present(column, values, first, rate_hz)
+    remarks = [*remarks, *request.omissions(names, units), *_unread(arrays, columns, request)]
+    times = [leading.get(c.array.name) or time_of(arrays, c) for c in columns]
+    rates_hz = [stated_rate_hz(arrays, column, attributes) for column in columns]
+    axis_of, date = axes_of(arrays, columns, times, rates_hz, request)
+    _check_lengths(columns, axis_of)
+    line = line_of([column.name for column in columns], axis_of, request)
+    check_claims(columns, line.planned(request).parts)
+    check_size(len(columns), line.last - line.first)
+    stored = samples_of_parts(columns, line.parts)
+    for column, values, (first, _) in zip(columns, stored, line.parts, strict=True):
+        check_present(column, values, first, line.rate_hz)
+    samples = [unpacked(v, c.array.attributes) for c, v in zip(columns, stored, strict=True)]
+    start = as_text(attributes.get("start_time", "")) or date
     return Recorded(
         names=[column.name for column in columns],
         units=[column.unit for column in columns],
-        samples=[unpacked(v, c.array.attributes) for c, v in zip(columns, stored, strict=True)],
-        sample_rate_hz=rate_hz,
-        start_time=as_text(attributes.get("start_time", "")),
-        first_sample=first,
-        total_samples=columns[0].samples,
-        limits=[limits(c, v) for c, v in zip(columns, stored, strict=True)],
-        remarks=remarks,
+        samples=line.on_grid(samples),
+        sample_rate_hz=line.rate_hz,
+        line=line.key,
+        start_time=line.later(start),
+        first_sample=line.first,
+        total_samples=line.total,
+        limits=[
+            None if line.is_resampled(n) else limits(c, v)
+            for n, (c, v) in enumerate(zip(columns, stored, strict=True))
+        ],
+        counts=[_counts(column, values) for column, values in zip(columns, stored, strict=True)],
+        remarks=[*remarks, *line.remarks([column.unit for column in columns], samples)],
     )
 
 
-def _with_time(
+def _counts(column: Column, stored: Samples) -> str:
+    """Words on counts without a factor; values that are packed, or marked as in CF, are none."""
+    attributes = column.array.attributes
+    return "" if {*PACKING_NAMES} & {*attributes} else count_words(column.unit, stored, attributes)
+
+
+def _check_lengths(columns: Sequence[Column], axes: Sequence[Axis]) -> None:
+    """Refuse channels of one sample rate, without times of their own, that differ in length."""
+    lengths = {c.name: c.samples for c, axis in zip(columns, axes, strict=True) if not axis.times}
+    rates = {axis.rate_hz for axis in axes}
+    if len(set(lengths.values())) > 1 and len(rates) == 1:
+        listing = [f"{name} {samples}" for name, samples in lengths.items()]
+        raise ParameterError(
+            f"variables differ in length ({listed(listing)}): choose channels of the same length"
+        )
+
+
+def _unread(arrays: Sequence[NamedArray], columns: Sequence[Column], request: Request) -> list[str]:
+    """Remarks on arrays of numbers that have more dimensions than channels have."""
+    if request.channels is not None:
+        return []
+    return [
+        f"variable {array.name!r} of shape {array.shape} is not read: channels have one dimension, "
+        "tables two"
+        for array in arrays
+        if array.is_number and len(array.shape) > 2 and np.prod(array.shape) > 1
+    ]
+
+
+def _without_times(
     arrays: Sequence[NamedArray], columns: Sequence[Column], attributes: Mapping[str, Any]
-) -> tuple[list[Column], NamedArray | None, list[str]]:
-    """Channels, their time where it is the first column of the only table, and remarks."""
-    is_named = any(is_time(array.name) for array in arrays)
-    time = None if is_named or not columns else leading_time(columns)
-    if time is None:
-        return list(columns), None, []
-    stated = stated_rate_hz(arrays, columns, attributes)
-    remark = f"{time.name} grows evenly and is taken as the time in s"
-    return list(columns[1:]), time, [] if stated else [remark]
+) -> tuple[list[Column], dict[str, NamedArray], list[str]]:
+    """Channels, times that are the first columns of tables, by table, and remarks on these."""
+    if any(is_time(array.name) for array in arrays):
+        return list(columns), {}, []
+    tables = dict.fromkeys(c.array.name for c in columns if len(c.array.shape) == 2)
+    times, remarks = dict[str, NamedArray](), list[str]()
+    for name in tables:
+        of_table = [column for column in columns if column.array.name == name]
+        time = leading_time(of_table)
+        if time is None or of_table[0].array.dimensions:
+            continue
+        times[name] = time
+        columns = [column for column in columns if column is not of_table[0]]
+        if stated_rate_hz(arrays, of_table[0], attributes) is None:
+            remarks.append(f"{time.name} grows evenly and is taken as the time in s")
+    return list(columns), times, remarks

@@ -50,6 +50,7 @@ class Asked:
             "channels": None if self.channels is None else list(self.channels),
             "sample_rate_hz": None if self.sample_rate_hz is None else float(self.sample_rate_hz),
             "plugin": None if plugin is None else str(plugin),
+            "units": list(self.units),
         }
 
     def read(self, part: dict[str, Any]) -> tuple[dict[str, Any], Array]:
@@ -182,6 +183,12 @@ def _units(
     """Unit of each channel, from the user or else from the file."""
     names = header["names"]
     missing = _uncalibrated(names, calibration) if header["full_scale"] else []
+    missing += [
+        f"channel {name!r}: {words}: give it, as in calibration={{{name!r}: 5e-5}}, or 1 where "
+        "they are values"
+        for name, words in zip(names, header["counts"], strict=True)
+        if words and name not in calibration
+    ]
     chosen = [units.get(name, stated) for name, stated in zip(names, header["units"], strict=True)]
     unlabelled = [name for name, unit in zip(names, chosen, strict=True) if not unit]
     if unlabelled:

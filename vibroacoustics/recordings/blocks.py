@@ -103,6 +103,7 @@ class FileBlocks:
             return _in_si(self.stored[:, first:last], rows, self.calibration_factors)
         stored = [self.header["names"][row] for row in rows]
         part = {"samples": [start + first, start + last], "channels": stored, "hashed": False}
+        part["line"] = self.header["line"]
         with naming_file(self.file_request.path):
             header, samples = read_in_child(self.file_request.request() | part)
             units = [self.channel_units[row] for row in rows]

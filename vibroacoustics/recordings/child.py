@@ -93,7 +93,7 @@ def _check_last(reader: Reader, header: Recorded, request: Request) -> None:
 
 
 def _handed_over(read: Recorded, request: Request) -> tuple[dict[str, Any], Iterable[Any]]:
-    recording = cut(read, request)
+    recording = _with_units(cut(read, request), request)
     _check(recording, MINIMUM_SAMPLES if request.samples is None else 0)
     header = {
         "names": list(recording.names),
@@ -105,11 +105,27 @@ def _handed_over(read: Recorded, request: Request) -> tuple[dict[str, Any], Iter
         "first_sample": recording.first_sample,
         "total_samples": recording.total_samples,
         "calibration": list(recording.calibration) or [None] * len(recording.names),
+        "line": recording.line,
+        "counts": list(recording.counts) or [""] * len(recording.names),
         "remarks": [*recording.remarks],
         "overloads": [overload and overload._asdict() for overload in overloads(recording)],
         "extents": [extent._asdict() for extent in extents(recording)],
     }
     return header, recording.samples
+
+
+def _with_units(recording: Recorded, request: Request) -> Recorded:
+    """Recording without the channels of unknown unit that nobody asks for."""
+    chosen = request.chosen(recording.names, recording.units)
+    if request.channels is not None or len(chosen) == len(recording.names):
+        return recording
+    fields = ("names", "units", "samples", "limits", "calibration", "counts")
+    values = {name: getattr(recording, name) for name in fields}
+    changed: dict[str, Any] = {
+        name: [value[c] for c in chosen] for name, value in values.items() if value
+    }
+    omissions = request.omissions(recording.names, recording.units)
+    return replace(recording, **changed, remarks=[*recording.remarks, *omissions])
 
 
 def _digest(path: Path) -> str:
@@ -186,7 +202,7 @@ def _common_type(channels: Sequence[Any]) -> str:
 
 def _request(fields: Mapping[str, Any]) -> Request:
     channels, samples = fields["channels"], fields.get("samples")
-    opening = fields.get("opening")
+    opening, line = fields.get("opening"), fields.get("line")
     return Request(
         Path(fields["path"]),
         None if channels is None else tuple(channels),
@@ -196,6 +212,8 @@ def _request(fields: Mapping[str, Any]) -> Request:
         fields.get("to_s"),
         None if samples is None else (samples[0], samples[1]),
         None if opening is None else (opening[0], opening[1]),
+        tuple(fields.get("units", ())),
+        None if line is None else (line[0], line[1], line[2]),
     )
 
 

@@ -15,6 +15,7 @@ from ..base.fault import FaultError
 from ..base.process_start import start_module
 from .child import MAXIMUM_CPU_S
 from .recorded import MissingError, TooLargeError
+from .time_axis import UnevenError
 
 _ERRORS: Final = {
     error.__name__: error
@@ -25,6 +26,7 @@ _ERRORS: Final = {
         FaultError,
         StorageError,
         TooLargeError,
+        UnevenError,
     )
 }
 

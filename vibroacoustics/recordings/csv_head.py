@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
-import numpy as np
-
 from ..base.csv_form import (
     COMMENT,
     GROUPED,
@@ -22,56 +20,17 @@ from ..base.csv_form import (
 from ..base.csv_rows import STATED
 from ..base.csv_text import fused
 from ..base.errors import ParameterError, StorageError
-from .quantities import TIME_UNITS, find_quantity
+from .quantities import find_quantity, find_time_factor
 from .recorded import listed
+from .time_stamps import is_stamp
 
 _DECIMAL: Final = re.compile(r"(decimal[ _-]?(?:separator|sign|symbol|mark))", re.IGNORECASE)
 _DECIMAL_WORD: Final = re.compile(r"\b(?:comma|point|dot|period)\b", re.IGNORECASE)
 _DECIMALS: Final = {"comma": ",", "point": ".", "dot": ".", "period": "."}
-_STAMP: Final = re.compile(
-    r"\s*\"?(?P<date>[0-9]{4}-[0-9]{2}-[0-9]{2})[T ]"
-    r"(?P<time>[0-9]{2}:[0-9]{2}(?::[0-9]{2}(?:[.,][0-9]+)?)?)"
-    r"(?P<zone>Z|[+-][0-9]{2}:?[0-9]{2})?\"?\s*"
-)
-
-
-def is_stamp(field: str) -> bool:
-    """Whether a field of a table is a time stamp."""
-    return _STAMP.fullmatch(field) is not None
-
-
-def stamp_text(field: str) -> str:
-    """A time stamp as ISO 8601 writes it, with `T` and a point."""
-    match = _STAMP.fullmatch(field)
-    if match is None:
-        raise ValueError(f"{field!r} is no time stamp")
-    return f"{match['date']}T{match['time'].replace(',', '.')}{match['zone'] or ''}"
-
-
-def stamp_ns(field: str) -> int:
-    """Nanoseconds of a time stamp since 1970, of UTC where it states its offset.
-
-    Raises
-    ------
-    ValueError
-        The field is no time stamp.
-    """
-    match = _STAMP.fullmatch(field)
-    if match is None:
-        raise ValueError(f"{field!r} is no time stamp")
-    local = np.datetime64(f"{match['date']}T{match['time'].replace(',', '.')}", "ns")
-    return int(local.astype(np.int64)) - 60_000_000_000 * _offset_minutes(match["zone"] or "Z")
-
-
-def _offset_minutes(zone: str) -> int:
-    if zone == "Z":
-        return 0
-    minutes = 60 * int(zone[1:3]) + int(zone[-2:])
-    return -minutes if zone[0] == "-" else minutes
-
-
 MISSING_TIME: Final = "has no column 'time [s]': add one or give sample_rate_hz"
-_TIME_NAMES: Final = {"time", "t"}
+_TIME_NAMES: Final = {"time", "t", "zeit", "timestamp", "timestamps", "elapsed time", "x_value"}
+_LONG: Final = ("min", "h")
+"""Units of times that a column may have which is no time axis, as a duration."""
 
 
 @dataclass(frozen=True)
@@ -233,7 +192,12 @@ def _parse_names(rows: list[list[str]], columns: int) -> tuple[list[str], list[s
 
 def _is_unit(field: str) -> bool:
     plain = field.strip("[]()")
-    return not plain or plain in TIME_UNITS or find_quantity(plain) is not None
+    is_time = find_time_factor(plain) is not None
+    return not plain or is_time or find_quantity(plain) is not None
+
+
+def _is_time_unit(unit: str) -> bool:
+    return find_time_factor(unit) is not None and unit not in _LONG
 
 
 def time_column(head: Head) -> int | None:
@@ -247,7 +211,7 @@ def time_column(head: Head) -> int | None:
     time_columns = [
         column
         for column, (name, unit) in enumerate(zip(head.names, head.units, strict=True))
-        if column != head.stamps and (name.lower() in _TIME_NAMES or unit in TIME_UNITS)
+        if column != head.stamps and (name.lower() in _TIME_NAMES or _is_time_unit(unit))
     ]
     if len(time_columns) > 1:
         raise ParameterError(

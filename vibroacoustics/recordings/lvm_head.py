@@ -29,11 +29,13 @@ class Segment:
     names, units : names and units of the channels
     columns : columns of the channels among the fields of a row
     samples : number of samples of each channel, as the header claims
-    interval : between samples, as the header writes it
-    interval_s : interval as a number
-    start_s : time of the first sample, s since 1970 where the header states the date
+    interval : between samples of the first channel, as the header writes it
+    intervals_s : intervals of the channels as numbers
+    starts_s : time of the first sample of each channel, s since 1970 where the header states the
+        date
+    dates_s : date of each channel alone, s since 1970; 0 where the header states none
     start_time : ISO 8601; empty where it is not stated
-    time_column : column of the times; None without one
+    time_columns : column of the times of each channel; empty without any
     separator : separator of fields
     has_decimal_comma : whether numbers are written with one
     """
@@ -43,10 +45,11 @@ class Segment:
     columns: Sequence[int]
     samples: Sequence[int]
     interval: str
-    interval_s: float
-    start_s: float
+    intervals_s: Sequence[float]
+    starts_s: Sequence[float]
+    dates_s: Sequence[float]
     start_time: str
-    time_column: int | None
+    time_columns: Sequence[int]
     separator: str
     has_decimal_comma: bool
 
@@ -67,6 +70,16 @@ class Segment:
                 "Decimal_Separator"
             )
         return [field.replace(",", ".") for field in fields] if self.has_decimal_comma else fields
+
+    @property
+    def interval_s(self) -> float:
+        """Interval of the first channel."""
+        return self.intervals_s[0]
+
+    @property
+    def start_s(self) -> float:
+        """Time of the first sample of the first channel."""
+        return self.starts_s[0]
 
     @property
     def remarks(self) -> list[str]:
@@ -134,18 +147,24 @@ def segment(lines: Iterator[bytes], above: dict[str, str]) -> Segment | None:
     except ValueError as error:
         raise StorageError(str(error)) from None
     is_comma = separator != "," and _is_comma(head, above)
-    interval = head.number_text("Delta_X", is_comma)
-    start_time, stamp_s = _start(head)
+    intervals = head.number_texts("Delta_X", is_comma)
+    dates_s = [_date(head, channel)[1] for channel in range(len(columns))]
+    offsets = head.number_texts("X0", is_comma)
+    step = above.get("X_Columns", "One")
     return Segment(
         names=[names[column] for column in columns],
         units=head.values("Y_Unit_Label"),
         columns=columns,
         samples=[_count(value) for value in head.values("Samples")],
-        interval=interval,
-        interval_s=_number("Delta_X", interval),
-        start_s=stamp_s + _number("X0", head.number_text("X0", is_comma) or "0"),
-        start_time=start_time,
-        time_column=None if above.get("X_Columns", "One") == "No" else 0,
+        interval=intervals[0],
+        intervals_s=[_number("Delta_X", interval) for interval in intervals],
+        starts_s=[
+            date_s + _number("X0", offset or "0")
+            for date_s, offset in zip(dates_s, offsets, strict=True)
+        ],
+        dates_s=dates_s,
+        start_time=_date(head, 0)[0],
+        time_columns=[] if step == "No" else [c - 1 if step == "Multi" else 0 for c in columns],
         separator=separator,
         has_decimal_comma=is_comma,
     )
@@ -163,13 +182,12 @@ class _Cells:
         row = self.rows.get(key, [])
         return [row[c].strip() if c < len(row) else "" for c in self.columns]
 
-    def number_text(self, key: str, is_comma: bool) -> str:
-        """The text that the channels share."""
-        texts = {value for value in self.values(key) if value}
-        if len(texts) > 1:
-            texts = {self.values(key)[0]}
-        shared = texts.pop() if texts else ""
-        return shared.replace(",", ".") if is_comma else shared
+    def number_texts(self, key: str, is_comma: bool) -> list[str]:
+        """Number of each channel; of one that states none that of the first that does."""
+        values = self.values(key)
+        shared = next((value for value in values if value), "")
+        texts = [value or shared for value in values]
+        return [text.replace(",", ".") for text in texts] if is_comma else texts
 
 
 def _rows_to_end(lines: Iterator[bytes], separator: str | None) -> list[list[str]]:
@@ -228,9 +246,10 @@ def _number(key: str, value: str) -> float:
     return number
 
 
-def _start(head: _Cells) -> tuple[str, float]:
-    """Time of a segment's first sample: ISO 8601, and s since 1970."""
-    date, clock = head.values("Date")[0], head.values("Time")[0].replace(",", ".")
+def _date(head: _Cells, channel: int) -> tuple[str, float]:
+    """Date and time of a channel in a segment: ISO 8601, and s since 1970."""
+    dates, clocks = head.values("Date"), head.values("Time")
+    date, clock = dates[channel] or dates[0], (clocks[channel] or clocks[0]).replace(",", ".")
     seconds, _, fraction = clock.partition(".")
     stamp = f"{date.replace('/', '-')}T{seconds}" + (f".{fraction[:6]}" if fraction else "")
     try:

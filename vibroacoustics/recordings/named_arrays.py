@@ -1,6 +1,7 @@
 """Named arrays of a MAT, HDF5 or netCDF file, and what their names say."""
 
-from collections.abc import Callable, Iterable, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -12,7 +13,12 @@ from .recorded import MINIMUM_SAMPLES, Samples
 RATE_NAMES: Final = ("sample_rate_hz", "sample_rate", "fs", "SampleFrequency", "SamplingRate")
 """Names of a sample rate; capitals, blanks and underscores do not count."""
 TIME_NAMES: Final = ("time", "time_s", "t")
-UNIT_NAMES: Final = ("units", "unit")
+UNIT_NAMES: Final = ("units", "unit", "unit_string")
+_STARTS: Final = frozenset(
+    {"wfstartoffset", "startoffset", "starts", "startoffsets", "t0", "t0s", "timeoffset", "offsets"}
+)
+_TIME_OF: Final = re.compile(r"(?:(?:t|time)_(?P<before>\w+)|(?P<behind>\w+)_(?:t|time))(?:_s)?")
+"""Names of the time of one array: `t_front`, `time_front`, `front_t`, `front_time`."""
 _RATES: Final = frozenset(
     f"{verb}{noun}{unit}"
     for verb in ("sample", "sampling")
@@ -38,6 +44,8 @@ class NamedArray:
     load : stored values of a part, one slice a dimension
     attributes : units, sample rate and how the values are packed
     check : refuses a part that the bytes of the file cannot hold
+    dimensions : names of the arrays that are the coordinates of its dimensions; empty without
+    is_whole : whether its numbers are stored as whole ones
     """
 
     name: str
@@ -46,6 +54,8 @@ class NamedArray:
     load: Callable[[Part], Any]
     attributes: Mapping[str, Any] = field(default_factory=dict)
     check: Callable[[Part], None] = lambda _: None
+    dimensions: tuple[str, ...] = ()
+    is_whole: bool = False
 
     def values(self, part: Part | None = None) -> Samples:
         """Values of a part, by default of all; see `unpacked`."""
@@ -83,6 +93,23 @@ def is_time(name: str) -> bool:
     """Whether an array of this name is a time axis."""
     leaf = _leaf(name)
     return leaf == "t" or leaf.lower().removesuffix("_s") in _TIMES
+
+
+def is_time_of(name: str, other: str) -> bool:
+    """Whether an array of this name is the time axis of the other array."""
+    match = _TIME_OF.fullmatch(_leaf(name))
+    names = () if match is None else (match["before"], match["behind"])
+    return _parent(name) == _parent(other) and _leaf(other) in names
+
+
+def is_start(name: str) -> bool:
+    """Whether an attribute of this name is the time of the first sample."""
+    return "".join(character for character in name.lower() if character.isalnum()) in _STARTS
+
+
+def attribute_text(array: NamedArray, names: Sequence[str]) -> str:
+    """Text of the first attribute of these names; empty without one."""
+    return next((as_text(array.attributes[n]).strip() for n in names if n in array.attributes), "")
 
 
 def nearest(arrays: Iterable[NamedArray], name: str) -> NamedArray | None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..base.allowed import check_range
 from ..base.errors import ParameterError, StorageError
+from .quantities import find_quantity
 
 Samples = NDArray[Any]
 
@@ -49,6 +50,9 @@ class Request:
     from_s, to_s : part that is wanted, seconds from the first sample; None for begin and end
     samples : part that is wanted, first sample and the one behind the last; instead of times
     opening : times of the part that is read in blocks later; None unless the header alone is wanted
+    units : names of channels whose unit the user states; `*` for all
+    line : rate, start and samples of the time line of an opened recording, of which a block has
+        some of the channels; None where each channel has its samples
 
     Examples
     --------
@@ -67,6 +71,13 @@ class Request:
     to_s: float | None = None
     samples: tuple[int, int] | None = None
     opening: tuple[float | None, float | None] | None = None
+    units: tuple[str, ...] = ()
+    line: tuple[float, float, int] | None = None
+
+    @property
+    def is_block(self) -> bool:
+        """Whether a block of an opened recording is read, on which nothing is remarked."""
+        return self.samples is not None and self.opening is None
 
     def planned(self, samples: int, sample_rate_hz: float) -> tuple[int, int]:
         """Part that is read now or, of a file that is opened, in blocks later; see `part`."""
@@ -108,8 +119,14 @@ class Request:
             )
         return first, last
 
-    def chosen(self, names: Sequence[str]) -> list[int]:
+    def chosen(self, names: Sequence[str], units: Sequence[str] = ()) -> list[int]:
         """Places of the wanted channels among those of the file, in the order asked for.
+
+        Where none are named, those of unknown unit are omitted, unless all are.
+
+        Parameters
+        ----------
+        names, units : names of the channels of the file, and their units
 
         Raises
         ------
@@ -117,12 +134,34 @@ class Request:
             The file has no channel of that name, or several.
         """
         if self.channels is None:
-            return list(range(len(names)))
+            unknown = self._unknown(names, units)
+            return [index for index in range(len(names)) if index not in unknown]
         for name in self.channels:
             if names.count(name) != 1:
                 how_often = "not in the file" if name not in names else "more than once in the file"
                 raise ParameterError(f"channel {name!r}: {how_often}, which holds {listed(names)}")
         return [names.index(name) for name in self.channels]
+
+    def omissions(self, names: Sequence[str], units: Sequence[str]) -> list[str]:
+        """Remarks on the channels that `chosen` omits."""
+        if self.channels is not None:
+            return []
+        return [
+            f"channel {names[index]!r} is omitted: its unit {units[index]!r} is unknown; give "
+            "units or channels to read it"
+            for index in self._unknown(names, units)
+        ]
+
+    def _unknown(self, names: Sequence[str], units: Sequence[str]) -> list[int]:
+        """Places of channels of unknown unit, none where all are."""
+        if "*" in self.units:
+            return []
+        unknown = [
+            index
+            for index, (name, unit) in enumerate(zip(names, units, strict=False))
+            if unit and name not in self.units and find_quantity(unit) is None
+        ]
+        return unknown if len(unknown) < len(names) else []
 
 
 @dataclass(frozen=True)
@@ -144,6 +183,9 @@ class Recorded:
         a sample at a limit is an overload. Empty where the format has none
     calibration : factor that the file states of each channel, its unit per unit of the samples;
         one that the user gives counts instead. Empty or None where the file states none
+    counts : words on samples that are counts without a factor, one a channel, empty where they are
+        values; a calibration must be given for them
+    line : see `Request`
     remarks : remarks on the file for the user, a line each
 
     Examples
@@ -165,6 +207,8 @@ class Recorded:
     total_samples: int | None = None
     limits: Sequence[tuple[float, float] | None] = ()
     calibration: Sequence[float | None] = ()
+    counts: Sequence[str] = ()
+    line: tuple[float, float, int] | None = None
     remarks: Sequence[str] = ()
 
 

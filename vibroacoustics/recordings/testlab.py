@@ -11,10 +11,11 @@ from typing import Any, Final
 import numpy as np
 
 from ..base.errors import ParameterError, StorageError
-from .array_columns import Column, limits, stored_samples
+from .array_columns import Column, limits, samples_of_parts
+from .axes import Axis, line_of
 from .named_arrays import NamedArray
-from .quantities import find_quantity
-from .recorded import Recorded, Request, check_rate, check_size, listed, numbered
+from .quantities import find_quantity, find_time_factor
+from .recorded import Recorded, Request, check_size, listed, numbered
 
 VALUES: Final = "y_values.values"
 INCREMENT: Final = "x_values.increment"
@@ -24,7 +25,8 @@ _FACTOR: Final = "y_values.quantity.unit_transformation.factor"
 _OFFSET: Final = "y_values.quantity.unit_transformation.offset"
 _NAME: Final = "function_record.name"
 _LENGTH: Final = "x_values.number_of_values"
-_SECONDS: Final = ("", "s", "sec", "seconds")
+_START: Final = "x_values.start_value"
+_AXIS_FACTOR: Final = "x_values.quantity.unit_transformation.factor"
 _FIT: Final = 1e-3
 
 
@@ -63,7 +65,7 @@ class _Signal:
     """One channel of such a struct."""
 
     column: Column
-    rate_hz: float
+    axis: Axis
     factor: float
 
 
@@ -77,39 +79,50 @@ def recorded_signals(structs: Sequence[Struct], request: Request) -> Recorded:
     StorageError
         A signal claims another number of samples than it holds.
     """
-    signals = [signal for struct in structs if _is_time(struct) for signal in _signals(struct)]
+    signals = [
+        signal for struct in structs if _is_time(struct) for signal in _signals(struct, request)
+    ]
     if not signals:
         axes = sorted({"".join(struct.texts(_AXIS_LABEL)) for struct in structs})
         raise ParameterError(f"holds no function of time, only of {listed(axes)}")
     names = numbered([signal.column.name for signal in signals])
-    chosen = request.chosen(names)
+    units = [signal.column.unit for signal in signals]
+    omissions = request.omissions(names, units)
+    chosen = request.chosen(names, units)
     if not chosen:
         raise ParameterError("no channel is chosen")
     names, signals = [names[c] for c in chosen], [signals[c] for c in chosen]
-    rate_hz = _common_rate_hz(names, signals, request)
-    total = signals[0].column.samples
-    first, last = request.part(total, rate_hz)
-    check_size(len(signals), last - first)
+    line = line_of(names, [signal.axis for signal in signals], request)
+    check_size(len(names), line.last - line.first)
     columns = [signal.column for signal in signals]
-    stored = stored_samples(columns, first, last)
+    stored = samples_of_parts(columns, line.parts)
+    units = [column.unit for column in columns]
     return Recorded(
         names=names,
-        units=[column.unit for column in columns],
-        samples=stored,
-        sample_rate_hz=rate_hz,
-        first_sample=first,
-        total_samples=total,
-        limits=[limits(column, values) for column, values in zip(columns, stored, strict=True)],
+        units=units,
+        samples=line.on_grid(stored),
+        sample_rate_hz=line.rate_hz,
+        line=line.key,
+        first_sample=line.first,
+        total_samples=line.total,
+        limits=[
+            None if line.is_resampled(n) else limits(column, values)
+            for n, (column, values) in enumerate(zip(columns, stored, strict=True))
+        ],
         calibration=[signal.factor for signal in signals],
-        remarks=_remarks(names, signals),
+        remarks=[*omissions, *_remarks(names, signals), *line.remarks(units, stored)],
     )
 
 
 def _is_time(struct: Struct) -> bool:
-    return "".join(struct.texts(_AXIS_LABEL)).strip().lower() in _SECONDS
+    """Whether the axis is a time; a label other than s needs the factor from the stored SI unit."""
+    factor = find_time_factor("".join(struct.texts(_AXIS_LABEL)).strip() or "s")
+    if factor is None:
+        return False
+    return abs(factor * struct.number(_AXIS_FACTOR, 1.0) - 1.0) < _FIT
 
 
-def _signals(struct: Struct) -> list[_Signal]:
+def _signals(struct: Struct, request: Request) -> list[_Signal]:
     values = struct.numbers[VALUES]
     if not values.may_be_channels:
         raise StorageError(f"{struct.name}.{VALUES} has the shape {values.shape}")
@@ -125,9 +138,11 @@ def _signals(struct: Struct) -> list[_Signal]:
     if struct.number(_OFFSET, 0.0) != 0.0:
         raise ParameterError(f"{struct.name}: its unit has an offset: export it in SI units")
     names, units = _spread(struct, _NAME, width, struct.name), _spread(struct, _LABEL, width, "")
-    axis, factor = values.time_axis, struct.number(_FACTOR, 1.0)
+    along, factor = values.time_axis, struct.number(_FACTOR, 1.0)
+    rate_hz = request.sample_rate_hz or 1.0 / increment_s
+    axis = Axis(max(values.shape), rate_hz, struct.number(_START, 0.0))
     return [
-        _Signal(Column(name, unit, values, index, axis), 1.0 / increment_s, factor)
+        _Signal(Column(name, unit, values, index, along), axis, factor)
         for index, (name, unit) in enumerate(zip(names, units, strict=True))
     ]
 
@@ -136,18 +151,6 @@ def _spread(struct: Struct, path: str, width: int, default: str) -> list[str]:
     """One text a channel; one that is stated once holds for all."""
     texts = [text.strip() or default for text in struct.texts(path)] or [default]
     return texts * width if len(texts) == 1 else [*texts, *[default] * width][:width]
-
-
-def _common_rate_hz(names: Sequence[str], signals: Sequence[_Signal], request: Request) -> float:
-    rates = {request.sample_rate_hz or signal.rate_hz for signal in signals}
-    if len(rates | {float(signal.column.samples) for signal in signals}) > 2 or len(rates) > 1:
-        kinds = [
-            f"{name} {signal.column.samples} samples at {signal.rate_hz:.9g} Hz"
-            for name, signal in zip(names, signals, strict=True)
-        ]
-        raise ParameterError(f"channels differ ({listed(kinds)}): choose some that are alike")
-    check_rate(rate_hz := rates.pop())
-    return rate_hz
 
 
 def _remarks(names: Sequence[str], signals: Sequence[_Signal]) -> list[str]:

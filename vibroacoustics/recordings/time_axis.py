@@ -17,6 +17,11 @@ _GAP: Final = 1.5
 """Sampling intervals from one sample to the next that are a gap; rounded times have less than 2."""
 _ROUNDED_GAP: Final = 2.0
 
+
+class UnevenError(ParameterError):
+    """Times are not even; they can be resampled."""
+
+
 Times = Callable[[int, int], Samples]
 """Times in s from one sample up to, but not with, another."""
 
@@ -50,8 +55,8 @@ def even_part(
         first, last = _between(times, samples, start, end, request)
     check_size(0, last - first)
     time = np.asarray(times(first, last), dtype=float)
-    _check_growing(time, first)
-    _check_gap(time, first, start if origin_s is None else origin_s, request.sample_rate_hz)
+    check_growing(time, first)
+    check_gap(time, first, start if origin_s is None else origin_s, request.sample_rate_hz)
     if request.sample_rate_hz is not None:
         return first, last, request.sample_rate_hz
     if request.samples is not None and time.size == 0:
@@ -106,7 +111,8 @@ def _begin(times: Times, samples: int, time_s: float) -> int:
     return low
 
 
-def _check_growing(time: Array, first: int) -> None:
+def check_growing(time: Array, first: int) -> None:
+    """Refuse times, shape (time,), that do not grow; the first is that of sample `first`."""
     wrong = np.flatnonzero(~(np.diff(time) > 0.0))  # not a number is wrong too
     if wrong.size:
         sample = int(wrong[0])
@@ -116,7 +122,7 @@ def _check_growing(time: Array, first: int) -> None:
         )
 
 
-def _check_gap(time: Array, first: int, start: float, stated_hz: float | None) -> None:
+def check_gap(time: Array, first: int, start: float, stated_hz: float | None) -> None:
     """Refuse missing samples; an analysis over them would be silently wrong."""
     steps = np.diff(time)
     if not steps.size:
@@ -139,7 +145,7 @@ def _check_even(time: Array, origin: float, rate_hz: float, number: int, first: 
     deviation = np.abs((time - origin) * rate_hz - np.arange(number, number + time.size))
     sample = int(np.argmax(deviation))
     if not deviation[sample] <= MAXIMUM_TIME_DEVIATION:
-        raise ParameterError(
+        raise UnevenError(
             f"time is not even: sample {first + sample + 1} lies {deviation[sample]:.3g} sampling "
             f"intervals off the grid of {rate_hz:.9g} Hz, allowed are {MAXIMUM_TIME_DEVIATION:g}; "
             "if the times are only rounded, give sample_rate_hz"

@@ -27,7 +27,7 @@ _IEEE: Final = 2
 _BYTE_ORDERS: Final = {1: "<", 2: ">"}
 _LABEL, _UNIT = slice(26, 46), slice(47, 67)
 """Columns of record 9: format I10, 3I5, 2(1X, 20A1)."""
-_INCREMENT: Final = slice(43, 56)
+_MINIMUM, _INCREMENT = slice(30, 43), slice(43, 56)
 """Columns of record 7: format 3I10, 3E13.5."""
 
 
@@ -45,10 +45,13 @@ class Header:
     points : number of points of the abscissa
     is_even : whether the abscissa has even spacing
     increment : increment of the abscissa, where it has one
+    minimum : first value of an even abscissa
     byte_order : `<` or `>`; empty for text
     start : place of the first value in the file
     abscissa_bytes : bytes of each abscissa of binary values; 0 where there is none
     records : the eleven lines as they are
+    pair_columns : columns of a line of text of uneven abscissas, where they are all as wide as the
+        ordinates, as some programs write them; 0 where they are narrower, as specified
     """
 
     function_type: int
@@ -59,10 +62,22 @@ class Header:
     points: int
     is_even: bool
     increment: float
+    minimum: float
     byte_order: str
     start: int
     abscissa_bytes: int
     records: tuple[str, ...]
+    pair_columns: int = 0
+
+    @property
+    def axis_type(self) -> int:
+        """Specific data type of the abscissa, record 8, field 1."""
+        return _integer(self.records[7][:10].strip() or "0", "abscissa data type")
+
+    @property
+    def axis_unit(self) -> str:
+        """Unit label of the abscissa; empty where there is none."""
+        return _given(self.records[7][_UNIT])
 
     @property
     def numbers(self) -> int:
@@ -91,6 +106,8 @@ class Header:
             return (13,) * 6
         if self.is_even:
             return (20,) * 4
+        if self.pair_columns:
+            return (20,) * (self.pair_columns // 20)
         return (13, 20) * 2 if self.parts == 1 else (13, 20, 20)
 
     @property
@@ -183,6 +200,7 @@ def _header(file: BinaryIO, kind: bytes) -> Header:
         points=_integer(numbers[10:20], "number of points"),
         is_even=_integer(numbers[20:30], "abscissa spacing") == EVEN_SPACING,
         increment=_number(numbers[_INCREMENT], "abscissa increment"),
+        minimum=_number(numbers[_MINIMUM], "abscissa minimum"),
         byte_order=_byte_order(kind),
         start=file.tell(),
         abscissa_bytes=0,
@@ -190,9 +208,18 @@ def _header(file: BinaryIO, kind: bytes) -> Header:
     )
     least = header.parts * header.ordinate_bytes if header.byte_order else 2 * header.parts
     check_claim(Path(file.name), header.points, least, f"points in dataset {header.name!r}")
-    if header.is_even or not header.byte_order:
+    if header.is_even:
         return header
-    return _with_abscissas(file, header)
+    return _with_abscissas(file, header) if header.byte_order else _with_pairs(file, header)
+
+
+def _with_pairs(file: BinaryIO, header: Header) -> Header:
+    """Header with the width of a line where the columns are all of E20.12."""
+    if header.ordinate_type != DOUBLE:
+        return header
+    columns = len(file.readline(LONGEST_LINE).rstrip())
+    file.seek(header.start)
+    return replace(header, pair_columns=columns) if columns in (40, 80) else header
 
 
 def _with_abscissas(file: BinaryIO, header: Header) -> Header:

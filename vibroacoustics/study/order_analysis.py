@@ -9,6 +9,9 @@ from ..base.errors import ParameterError
 
 BandMethod = Literal["sums", "filters"]
 """Third octaves as sums of the lines within a band, or through the filters of IEC 61260-1."""
+DEFAULT_ORDERS: Final = (1.0, 2.0, 3.0, 4.0)
+DEFAULT_MAXIMUM_ORDER: Final = 20.0
+DEFAULT_RESOLUTION_ORDER: Final = 0.25
 DEFAULT_COMB: Final = tuple(float(order) for order in range(1, 11))
 """Orders of a machine of which nothing is known."""
 SPEEDS_RPM: Final = (0.1, 1e6)
@@ -187,9 +190,11 @@ class OrderAnalysis:
     Attributes
     ----------
     speed : where the speed comes from
-    orders : wanted, rising
-    maximum_order : maximum order of spectra and map
-    resolution_order : coarsest noise bandwidth of a line, orders
+    orders : wanted, rising; default: of 1 to 4 those that the sample rate holds
+    maximum_order : maximum order of spectra and map; default: 20, or the highest that the sample
+        rate holds
+    resolution_order : coarsest noise bandwidth of a line, orders; default: 0.25, or what a short
+        recording allows
     speed_step_rpm : speed step of the operating points of a run-up
     with_map : whether the order map of every block is kept; None: of a run-up where it takes at
         most 128 MiB
@@ -205,16 +210,16 @@ class OrderAnalysis:
 
     Examples
     --------
-    >>> va.OrderAnalysis(va.NominalSpeed(2900.0), orders=(1.0, 2.0)).maximum_order
-    20.0
+    >>> va.OrderAnalysis(va.NominalSpeed(2900.0), orders=(1.0, 2.0)).speed_step_rpm
+    100.0
     """
 
     speed: SpeedSource
-    orders: tuple[float, ...] = (1.0, 2.0, 3.0, 4.0)
+    orders: tuple[float, ...] = DEFAULT_ORDERS
     """Rising."""
-    maximum_order: float = 20.0
+    maximum_order: float | None = None
     """Maximum order of spectra and map."""
-    resolution_order: float = 0.25
+    resolution_order: float | None = None
     """Coarsest noise bandwidth of a line, orders."""
     speed_step_rpm: float = 100.0
     """Step of the operating points of a run-up."""
@@ -225,8 +230,10 @@ class OrderAnalysis:
 
     def __post_init__(self) -> None:
         _check_rising("orders", self.orders, *ORDERS)
-        check_range("maximum_order", self.maximum_order, *ORDERS)
-        check_range("resolution_order", self.resolution_order, *RESOLUTIONS)
+        if self.maximum_order is not None:
+            check_range("maximum_order", self.maximum_order, *ORDERS)
+        if self.resolution_order is not None:
+            check_range("resolution_order", self.resolution_order, *RESOLUTIONS)
         check_range("speed_step_rpm", self.speed_step_rpm, *SPEED_STEPS_RPM, "rpm")
         if self.bands not in BAND_METHODS:
             raise ParameterError(f"bands = {self.bands!r}: must be one of sums, filters")

@@ -250,10 +250,9 @@ BAD_RECORDINGS = {
     ),
     "stopped.csv": (with_speed(np.zeros(6400)), ["speed: falls to 0 rpm"]),
     "stops.csv": (with_speed(np.linspace(1000.0, -1000.0, 6400)), ["without a stop"]),
-    "unit.csv": (b"time [s],force [psi],tacho [V]\n0,1,0\n1,2,5\n", ["unit 'psi' is unknown"]),
+    "unit.csv": (b"time [s],force [K],tacho [Z]\n0,1,0\n1,2,5\n", ["unit 'K' is unknown"]),
     "no_unit.csv": (b"time [s],force,tacho [V]\n0,1,0\n1,2,5\n", ["states no unit for 'force'"]),
     "10_gb.wav": (wave_claiming_10_gb(), ["10_gb.wav: "]),
-    "short.csv": (csv_bytes(RECORDING.isel(time=slice(300))), ["revolutions"]),
     "unknown.mp3": (b"x", ["format '.mp3' is unknown"]),
 }  # fmt: skip
 

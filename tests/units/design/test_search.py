@@ -154,3 +154,25 @@ def test_nondominated_rows_against_all_pairs() -> None:
         for row in rows
     ]
     np.testing.assert_array_equal(nondominated(rows), expected)
+
+
+def test_a_front_of_failed_designs_is_that_of_the_finite_ones() -> None:
+    """Nine of ten designs fail, in three ways; the front has the best of the others alone."""
+
+    def evaluate(designs: Array) -> Evaluation:
+        x = designs[:, 0]
+        objectives = np.column_stack([x**2, (x - 2.0) ** 2])
+        failed = np.floor(10.0 * (x + 5.0)) % 10 != 0
+        objectives[failed] = np.array([np.nan, np.inf, -np.inf])[np.arange(failed.sum()) % 3, None]
+        return evaluating(objectives)
+
+    searched = search_front(problem([-5.0], [5.0], evaluate), 40, 10, seed=3)
+    objectives = searched.evaluation.objectives
+    finite = np.isfinite(objectives).all(axis=1)
+    front = nondominated(objectives)
+    assert front.sum() > 1
+    assert finite[front].all()
+    assert not finite.all()
+    np.testing.assert_array_equal(front[finite], nondominated(objectives[finite]))
+    assert finite[searched.best]
+    np.testing.assert_array_equal(np.isfinite(searched.evaluation.violation), finite)

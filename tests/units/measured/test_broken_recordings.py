@@ -97,7 +97,7 @@ BROKEN: dict[str, tuple[Callable[[Path], object], str]] = {
         lambda file: write(file, sound(77)[:, ::2], RATE_HZ / 2.0),
         "sample rate = 1600 Hz: lacks the third octaves from 800 Hz",
     ),
-    "too_short": (lambda file: write(file, sound(77, 20)), "revolutions are too few"),
+    "too_short": (lambda file: write(file, sound(77, 20)), "orders need at least 1: record longer"),
     "absent": (lambda _: None, "no such file"),
 }
 """How a recording is broken, and words of the reason."""

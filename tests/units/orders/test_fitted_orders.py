@@ -102,8 +102,8 @@ def test_the_command(tmp_path):
     recording = va.label_recording([sound(turned(3.7))], RATE_HZ, ["mic"], ["Pa"])
     file = va.export_recording(recording, tmp_path / "engine.csv")
     words = ["orders", file, "--rpm", 600, "--orders", "0.5,1,1.5", "--out", tmp_path]
-    assert_refused(command_here(*words, "--maximum-order", 200), "revolutions give --fit")
-    done = command_here(*words, "--fit")
+    assert_refused(command_here(*words, "--resolution", 0.25), "revolutions give --fit")
+    done = command_here(*words)  # fewer than four revolutions are fitted
     assert done.returncode == 0, done.stderr
     assert "blocks of 3.7 revolutions, least squares, hann window" in done.stdout
     found = va.open_results(tmp_path / "orders.nc")["channel_order"].sel(order=0.5).item()

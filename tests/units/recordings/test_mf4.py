@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from trade_files import RATE_HZ, SIGNALS, mf4
 
-from vibroacoustics.base.errors import ParameterError, StorageError
+from vibroacoustics.base.errors import StorageError
 from vibroacoustics.recordings import open_recording, read_recording
 
 pytest.importorskip("asammdf")
@@ -28,10 +28,11 @@ def test_versions_and_compression(tmp_path, name, version, compression):
     np.testing.assert_array_equal(blocks.read(["foot"], 7, 90)[0], SIGNALS[1, 7:90])
 
 
+@pytest.mark.filterwarnings("ignore:.*different times")
 def test_groups_of_other_rates(tmp_path):
     file = mf4(tmp_path / "a.mf4")
-    with pytest.raises(ParameterError, match=r"differ in length .*'speed 30'.*one group"):
-        read_recording(file)
+    with pytest.warns(UserWarning, match=r"'speed': samples of 102\.4 Hz are interpolated to 1024"):
+        assert read_recording(file).attrs["sample_rate_hz"] == pytest.approx(RATE_HZ)
     slow = read_recording(file, channels=["speed"])
     assert slow.attrs["sample_rate_hz"] == pytest.approx(RATE_HZ / 10.0)
     assert slow["channel_unit"].values.tolist() == ["rpm"]

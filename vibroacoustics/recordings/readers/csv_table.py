@@ -10,12 +10,13 @@ import numpy as np
 
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
-from ..csv_head import MISSING_TIME, Head, read_head, stamp_ns, stamp_text, time_column
+from ..axes import line_of_times
+from ..csv_head import MISSING_TIME, Head, read_head, time_column
 from ..quantities import time_factor
 from ..reader import Reader
 from ..recorded import MissingError, Recorded, Request, Samples, check_rate, check_size
 from ..text_lines import MAXIMUM_LINE_BYTES, last_lines, lines, may_be_cut, opened, reached, text
-from ..time_axis import even_rate_hz
+from ..time_stamps import stamp_ns, stamp_text
 
 MAXIMUM_HEAD_LINES: Final = 200
 
@@ -46,7 +47,9 @@ def read(request: Request) -> Recorded:
         time = time_column(head)
         names = [n for c, n in enumerate(head.names) if c not in (time, head.stamps)]
         columns = [c for c in range(len(head.names)) if c not in (time, head.stamps)]
-        columns = [columns[index] for index in request.chosen(names)]
+        units = [head.units[column] for column in columns]
+        remarks += request.omissions(names, units)
+        columns = [columns[index] for index in request.chosen(names, units)]
         if time is None:
             part = _without_time(table, columns, request)
         else:
@@ -59,7 +62,7 @@ def read(request: Request) -> Recorded:
         sample_rate_hz=part.rate_hz,
         start_time=stamp_text(start) if start else "",
         first_sample=part.first,
-        remarks=remarks,
+        remarks=[*remarks, *part.remarks],
     )
 
 
@@ -68,6 +71,7 @@ class _Part:
     samples: list[Samples]
     rate_hz: float
     first: int | None
+    remarks: Sequence[str] = ()
 
 
 def _rows(file: BinaryIO, head: Head) -> tuple[int, int]:
@@ -123,10 +127,13 @@ def _with_time(table: _Table, time: int, columns: Sequence[int], request: Reques
     is_stamped = time == table.head.stamps
     values = _numbers(wanted, [time, *columns], {time: seconds} if is_stamped else {}, None)
     times = values[:, 0] * (1.0 if is_stamped else time_factor(table.head.units[time]))
-    rate_hz = even_rate_hz(times, request, start)
-    first = round((times[0] - start) * rate_hz)
-    samples = [values[:, number + 1] for number in range(len(columns))]
-    return _Part(samples, rate_hz, first if request.samples is None else None)
+    names = [table.head.names[column] for column in columns]
+    line = line_of_times(names, times, request, start)
+    first = round((times[0] - start) * line.rate_hz)
+    stored = [values[part[0] : part[1], n + 1] for n, part in enumerate(line.parts)]
+    remarks = line.remarks([table.head.units[column] for column in columns], stored)
+    first_or_all = first if request.samples is None else None
+    return _Part(line.on_grid(stored), line.rate_hz, first_or_all, remarks)
 
 
 def _between(
@@ -209,4 +216,4 @@ def _row_texts(table: _Table) -> Iterator[str]:
         yield plain
 
 
-register(Reader("csv", (".csv", ".txt"), "CSV", read))
+register(Reader("csv", (".csv", ".txt", ".tsv", ".prn"), "CSV", read))

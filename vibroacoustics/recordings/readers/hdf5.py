@@ -1,6 +1,7 @@
 """HDF5 and netCDF: datasets with the attributes `units` and `sample_rate_hz`, or our own form."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 from itertools import count, product
 from pathlib import Path
@@ -12,7 +13,8 @@ from ...base.errors import StorageError
 from ...base.registry import register
 from ..array_recording import recorded
 from ..claims import DEFLATE_RATIO, check_claim
-from ..named_arrays import UNIT_NAMES, NamedArray, Part, as_text, is_rate
+from ..counts import is_factor
+from ..named_arrays import UNIT_NAMES, NamedArray, Part, as_text, is_rate, is_start
 from ..packing import PACKING_NAMES
 from ..reader import Reader
 from ..recorded import MAXIMUM_READING_BYTES, Recorded, Request, check_size
@@ -49,8 +51,37 @@ def _read_hdf5(request: Request) -> Recorded:
     import h5py
 
     with h5py.File(request.path, "r", rdcc_nbytes=CHUNK_CACHE_BYTES) as file:
-        arrays = [named_dataset(name, dataset) for name, dataset in datasets(file)]
+        arrays = [a for name, dataset in datasets(file) for a in _named_arrays(name, dataset)]
         return recorded(arrays, _plain(file.attrs), request)
+
+
+def _named_arrays(name: str, dataset: Any) -> list[NamedArray]:
+    """A dataset, or of one of records its fields, as `table.field`."""
+    records = named_dataset(name, dataset)
+    if dataset.dtype.names is None:
+        return [records]
+    fields = {field: dataset.dtype[field] for field in dataset.dtype.names}
+    return [
+        replace(
+            records,
+            name=f"{name}.{field}",
+            shape=records.shape + kind.shape,
+            is_number=kind.base.kind in "iuf",
+            is_whole=kind.base.kind in "iu",
+            load=partial(_field, records.load, field, len(records.shape)),
+            check=partial(_check_field, records.check, len(records.shape)),
+            dimensions=(),
+        )
+        for field, kind in fields.items()
+    ]
+
+
+def _field(load: Any, field: str, sides: int, part: Part) -> Any:
+    return load(part[:sides])[field][(..., *part[sides:]) if part[sides:] else ...]
+
+
+def _check_field(check: Any, sides: int, part: Part) -> None:
+    check(part[:sides])
 
 
 def datasets(file: Any) -> list[tuple[str, Any]]:
@@ -97,7 +128,20 @@ def named_dataset(name: str, dataset: Any) -> NamedArray:
         check(part)
         return dataset[part]
 
-    return NamedArray(name, shape, dataset.dtype.kind in "iuf", load, _attributes(dataset), check)
+    kind = dataset.dtype.kind
+    return NamedArray(
+        name, shape, kind in "iuf", load, _attributes(dataset), check, _dimensions(dataset),
+        kind in "iu",
+    )  # fmt: skip
+
+
+def _dimensions(dataset: Any) -> tuple[str, ...]:
+    """Names of the coordinates of the dimensions; a dimension without one is empty."""
+    if "DIMENSION_LIST" not in dataset.attrs:
+        return ()
+    return tuple(
+        next((scale.name.lstrip("/") for scale in axis.values()), "") for axis in dataset.dims
+    )
 
 
 def _check_piece(name: str, dataset: Any) -> None:
@@ -149,8 +193,12 @@ def _attributes(dataset: Any) -> Mapping[str, Any]:
 
 def _plain(attributes: Any) -> Mapping[str, Any]:
     """The attributes that we know; others may be of types that cannot be read."""
-    wanted = (*UNIT_NAMES, *PACKING_NAMES, "start_time")
-    return {name: attributes[name] for name in attributes if name in wanted or is_rate(name)}
+    wanted = (*UNIT_NAMES, *PACKING_NAMES, "start_time", "wf_increment", "wf_start_time")
+    return {
+        name: attributes[name]
+        for name in attributes
+        if name in wanted or is_rate(name) or is_start(name) or is_factor(name)
+    }
 
 
 def _read_classic(request: Request) -> Recorded:
@@ -170,6 +218,8 @@ def _read_classic(request: Request) -> Recorded:
                 variable.data.dtype.kind in "iuf",
                 partial(_part_of, variable.data),
                 variable._attributes,
+                dimensions=tuple(map(as_text, variable.dimensions)),
+                is_whole=variable.data.dtype.kind in "iu",
             )
             for name, variable in file.variables.items()
         ]
@@ -180,4 +230,4 @@ def _part_of(values: Any, part: Part) -> Any:
     return np.array(values[part])
 
 
-register(Reader("hdf5", (".h5", ".hdf5", ".nc"), "HDF5 and netCDF", read))
+register(Reader("hdf5", (".h5", ".hdf5", ".nc", ".nc4"), "HDF5 and netCDF", read))

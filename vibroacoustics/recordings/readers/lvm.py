@@ -1,7 +1,7 @@
 """LVM: LabVIEW measurement files, text with a header of the file and of each segment."""
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import BinaryIO, Final
@@ -10,12 +10,13 @@ import numpy as np
 
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
+from ..axes import Axis, line_of
 from ..claims import check_claim
 from ..lvm_head import END, Segment, file_header, segment
 from ..reader import Reader
-from ..recorded import Recorded, Request, Samples, check_size, listed, numbered
+from ..recorded import Recorded, Request, Samples, check_size, numbered
 from ..text_lines import last_lines, lines, may_be_cut, opened
-from ..time_axis import even_rate_hz
+from ..time_axis import Times
 
 _JOINT: Final = 0.5
 """Sampling intervals by which the start of a segment may differ from the end of the one before."""
@@ -23,10 +24,22 @@ _JOINT: Final = 0.5
 
 @dataclass(frozen=True)
 class _Rows:
-    """Numbers of one segment, shape (row, column); the times come first where there are any."""
+    """Numbers of one segment.
+
+    Attributes
+    ----------
+    head : its header
+    values : numbers, shape (row, column); the times come first where there are any
+    channels : places of the channels among those of the header
+    times : columns of their times in the file, each once
+    rows : rows of each channel
+    """
 
     head: Segment
     values: Samples
+    channels: Sequence[int]
+    times: Sequence[int]
+    rows: Sequence[int]
 
 
 def read(request: Request) -> Recorded:
@@ -45,27 +58,83 @@ def read(request: Request) -> Recorded:
         if not segments:
             raise StorageError("has no segment")
         _check_end(file, segments[-1])
-    first = segments[0].head
     _check_alike(segments)
+    head, rows = segments[0].head, segments[0].rows
+    names = numbered(head.names)
+    chosen = segments[0].channels
+    line = line_of([names[c] for c in chosen], _axes(segments, request), _every(request))
     values = np.concatenate([part.values for part in segments])
-    names = numbered(first.names)
-    chosen = request.chosen(names)
-    begin = int(first.time_column is not None)
+    stored = [
+        values[: rows[n] if len(segments) == 1 else None, len(segments[0].times) + n][slice(*part)]
+        for n, part in enumerate(line.parts)
+    ]
+    units = [head.units[c] for c in chosen]
+    omissions = request.omissions(names, head.units)
     return Recorded(
         names=[names[c] for c in chosen],
-        units=[first.units[c] for c in chosen],
-        samples=[values[:, begin + number] for number in range(len(chosen))],
-        sample_rate_hz=_rate_hz(first, values, request),
-        start_time=first.start_time,
-        remarks=_remarks(segments, request),
+        units=units,
+        samples=line.on_grid(stored),
+        sample_rate_hz=line.rate_hz,
+        line=line.key,
+        start_time=line.later(head.start_time),
+        remarks=[*_remarks(segments, request), *omissions, *line.remarks(units, stored)],
     )
+
+
+def _every(request: Request) -> Request:
+    """All of the recording, which is cut later."""
+    return Request(request.path, sample_rate_hz=request.sample_rate_hz, line=request.line)
+
+
+def _axes(segments: list[_Rows], request: Request) -> list[Axis]:
+    """Time axis of each channel.
+
+    The interval of the header counts where the times agree with it.
+    """
+    first = segments[0]
+    head, chosen = first.head, first.channels
+    values = np.concatenate([part.values for part in segments])
+    if not first.times:
+        origin_s = min(head.starts_s)
+        made: dict[tuple[float, float, int], Axis] = {}
+        axes = []
+        for number, channel in enumerate(chosen):
+            rate_hz = request.sample_rate_hz or 1.0 / head.intervals_s[channel]
+            count = first.rows[number] if len(segments) == 1 else len(values)
+            key = (rate_hz, head.starts_s[channel] - origin_s, count)
+            axes.append(made.setdefault(key, Axis(count, rate_hz, key[1])))
+        return axes
+    origin_s = min(head.dates_s)
+    by_column: dict[tuple[int, float, int], Axis] = {}
+    axes = []
+    for number, channel in enumerate(chosen):
+        count = first.rows[number] if len(segments) == 1 else len(values)
+        key = (head.time_columns[channel], head.dates_s[channel] - origin_s, count)
+        if key not in by_column:
+            times = values[:count, first.times.index(key[0])]
+            stated_hz = _stated_hz(times, 1.0 / head.intervals_s[channel], request)
+            by_column[key] = Axis(count, stated_hz, key[1], _slices(times))
+        axes.append(by_column[key])
+    return axes
+
+
+def _slices(times: Samples) -> Times:
+    return lambda first, last: times[first:last]
+
+
+def _stated_hz(times: Samples, stated_hz: float, request: Request) -> float | None:
+    """Sample rate of `Delta_X` where the times agree with it; else None."""
+    if request.sample_rate_hz is not None or len(times) < 2 or not times[-1] > times[0]:
+        return request.sample_rate_hz
+    rate_hz = (len(times) - 1) / (times[-1] - times[0])
+    return stated_hz if abs(stated_hz / rate_hz - 1.0) * len(times) <= 1.0 else None
 
 
 def _remarks(segments: list[_Rows], request: Request) -> list[str]:
     head, rows = segments[0].head, len(segments[0].values)
-    is_rounded = request.sample_rate_hz is None and head.time_column is None
+    is_rounded = request.sample_rate_hz is None and not head.time_columns
     remarks = head.remarks if is_rounded else []
-    if head.time_column is None and rows > max(head.samples):
+    if not head.time_columns and rows > max(head.samples):
         remarks.append(
             f"holds {rows} rows below a header of {max(head.samples)} samples: blocks without "
             "headers of their own are joined"
@@ -78,21 +147,21 @@ def _segments(file: BinaryIO, request: Request) -> Iterator[_Rows]:
     below = lines(file)
     above = file_header(below)
     while (head := segment(below, above)) is not None:
-        chosen = request.chosen(numbered(head.names))
+        chosen = request.chosen(numbered(head.names), head.units)
         columns = [head.columns[c] for c in chosen]
         claimed = [head.samples[c] for c in chosen]
-        if len(set(claimed)) != 1:
-            named = [f"{head.names[c]} {head.samples[c]}" for c in chosen]
-            raise ParameterError(f"channels differ in length ({listed(named)}): choose some alike")
-        check_claim(request.path, claimed[0], len(columns))  # of a byte each, the one behind it
-        check_size(len(columns), claimed[0])
-        times = [] if head.time_column is None else [head.time_column]
+        check_claim(request.path, max(claimed), len(columns))  # of a byte each, the one behind it
+        check_size(len(columns), max(claimed))
+        times = sorted({head.time_columns[c] for c in chosen} if head.time_columns else ())
         values = _numbers(below, head, [*times, *columns])
-        if len(values) < claimed[0]:
+        if len(values) < max(claimed):
             raise StorageError(
-                f"is truncated: a segment holds {len(values)} of {claimed[0]} samples"
+                f"is truncated: a segment holds {len(values)} of {max(claimed)} samples"
             )
-        yield _Rows(head, values)
+        is_alike = len(set(claimed)) == 1
+        yield _Rows(
+            head, values, chosen, times, [len(values)] * len(claimed) if is_alike else claimed
+        )
 
 
 def _numbers(below: Iterator[bytes], head: Segment, columns: list[int]) -> Samples:
@@ -134,10 +203,12 @@ def _check_end(file: BinaryIO, last: _Rows) -> None:
 def _check_alike(segments: list[_Rows]) -> None:
     """Refuse segments of other channels or rates, and gaps between them."""
     first = segments[0].head
+    if len(segments) > 1 and len(set(segments[0].rows)) > 1:
+        raise ParameterError("has several segments of channels that differ in length")
     for before, behind in pairwise(segments):
         head = behind.head
-        if (head.names, head.units, head.interval_s) != (
-            first.names, first.units, first.interval_s
+        if (head.names, head.units, head.intervals_s) != (
+            first.names, first.units, first.intervals_s
         ):  # fmt: skip
             raise ParameterError(
                 f"its {len(segments)} segments differ in channels, units or sample rate: save "
@@ -149,16 +220,6 @@ def _check_alike(segments: list[_Rows]) -> None:
                 f"its {len(segments)} segments are not one after the other: one starts "
                 f"{head.start_s - end_s:.6g} s behind the end of another; save each as a file"
             )
-
-
-def _rate_hz(head: Segment, values: Samples, request: Request) -> float:
-    """Sample rate of `Delta_X`, which the times must agree with, or else that of the times."""
-    if head.time_column is None or request.sample_rate_hz is not None:
-        return request.sample_rate_hz or 1.0 / head.interval_s
-    rate_hz = even_rate_hz(values[:, 0], request)
-    stated_hz = 1.0 / head.interval_s
-    agree = abs(stated_hz / rate_hz - 1.0) * len(values) <= 1.0
-    return stated_hz if agree else rate_hz
 
 
 register(Reader("lvm", (".lvm",), "LVM (LabVIEW measurement)", read))

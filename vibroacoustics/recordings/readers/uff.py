@@ -3,19 +3,26 @@
 from collections.abc import Sequence
 from typing import BinaryIO, Final
 
+import numpy as np
+
 from ...base.errors import ParameterError
 from ...base.registry import register
+from ..axes import Axis, line_of
+from ..quantities import axis_factor
 from ..reader import Reader
-from ..recorded import Recorded, Request, Samples, check_rate, check_size, listed, numbered
-from ..time_axis import even_part
+from ..recorded import Recorded, Request, Samples, check_size, numbered
 from ..uff58 import DOUBLE, SINGLE, Datasets, Header, datasets
 from ..uff58_values import values
 
 TIME_RESPONSE: Final = 1
 """Function type in record 6, field 1."""
-
-_Part = tuple[int, int, float]
-"""First sample, the one behind the last, sample rate."""
+_TIMES: Final = (0, 1, 17)
+"""Specific data types of an abscissa that may be a time: unknown, general, time."""
+_AXES: Final = {
+    8: "a displacement", 11: "a velocity", 12: "an acceleration", 13: "a force",
+    15: "a pressure", 18: "a frequency", 19: "a speed in rpm", 20: "an order",
+}  # fmt: skip
+"""Other specific data types."""
 
 
 def read(request: Request) -> Recorded:
@@ -34,20 +41,29 @@ def read(request: Request) -> Recorded:
         contents = datasets(file)
         responses = _time_responses(contents)
         names = numbered([header.name or "channel" for header in responses])
-        chosen = request.chosen(names)
+        units = [header.unit for header in responses]
+        remarks = [*contents.remarks, *request.omissions(names, units)]
+        chosen = request.chosen(names, units)
         names, responses = [names[c] for c in chosen], [responses[c] for c in chosen]
-        first, last, rate_hz = _common_part(file, names, responses, request)
-        check_size(len(chosen), last - first)
-        samples = [values(file, header, first, last)[0] for header in responses]
+        units = [units[c] for c in chosen]
+        _check_first(responses, request)
+        axes = [_axis(file, name, h) for name, h in zip(names, responses, strict=True)]
+        line = line_of(names, _shared(axes), request)
+        check_size(len(names), line.last - line.first)
+        stored = [
+            values(file, header, *part)[0]
+            for header, part in zip(responses, line.parts, strict=True)
+        ]
     return Recorded(
         names=names,
-        units=[header.unit for header in responses],
-        samples=samples,
-        sample_rate_hz=rate_hz,
-        start_time=responses[0].start_time,
-        first_sample=first,
-        total_samples=responses[0].points,
-        remarks=contents.remarks,
+        units=units,
+        samples=line.on_grid(stored),
+        sample_rate_hz=line.rate_hz,
+        line=line.key,
+        start_time=line.later(responses[0].start_time),
+        first_sample=line.first,
+        total_samples=line.total,
+        remarks=[*remarks, *line.remarks(units, stored)],
     )
 
 
@@ -66,37 +82,49 @@ def _time_responses(contents: Datasets) -> list[Header]:
     return responses
 
 
-def _common_part(
-    file: BinaryIO, names: Sequence[str], responses: Sequence[Header], request: Request
-) -> _Part:
-    """The part that is wanted, which all responses share."""
+def _check_first(responses: Sequence[Header], request: Request) -> None:
     if not responses:
         raise ParameterError("no channel is chosen")
-    lengths = [f"{name} {header.points}" for name, header in zip(names, responses, strict=True)]
-    if len({header.points for header in responses}) > 1:
-        raise ParameterError(f"channels differ in length ({listed(lengths)}): choose some alike")
     check_size(0, 0 if not request.wants_all else responses[0].points)
-    parts = [_part(file, header, request) for header in responses]
-    if len(set(parts)) > 1:
-        rates = ", ".join(
-            f"{name} {part[2]:.9g} Hz" for name, part in zip(names, parts, strict=True)
+
+
+def _axis(file: BinaryIO, name: str, header: Header) -> Axis:
+    """Time axis of a response.
+
+    Raises
+    ------
+    ParameterError
+        The abscissa is no time.
+    """
+    if header.axis_type not in _TIMES:
+        kind = _AXES.get(header.axis_type, f"type {header.axis_type}")
+        raise ParameterError(
+            f"channel {name!r}: its abscissa is {kind}, unit {header.axis_unit or 'none'!r}: a "
+            "recording needs a time"
         )
-        raise ParameterError(f"channels differ in sample rate ({rates}): choose some of one rate")
-    return parts[0]
-
-
-def _part(file: BinaryIO, header: Header, request: Request) -> _Part:
+    factor = axis_factor(f"channel {name!r}: its abscissa", header.axis_unit or "s")
     if header.is_even:
-        rate_hz = request.sample_rate_hz or _rate_hz(header.increment)
-        check_rate(rate_hz)
-        return (*request.part(header.points, rate_hz), rate_hz)
+        rate_hz = _rate_hz(factor * header.increment)
+        return Axis(header.points, rate_hz, factor * header.minimum)
 
     def times(first: int, last: int) -> Samples:
         _, abscissas = values(file, header, first, last)
         assert abscissas is not None  # noqa: S101 - the abscissa is uneven
-        return abscissas
+        return abscissas * factor
 
-    return even_part(times, header.points, request)
+    return Axis(header.points, None, 0.0, times)
+
+
+def _shared(axes: Sequence[Axis]) -> list[Axis]:
+    """Axes of which equal uneven ones are one."""
+    first = axes[0]
+    if first.times is None or any(axis.times is None for axis in axes):
+        return list(axes)
+    if len({axis.samples for axis in axes}) > 1:
+        return list(axes)
+    times = first.times(0, first.samples)
+    others = (axis.times(0, axis.samples) for axis in axes[1:] if axis.times is not None)
+    return [first] * len(axes) if all(np.array_equal(t, times) for t in others) else list(axes)
 
 
 def _rate_hz(increment: float) -> float:
@@ -105,4 +133,4 @@ def _rate_hz(increment: float) -> float:
     return 1.0 / increment
 
 
-register(Reader("uff", (".uff", ".unv"), "UFF", read))
+register(Reader("uff", (".uff", ".unv", ".ufb", ".bunv", ".uf"), "UFF", read))

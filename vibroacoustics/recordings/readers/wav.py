@@ -80,4 +80,4 @@ def _full_scale_fraction(stored: Samples) -> Samples:
     return np.asarray((stored - offset) / half_range)
 
 
-register(Reader("wav", (".wav",), "WAV", read))
+register(Reader("wav", (".wav", ".rf64", ".bwf"), "WAV", read))

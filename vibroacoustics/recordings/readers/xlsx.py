@@ -14,12 +14,13 @@ import numpy as np
 
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
-from ..csv_head import MISSING_TIME, Head, read_head, stamp_text, time_column
+from ..axes import line_of_times
+from ..csv_head import MISSING_TIME, Head, read_head, time_column
 from ..named_arrays import is_rate
 from ..quantities import time_factor
 from ..reader import Reader
 from ..recorded import MissingError, Recorded, Request, Samples, check_rate, check_size, listed
-from ..time_axis import even_rate_hz
+from ..time_stamps import stamp_text
 
 MAXIMUM_HEAD_ROWS: Final = 200
 MAXIMUM_ROWS: Final = 2**20
@@ -67,16 +68,25 @@ def read(request: Request) -> Recorded:
         sheet, remarks = _sheet(book)
         head, time = sheet.head, time_column(sheet.head)
         fields = [c for c in range(len(head.names)) if c not in (time, head.stamps)]
-        fields = [fields[index] for index in request.chosen([head.names[c] for c in fields])]
+        names, units = [head.names[c] for c in fields], [head.units[c] for c in fields]
+        remarks += request.omissions(names, units)
+        fields = [fields[index] for index in request.chosen(names, units)]
         wanted = fields if time is None else [time, *fields]
         values = _numbers(book[sheet.title], sheet, wanted)
         stamp = _first_stamp(book[sheet.title], sheet)
-    times = 0 if time is None else 1
+    names, units = [head.names[c] for c in fields], [head.units[c] for c in fields]
+    if time is None:
+        samples, rate_hz = list(values.T), _rate_hz(sheet, request)
+    else:
+        line = line_of_times(names, _times(sheet, time, values), request)
+        stored = [values[slice(*part), n + 1] for n, part in enumerate(line.parts)]
+        samples, rate_hz = line.on_grid(stored), line.rate_hz
+        remarks += line.remarks(units, stored)
     return Recorded(
-        names=[head.names[column] for column in fields],
-        units=[head.units[column] for column in fields],
-        samples=[values[:, times + number] for number in range(len(fields))],
-        sample_rate_hz=_rate_hz(sheet, time, values, request),
+        names=names,
+        units=units,
+        samples=samples,
+        sample_rate_hz=rate_hz,
         start_time=stamp,
         remarks=remarks,
     )
@@ -197,11 +207,12 @@ def _first_stamp(sheet: Any, table: _Sheet) -> str:
     return stamp_text(_text(row[table.columns[table.head.stamps]]))
 
 
-def _rate_hz(table: _Sheet, time: int | None, values: Samples, request: Request) -> float:
-    if time is not None:
-        unit = "s" if time == table.head.stamps else table.head.units[time]
-        times = (values[:, 0] - values[:1, 0]) * time_factor(unit)
-        return even_rate_hz(times, request)
+def _times(table: _Sheet, time: int, values: Samples) -> Samples:
+    unit = "s" if time == table.head.stamps else table.head.units[time]
+    return np.asarray((values[:, 0] - values[:1, 0]) * time_factor(unit))
+
+
+def _rate_hz(table: _Sheet, request: Request) -> float:
     rate_hz = request.sample_rate_hz or table.rate_hz
     if rate_hz is None:
         raise MissingError(MISSING_TIME)
