@@ -9,7 +9,7 @@ import xarray as xr
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
-from ..study.order_analysis import OrderAnalysis
+from ..study.order_analysis import LEAST_BLOCKS, OrderAnalysis
 from .angular_plan import AngularPlan
 from .block_orders import WINDOW, OrdersOfBlocks, is_steady
 from .crank_motion import CrankMotion
@@ -43,7 +43,7 @@ def recorded_orders(
     """
     block_speed = 60.0 * blocks.shaft_frequency_hz
     speeds, point = operating_points(block_speed, settings.speed_step_rpm)
-    at_points = _at_points(blocks.phasor, blocks.rms, point, speeds.size)
+    at_points = mean_orders(blocks.phasor, blocks.rms, point, speeds.size)
     by_line = {"channel": channel["channel"], "map_order": blocks.map_order}
     by_block = {
         "channel": channel["channel"],
@@ -84,18 +84,35 @@ def operating_points(block_speed_rpm: Array, speed_step_rpm: float) -> tuple[Arr
     return speed_step_rpm * numbers, point
 
 
-def _at_points(
+def mean_orders(
     lines: ComplexArray, rms: Array, point: IndexArray, number: int
 ) -> dict[str, Array | ComplexArray]:
-    """Coherent mean, root mean power and coherence, (channel, point, order), of the blocks."""
+    """Coherent mean, root mean power and coherence of the blocks of each operating point.
+
+    The coherence |mean X|² / mean |X|² of one block is 1 whatever it holds, of n blocks of noise
+    about 1/n: with fewer than `LEAST_BLOCKS` it is not a number.
+
+    Parameters
+    ----------
+    lines : complex peaks, shape (channel, block, order)
+    rms : in the orders' bands, same shape
+    point : operating point of each block, shape (block,); -1 where it has none
+    number : number of operating points
+
+    Returns
+    -------
+    `channel_order`, `channel_order_rms`, `channel_order_coherence`, shape (channel, point, order)
+    """
     member = np.equal.outer(np.arange(number), point).astype(float)
-    share = member / member.sum(axis=1, keepdims=True)
+    count = member.sum(axis=1, keepdims=True)
+    share = member / count
     mean = np.einsum("pb,cbo->cpo", share, lines)
     power = np.einsum("pb,cbo->cpo", share, np.abs(lines) ** 2)
+    coherence = np.abs(mean) ** 2 / np.maximum(power, np.finfo(float).tiny)
     return {
         "channel_order": mean,
         "channel_order_rms": np.sqrt(np.einsum("pb,cbo->cpo", share, rms**2)),
-        "channel_order_coherence": np.abs(mean) ** 2 / np.maximum(power, np.finfo(float).tiny),
+        "channel_order_coherence": np.where(count < LEAST_BLOCKS, np.nan, coherence),
     }
 
 

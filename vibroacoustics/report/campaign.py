@@ -22,11 +22,11 @@ from .tables import (
     DataTable,
     Table,
     amplitude,
-    cell,
     data_table,
     phase_deg,
     records,
     table_of,
+    without_nan,
 )
 
 _MOST_CHANNELS: Final = 4
@@ -241,7 +241,7 @@ def _data(mean: xr.Dataset) -> dict[str, DataTable]:
         tables["campaign_levels.csv"] = _levels(mean, "", {}, of_mean)
         tables["campaign_machine_levels.csv"] = _levels(mean, "machine", machine, by_machine)
         tables["campaign_run_levels.csv"] = _levels(mean, "run", run, {"run_{}_level": "level_db"})
-    return {name: _without_nan(table) for name, table in tables.items()}
+    return {name: without_nan(table) for name, table in tables.items()}
 
 
 def _levels(
@@ -272,7 +272,3 @@ def _levels(
         for head, column in data_table(dims, columns).items():
             joined.setdefault(head, []).extend(column)
     return joined
-
-
-def _without_nan(table: DataTable) -> DataTable:
-    return {head: list(map(cell, values)) for head, values in table.items()}

@@ -15,6 +15,7 @@ from ..results.over_speed.avoid import recorded_speeds_to_avoid
 from ..results.over_speed.level_curves import is_run_up, recorded_curves
 from ..results.over_speed.loudest_channel import loudest_channel, orders_at_speeds
 from ..results.over_speed.run_up_sound import RunUpSound, shown_channel
+from ..study.order_analysis import LEAST_BLOCKS
 from .analysis import Analysis, origin
 from .avoid import RECORDED_RULE, recorded_avoid_table
 from .blocks import Block, Bullets, Live, Part, Pictures, Text
@@ -35,6 +36,7 @@ from .tables import (
     phase_deg,
     records,
     table_of,
+    without_nan,
 )
 
 _MOST_CHANNELS: Final = 4
@@ -46,8 +48,7 @@ _MOST_SPEEDS: Final = 6
 _MOST_FAULTS: Final = 5
 """Faults of the tacho that are listed; all are counted."""
 _LEAST_COHERENCE: Final = 0.8
-"""Coherence of an order whose phase is shown; noise in five independent blocks reaches it once in
-600, 0.2^(5 - 1)."""
+"""Coherence of an order whose phase is shown."""
 _LEVELS: Final = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
 _DIMENSIONS: Final = ("channel", "speed", "order")
 _COLUMNS: Final[Columns] = (
@@ -100,7 +101,7 @@ def analysis_of_orders(
         _tables_part("orders", "Orders and levels", tables),
         Part("settings", "Speed and resolution", (facts,)),
     ]
-    data = {"orders.csv": data_table(_DIMENSIONS, _orders(results))}
+    data = {"orders.csv": without_nan(data_table(_DIMENSIONS, _orders(results)))}
     shown: list[Block] = [facts, *in_db, *tables]
     if "equivalent_level" in results:
         data["levels.csv"] = levels_data(results)
@@ -188,11 +189,25 @@ def orders_facts(results: xr.Dataset) -> list[str]:
         f"resolution: {attrs['resolution_order']:.3g} orders (noise bandwidth), blocks of "
         f"{attrs['revolutions_per_block']} revolutions, {attrs['window']} window",
     ]
+    facts += _few_blocks(results)
     if "fault_time" in results:
         facts.append(_faults_line(results["fault_time"]))
     if "left_out" in attrs:
         facts.append(f"left out: {attrs['left_out']}")
     return facts
+
+
+def _few_blocks(results: xr.Dataset) -> list[str]:
+    """Say at how many speeds there are too few blocks for coherence and phase."""
+    is_short = results["block_count"].values < LEAST_BLOCKS
+    if not is_short.any():
+        return []
+    fewest = int(results["block_count"].min())
+    where = f" at {is_short.sum()} of {is_short.size} speeds" if is_short.size > 1 else ""
+    return [
+        f"no coherence and phase{where}: a mean of fewer than {LEAST_BLOCKS} blocks (here from "
+        f"{fewest}) may have a high coherence in noise"
+    ]
 
 
 def orders_tables(results: xr.Dataset) -> list[Table]:
@@ -238,7 +253,7 @@ def _faults_line(times: xr.DataArray) -> str:
 
 def _orders(results: xr.Dataset) -> dict[str, xr.DataArray]:
     """Columns of orders.csv."""
-    peak = results["channel_order"]
+    peak, coherence = results["channel_order"], results["channel_order_coherence"]
     return {
         "channel": results["channel"],
         "unit": results["channel_unit"],
@@ -247,9 +262,9 @@ def _orders(results: xr.Dataset) -> dict[str, xr.DataArray]:
         "order": results["order"],
         "frequency_hz": results["order"] * results["speed"] / 60.0,
         "amplitude_peak": abs(peak),
-        "phase_deg": phase_deg(peak),
+        "phase_deg": phase_deg(peak).where(coherence.notnull()),
         "rms_in_band": results["channel_order_rms"],
-        "coherence": results["channel_order_coherence"],
+        "coherence": coherence,
     }
 
 

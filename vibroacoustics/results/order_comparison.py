@@ -46,10 +46,11 @@ def compare(
     `channel_order` of the first, `compared_order` of the second turned to the first's crank angle,
     `order_difference` (dB) and `order_phase_difference` (rad, within ±π), each (channel, speed,
     order), not a number where one of the two has no such order (`NEGLIGIBLE`); no phase difference
-    at all where one has no mark on the shaft as its angle zero, whose peaks then are √2 times the
-    RMS in the orders' bands. `channel_order_rms` and `compared_order_rms` are the RMS in
-    the orders' bands, of a study the peaks over √2. `channel_order_coherence` is the lower of the
-    two; coordinates `compared_speed` and `compared_channel`.
+    where a recording has too few blocks, and none at all where one has no mark on the shaft as its
+    angle zero, whose peaks then are √2 times the RMS in the orders' bands. `channel_order_rms` and
+    `compared_order_rms` are the RMS in the orders' bands, of a study the peaks over √2.
+    `channel_order_coherence` is the lower of the two; coordinates `compared_speed` and
+    `compared_channel`.
 
     Raises
     ------
@@ -83,7 +84,9 @@ def compare(
     is_comparable = ~(_negligible(ours, here) | _negligible(theirs, other_coordinates))
     with np.errstate(divide="ignore", invalid="ignore"):  # of what is not known
         level = level_of_amplitude(np.abs(turned) / np.abs(reference))
-    has_phase = is_comparable & (NO_ANGLE_ZERO not in (_angle_zero(first), _angle_zero(second)))
+    coherence = np.minimum(_coherence(first, here), _coherence(second, other_coordinates))
+    has_phase = is_comparable & np.isfinite(coherence)
+    has_phase &= NO_ANGLE_ZERO not in (_angle_zero(first), _angle_zero(second))
     values = {
         "channel_order": reference,
         "compared_order": turned,
@@ -91,9 +94,7 @@ def compare(
         "order_phase_difference": np.where(has_phase, _phase(turned, reference), np.nan),
         "channel_order_rms": _rms(first, ours, here),
         "compared_order_rms": _rms(second, theirs, other_coordinates),
-        "channel_order_coherence": np.minimum(
-            _coherence(first, here), _coherence(second, other_coordinates)
-        ),
+        "channel_order_coherence": coherence,
     }
     compared = xr.Dataset(
         {name: stamp(name, value, here) for name, value in values.items()},

@@ -22,6 +22,9 @@ RESOLUTIONS: Final = (1e-4, 100.0)
 SPEED_STEPS_RPM: Final = (0.01, 1e6)
 MAINS_HZ: Final = (10.0, 1000.0)
 THRESHOLDS: Final = (-1e12, 1e12)
+LEAST_BLOCKS: Final = 8
+"""Blocks of a mean that has coherence and phase: of half-overlapping Hann blocks of noise, eight
+exceed a coherence of 0.9 once in a million times, one always has 1."""
 _LONGEST_S: Final = 1e9
 """Latest time in a recording: 30 years."""
 LINE_TOLERANCE: Final = 0.1
