@@ -12,6 +12,7 @@ from ..base.vocabulary import stamp
 from ..study.order_analysis import LEAST_BLOCKS, OrderAnalysis
 from .angular_plan import AngularPlan
 from .block_orders import WINDOW, OrdersOfBlocks, is_steady
+from .branches import Names, branch_of_blocks
 from .crank_motion import CrankMotion
 from .pulse_faults import PulseFault
 from .synchronous_average import RevolutionAverage
@@ -42,7 +43,8 @@ def recorded_orders(
     settings : the orders that are wanted
     """
     block_speed = 60.0 * blocks.shaft_frequency_hz
-    speeds, point = operating_points(block_speed, settings.speed_step_rpm)
+    branch = branch_of_blocks(block_speed, order_square(blocks.rms))
+    speeds, branches, point = points_of_branches(block_speed, branch, settings.speed_step_rpm)
     at_points = mean_orders(blocks.phasor, blocks.rms, point, speeds.size)
     by_line = {"channel": channel["channel"], "map_order": blocks.map_order}
     by_block = {
@@ -63,7 +65,8 @@ def recorded_orders(
     coords = {
         "block_time": ("block", blocks.time_s),
         "block_speed": ("block", block_speed),
-        "block_count": ("speed", np.bincount(point, minlength=speeds.size)),
+        "branch": ("speed", branches),
+        "block_count": ("speed", np.bincount(point[point >= 0], minlength=speeds.size)),
         "channel_unit": channel["channel_unit"],
         "calibration_factor": channel["calibration_factor"],
     }
@@ -82,6 +85,46 @@ def operating_points(block_speed_rpm: Array, speed_step_rpm: float) -> tuple[Arr
     nearest = np.maximum(np.rint(block_speed_rpm / speed_step_rpm), 1.0)
     numbers, point = np.unique(nearest, return_inverse=True)
     return speed_step_rpm * numbers, point
+
+
+def points_of_branches(
+    block_speed_rpm: Array, branch: Names, speed_step_rpm: float
+) -> tuple[Array, Names, IndexArray]:
+    """Operating points of each branch, in the order of time; see `operating_points`.
+
+    Parameters
+    ----------
+    block_speed_rpm : shape (block,)
+    branch : branch of each block, shape (block,); empty where it has none
+    speed_step_rpm : step of the operating points of a run-up
+
+    Returns
+    -------
+    speeds, rpm, and branches, shape (point,); point of each block, shape (block,), or -1
+    """
+    names = list(dict.fromkeys(branch[branch != ""].tolist()))
+    speeds: list[float] = []
+    branches: list[str] = []
+    point = np.full(block_speed_rpm.size, -1, dtype=np.intp)
+    for name in names:
+        of_name = branch == name
+        of_branch, position = operating_points(block_speed_rpm[of_name], speed_step_rpm)
+        point[of_name] = len(speeds) + position
+        speeds += of_branch.tolist()
+        branches += [name] * of_branch.size
+    return np.array(speeds), np.array(branches), point
+
+
+def order_square(rms: Array) -> Array:
+    """Mean square of the orders in each block, each channel over its greatest, shape (block,).
+
+    Parameters
+    ----------
+    rms : in the orders' bands, shape (channel, block, order)
+    """
+    square = np.sum(rms**2, axis=-1)
+    greatest = square.max(axis=1, keepdims=True)
+    return np.asarray(np.sum(square / np.where(greatest > 0.0, greatest, 1.0), axis=0))
 
 
 def mean_orders(

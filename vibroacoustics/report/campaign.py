@@ -15,7 +15,7 @@ from .analysis import Analysis, origin
 from .blocks import Block, Bullets, Part, Pictures, Text
 from .figures.campaign import campaign_charts, order_level, reference
 from .limit_tables import limits_data, limits_words, order_limits_table
-from .recordings import shown_speeds
+from .recordings import branch_column, shown_speeds
 from .tables import (
     Cell,
     Columns,
@@ -194,6 +194,7 @@ def _orders(mean: xr.Dataset) -> DataTable:
             "channel": mean["channel"],
             "unit": mean["channel_unit"],
             "speed_rpm": mean["speed"],
+            **branch_column(mean),
             "order": mean["order"],
             "rms_in_band": mean["channel_order_rms"],
             "level_db": order_level(mean["channel_order_rms"]),

@@ -55,6 +55,7 @@ _COLUMNS: Final[Columns] = (
     ("Channel", "channel", str),
     ("unit", "unit", str),
     ("rpm", "speed_rpm", "{:.0f}".format),
+    ("branch", "branch", str),
     ("blocks", "blocks", "{:.0f}".format),
     ("Order", "order", "{:g}".format),
     ("Peak", "amplitude_peak", amplitude),
@@ -189,12 +190,23 @@ def orders_facts(results: xr.Dataset) -> list[str]:
         f"resolution: {attrs['resolution_order']:.3g} orders (noise bandwidth), blocks of "
         f"{attrs['revolutions_per_block']} revolutions, {attrs['window']} window",
     ]
-    facts += _few_blocks(results)
+    facts += [*_branches(results), *_few_blocks(results)]
     if "fault_time" in results:
         facts.append(_faults_line(results["fault_time"]))
     if "left_out" in attrs:
         facts.append(f"left out: {attrs['left_out']}")
     return facts
+
+
+def _branches(results: xr.Dataset) -> list[str]:
+    """Name the branches of the recording; a single dwell or run-up needs no word."""
+    if not has_branches(results):
+        return []
+    names = dict.fromkeys(results["branch"].values.tolist())
+    fact = f"branches, never averaged with each other: {', '.join(names)}"
+    if any(name.startswith("idle") for name in names):
+        fact += " (idle: the orders are 10 dB or more below those of the running machine)"
+    return [fact]
 
 
 def _few_blocks(results: xr.Dataset) -> list[str]:
@@ -258,6 +270,7 @@ def _orders(results: xr.Dataset) -> dict[str, xr.DataArray]:
         "channel": results["channel"],
         "unit": results["channel_unit"],
         "speed_rpm": results["speed"],
+        **branch_column(results),
         "blocks": results["block_count"],
         "order": results["order"],
         "frequency_hz": results["order"] * results["speed"] / 60.0,
@@ -280,7 +293,20 @@ def _orders_table(results: xr.Dataset) -> Table:
     if len(shown) < results.sizes["speed"]:
         caption += f"; {len(shown)} of {results.sizes['speed']} speeds, all in the CSV"
     rows = [row for row in every if row["speed_rpm"] in shown]
-    return table_of(caption, rows, _COLUMNS, frozenset({0, 1}))
+    if has_branches(results):
+        return table_of(caption, rows, _COLUMNS, frozenset({0, 1, 3}))
+    without_branch = [column for column in _COLUMNS if column[1] != "branch"]
+    return table_of(caption, rows, without_branch, frozenset({0, 1}))
+
+
+def branch_column(results: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Branch of each operating point as a column, where it is known."""
+    return {"branch": results["branch"]} if "branch" in results.coords else {}
+
+
+def has_branches(results: xr.Dataset) -> bool:
+    """Whether operating points are of several branches, such as run-up and coast-down."""
+    return "branch" in results.coords and np.unique(results["branch"].values).size > 1
 
 
 def shown_speeds(results: xr.Dataset) -> set[float]:
