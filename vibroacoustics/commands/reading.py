@@ -200,7 +200,11 @@ class Reading:
 class OrderOptions:
     """Options of the orders that are analysed; the others are in the settings."""
 
-    orders: Annotated[str | None, "Shaft orders, with commas; default: 1,2,3,4."] = None
+    orders: Annotated[
+        str | None,
+        "Shaft orders, with commas; default: 1, 2 and the loudest, at most six; of several "
+        "recordings and with --fit: 1,2,3,4.",
+    ] = None
     maximum_order: Annotated[float | None, "Highest order of spectra and map; default: 20."] = None
     resolution: Annotated[float | None, "Coarsest resolution, orders; default: 0.25."] = None
     speed_step: Annotated[
@@ -242,6 +246,8 @@ class OrderOptions:
             "is_fit": self.fit or None,
         }
         stated = {name: each for name, each in values.items() if each is not None}
+        if self.fit and not settings.get("orders", (1.0,)):  # a fit needs the orders' spacing
+            settings = {name: each for name, each in settings.items() if name != "orders"}
         return OrderAnalysis(source, **settings | stated, with_map=self.with_map)
 
 

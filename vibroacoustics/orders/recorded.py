@@ -9,7 +9,7 @@ import xarray as xr
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
-from ..study.order_analysis import LEAST_BLOCKS, OrderAnalysis
+from ..study.order_analysis import FIRST_ORDERS, LEAST_BLOCKS, OrderAnalysis
 from .angular_plan import AngularPlan
 from .block_orders import WINDOW, OrdersOfBlocks, is_steady
 from .branches import Names, branch_of_blocks
@@ -26,7 +26,8 @@ def angular_plan(
 ) -> AngularPlan:
     """Plan of a recording over the crank angle, up to the highest order that the settings need."""
     highest = max(
-        settings.maximum_order, max(settings.orders) + _HALF_LOBE * settings.resolution_order
+        settings.maximum_order,
+        max(settings.orders or FIRST_ORDERS) + _HALF_LOBE * settings.resolution_order,
     )
     return AngularPlan(rate_hz, samples, motion, highest)
 
@@ -50,7 +51,7 @@ def recorded_orders(
     by_block = {
         "channel": channel["channel"],
         "block": np.arange(blocks.time_s.size),
-        "order": np.array(settings.orders),
+        "order": blocks.order,
     }
     by_speed = {"channel": channel["channel"], "speed": speeds, "order": by_block["order"]}
     labelled = {

@@ -16,6 +16,8 @@ SPEEDS_RPM: Final = (0.1, 1e6)
 PULSES: Final = (1, 100_000)
 """Pulses of a tacho or encoder per revolution."""
 ORDERS: Final = (0.001, 10_000.0)
+FIRST_ORDERS: Final = (1.0, 2.0)
+"""Orders of an analysis that names none, beside the loudest: those of unbalance and alignment."""
 COMB_ORDERS: Final = (0.01, 1000.0)
 RESOLUTIONS: Final = (1e-4, 100.0)
 """Resolutions, orders."""
@@ -190,7 +192,7 @@ class OrderAnalysis:
     Attributes
     ----------
     speed : where the speed comes from
-    orders : wanted, rising
+    orders : wanted, rising; empty: 1, 2 and the loudest of each channel, at most six
     maximum_order : maximum order of spectra and map
     resolution_order : coarsest noise bandwidth of a line, orders
     speed_step_rpm : speed step of the operating points of a run-up
@@ -227,7 +229,8 @@ class OrderAnalysis:
     is_fit: bool = False
 
     def __post_init__(self) -> None:
-        _check_rising("orders", self.orders, *ORDERS)
+        if self.orders or self.is_fit:
+            _check_rising("orders", self.orders, *ORDERS)
         check_range("maximum_order", self.maximum_order, *ORDERS)
         check_range("resolution_order", self.resolution_order, *RESOLUTIONS)
         check_range("speed_step_rpm", self.speed_step_rpm, *SPEED_STEPS_RPM, "rpm")

@@ -341,7 +341,7 @@ def test_only_the_speed_is_no_recording():
         (lambda: TacholessSpeed(None, 1e3, 3e3, (2.0, 1.0)), "comb = .* and rise"),
         (lambda: TacholessSpeed(None, 1e3, 3e3, mains_hz=0.0), "mains_hz = 0 Hz"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), bands="both"), "must be one of sums, filters"),
-        (lambda: OrderAnalysis(NominalSpeed(1.0), orders=()), "must be at least one"),
+        (lambda: OrderAnalysis(NominalSpeed(1.0), orders=(), is_fit=True), "must be at least one"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), orders=(2.0, 1.0)), "and rise"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), orders=(1.0, 1.0)), "and rise"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), orders=(np.nan,)), "orders = nan"),
