@@ -156,7 +156,7 @@ def test_a_standstill_is_cut_off_in_blocks_too():
     at_s = np.linspace(once.start_s, once.end_s, 500)
     for size in (1, 699, 1000, 4999):
         blocks = partial(np.split, speed, range(size, speed.size, size))
-        motion = rpm_motion_of(lambda blocks=blocks: iter(blocks()), speed.size, 1000.0)
+        motion = rpm_motion_of(lambda blocks=blocks: iter(blocks()), speed.size, 1000.0).motion
         np.testing.assert_array_equal(motion.curve.x, once.curve.x)
         np.testing.assert_allclose(motion.angle_rad(at_s), once.angle_rad(at_s), atol=1e-9)
     assert (once.start_s, once.end_s) == (0.7, 4.699)
