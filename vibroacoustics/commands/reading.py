@@ -258,7 +258,7 @@ class SpeedOptions:
     speed_channel: Annotated[
         str | None, "Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal."
     ] = None
-    pulses: Annotated[int, "Pulses of the tacho per revolution."] = 1
+    pulses: Annotated[float, "Pulses of the tacho per revolution, whole or not."] = 1
     index: Annotated[str | None, "Channel with one pulse a revolution: crank angle zero."] = None
     threshold: Annotated[
         float | None, "Level of the tacho that marks the angle, in its unit; default: follows it."

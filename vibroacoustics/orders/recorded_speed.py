@@ -245,7 +245,7 @@ def _from_pulses(recording: RecordingBlocks, speed: SpeedChannel) -> RecordedSpe
     number = speed.pulses_per_revolution
     edge = "falling edge, " if pulses.edge == "falling" else ""
     source = (
-        f"tacho {speed.channel}, {number} pulse{'s' if number > 1 else ''} a revolution, "
+        f"tacho {speed.channel}, {number:g} pulse{'s' if number != 1 else ''} a revolution, "
         f"{edge}jitter {100.0 * tracked.jitter:.2g} % of a period"
     )
     return RecordedSpeed(

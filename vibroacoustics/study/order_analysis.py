@@ -13,8 +13,8 @@ DEFAULT_COMB: Final = tuple(float(order) for order in range(1, 11))
 """Orders of a machine of which nothing is known."""
 SPEEDS_RPM: Final = (0.1, 1e6)
 """Speeds of a shaft, from that of a hydro turbine that runs out to that of a dental drill."""
-PULSES: Final = (1, 100_000)
-"""Pulses of a tacho or encoder per revolution."""
+PULSES: Final = (0.001, 100_000.0)
+"""Pulses of a tacho or encoder per revolution; no whole number behind a belt or gear."""
 ORDERS: Final = (0.001, 10_000.0)
 FIRST_ORDERS: Final = (1.0, 2.0)
 """Orders of an analysis that names none, beside the loudest: those of unbalance and alignment."""
@@ -44,7 +44,7 @@ class SpeedChannel:
     Attributes
     ----------
     channel : channel of the tacho, or of the speed with the unit rpm
-    pulses_per_revolution : pulses per revolution of the tacho
+    pulses_per_revolution : pulses per revolution of the tacho, whole or not
     index_channel : with one pulse a revolution, at which the crank angle is zero
     threshold : level of the tacho that marks the angle, in its unit; None: from its pulses, whose
         height it follows
@@ -63,7 +63,7 @@ class SpeedChannel:
     """
 
     channel: str
-    pulses_per_revolution: int = 1
+    pulses_per_revolution: float = 1
     index_channel: str | None = None
     """A channel with one pulse a revolution, at which the crank angle is zero."""
     threshold: float | None = None
