@@ -1,7 +1,7 @@
 """A speed beside the sound: a lag is corrected, a speed that the lines contradict is named."""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -15,7 +15,7 @@ from .comb_evidence import best_speeds, clear_lines, evidence, lines_in_place
 from .crank_motion import CrankMotion
 from .mains import mains_of
 from .shaft_speed import RecordedSpeed, UncertainSpeedWarning
-from .speed_lag import HIGHEST_ORDER, SpeedLag, late, speed_lag
+from .speed_lag import HIGHEST_ORDER, LEAST_LAG_S, SpeedLag, late, speed_lag
 
 MOST_CHANNELS: Final = 3
 """Channels that are looked at, the first ones."""
@@ -23,7 +23,6 @@ _MOST_SAMPLES: Final = 2**25
 """Samples of the channels of a longer recording that are looked at, from its start."""
 _VARIES: Final = 0.05
 """Range of a speed, relative, from which a lag changes anything."""
-_LEAST_LAG_S: Final = 0.01
 _ERRORS: Final = 5.0
 """Standard errors of a lag that is one."""
 _OVERSAMPLING: Final = 2.5
@@ -85,9 +84,7 @@ def confirmed(
             signals, rate_hz = _decimated(recording, names, highest_hz)
             notes = [note for each in signals for note in _scale_notes(each, rate_hz, motion)][:1]
     else:
-        signals, rate_hz = _decimated(recording, names, highest_hz)
-        pairs = [speed_lag(each, rate_hz, motion) for each in signals]
-        lags = [(sharpness, lag) for lag, sharpness in pairs if lag is not None]
+        lags = list(_lags(recording, names, motion))
         if lags:
             lag = max(lags, key=lambda pair: pair[0])[1]
             motion, notes = _corrected(shaft, lag)
@@ -97,6 +94,20 @@ def confirmed(
     for note in notes:
         warnings.warn(f"speed: {note}", UncertainSpeedWarning, stacklevel=3)
     return replace(shaft, motion=motion, source="; ".join([shaft.source, *notes]))
+
+
+def _lags(
+    recording: RecordingBlocks, names: Sequence[str], motion: CrankMotion
+) -> Iterator[tuple[float, SpeedLag]]:
+    """Sharpness of the lines and lag of a motion by channel, up to one in which it is sure."""
+    highest_hz = float(_speeds_hz(motion).max())
+    for name in names[:MOST_CHANNELS]:
+        signals, rate_hz = _decimated(recording, [name], highest_hz)
+        lag, sharpness = speed_lag(signals[0], rate_hz, motion)
+        if lag is not None:
+            yield sharpness, lag
+            if lag.is_sure:
+                return
 
 
 def _decimated(
@@ -123,18 +134,18 @@ def _decimated(
 
 def _corrected(shaft: RecordedSpeed, lag: SpeedLag) -> tuple[CrankMotion, list[str]]:
     """Motion without its lag, and a sentence on it; the motion as it is without a clear lag."""
-    is_lag = abs(lag.lag_s) > max(_LEAST_LAG_S, _ERRORS * lag.error_s)
+    is_lag = abs(lag.lag_s) > max(LEAST_LAG_S, _ERRORS * lag.error_s)
     motion, held_s = shaft.motion, shaft.held_s
     lag_s = _scale_lag(lag) if shaft.kind == "recorded" else 0.0
     if is_lag and lag.bend > _BENDS and not _moves_off(lag):
         lag_s = lag.lag_s
     shifted = late(motion, lag_s)
-    if abs(lag_s) < _LEAST_LAG_S or shifted is None:
+    if abs(lag_s) < LEAST_LAG_S or shifted is None:
         return motion, []
     orders = ", ".join(f"{order:.4g}" for order in np.sort(lag.unmoved_lines))
     word = "late" if lag_s > 0.0 else "early"
     note = f"{abs(lag_s):.3g} s {word} beside lines of the sound (near orders {orders})"
-    if held_s > _LEAST_LAG_S:
+    if held_s > LEAST_LAG_S:
         note += f", its values are held for {held_s:.3g} s"
     if lag.lines.size == 1 and lag_s != lag.lag_s:
         return motion, [f"{note}, if that is a whole order: not corrected, orders read too low"]
@@ -197,10 +208,8 @@ def _unit_notes(
         highest_hz = float(_speeds_hz(geared).max())
         if not _LEAST_HZ < highest_hz < recording.sample_rate_hz / (2.0 * _LEAST_LINES):
             continue
-        signals, rate_hz = _decimated(recording, names, highest_hz)
-        for lag, _ in (speed_lag(signal, rate_hz, geared) for signal in signals):
-            is_sharp = lag is not None and np.isfinite(lag.error_s)
-            if lag is not None and is_sharp and np.sum(_in_place(lag.lines)) >= least_lines:
+        for _, lag in _lags(recording, names, geared):
+            if np.isfinite(lag.error_s) and np.sum(_in_place(lag.lines)) >= least_lines:
                 lines = ", ".join(f"{order:.4g}" for order in np.sort(lag.lines))
                 return [
                     f"no line of the sound is an order of it; as a speed in {unit} it has lines at "

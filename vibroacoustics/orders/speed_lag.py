@@ -17,6 +17,8 @@ from ..base.arrays import Array
 from .crank_motion import CrankMotion
 
 HIGHEST_ORDER: Final = 20.0
+LEAST_LAG_S: Final = 0.01
+"""Least lag that counts: sound takes 3 ms over a metre."""
 _LOWEST_ORDER: Final = 0.3
 _REVOLUTIONS: Final = 16
 """Revolutions of a block: lines are 1/8 order wide."""
@@ -76,6 +78,11 @@ class SpeedLag:
     departure: Array
     scatter: float
 
+    @property
+    def is_sure(self) -> bool:
+        """Whether the lines fix the lag better than the least one that counts."""
+        return self.error_s < 0.5 * LEAST_LAG_S
+
 
 @dataclass(frozen=True)
 class _Blocks:
@@ -114,6 +121,8 @@ def speed_lag(
     if blocks is None:
         return None, 0.0
     unmoved = _regression(blocks, motion)
+    if unmoved is not None and abs(unmoved.lag_s) < LEAST_LAG_S and unmoved.is_sure:
+        return replace(unmoved, bend=abs(unmoved.lag_s) * unmoved.bend), np.inf
     trials = np.linspace(-_LONGEST_S, _LONGEST_S, _STEPS)
     sharpness = [_sharpness(blocks, _shift(motion, blocks.middle_s, trial)) for trial in trials]
     first = _sharpness(blocks, np.ones(blocks.middle_s.size))
