@@ -200,7 +200,11 @@ class Reading:
 class OrderOptions:
     """Options of the orders that are analysed; the others are in the settings."""
 
-    orders: Annotated[str | None, "Shaft orders, with commas; default: 1,2,3,4."] = None
+    orders: Annotated[
+        str | None,
+        "Shaft orders, with commas; default: 1, 2 and the loudest, at most six; of several "
+        "recordings and with --fit: 1,2,3,4.",
+    ] = None
     maximum_order: Annotated[
         float | None, "Highest order of spectra and map; default: 20, or what the rate holds."
     ] = None
@@ -246,6 +250,8 @@ class OrderOptions:
             "is_fit": self.fit or None,
         }
         stated = {name: each for name, each in values.items() if each is not None}
+        if self.fit and not settings.get("orders", (1.0,)):  # a fit needs the orders' spacing
+            settings = {name: each for name, each in settings.items() if name != "orders"}
         return OrderAnalysis(source, **settings | stated, with_map=self.with_map)
 
 
@@ -256,7 +262,7 @@ class SpeedOptions:
     speed_channel: Annotated[
         str | None, "Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal."
     ] = None
-    pulses: Annotated[int, "Pulses of the tacho per revolution."] = 1
+    pulses: Annotated[float, "Pulses of the tacho per revolution, whole or not."] = 1
     index: Annotated[str | None, "Channel with one pulse a revolution: crank angle zero."] = None
     threshold: Annotated[
         float | None, "Level of the tacho that marks the angle, in its unit; default: follows it."

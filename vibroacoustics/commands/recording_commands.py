@@ -6,7 +6,7 @@ Heavy imports wait until a command needs them, and until a file is read that may
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, Final
 
 from ..base.progress import Progress
 from .command import command
@@ -24,6 +24,8 @@ from .reading import (
 )
 
 Orders = Annotated[str | None, "Shaft orders, with commas; default: 1,2,3,4."]
+LOUDEST: Final[dict[str, Any]] = {"orders": ()}
+"""Orders of an analysis of one recording that names none: 1, 2 and the loudest."""
 
 
 @command("orders", "Recordings", "machine.wav --speed-channel tacho --orders 1,2")
@@ -63,7 +65,7 @@ def orders_command(
         analysis, dataset_name = report.analysis_of_campaign(results), "campaign.nc"
     else:
         source = reading.source(speed, files[0], plugin)
-        settings = orders.analysis(source, reading.stated_analysis())
+        settings = orders.analysis(source, LOUDEST | reading.stated_analysis())
         recording = reading.in_blocks(files[0], plugin)
         from .. import report
         from ..measured.recorded_orders import analyse_orders

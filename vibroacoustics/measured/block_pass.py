@@ -1,20 +1,31 @@
 """One pass over the blocks of a recording: orders, their average and levels."""
 
+from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
 
 import numpy as np
 import xarray as xr
+from scipy.interpolate import PPoly
 
 from ..base.progress import Progress
 from ..base.recording_blocks import RecordingBlocks, block_by_block
 from ..levels.recorded import PressureLevels
 from ..orders import recorded as of_recording
+from ..orders.angular_plan import known_samples
 from ..orders.angular_stream import AngularStream
-from ..orders.block_orders import BlockOrders
+from ..orders.block_orders import MOST_UNASKED_MAP_BYTES, BlockOrders, map_size
 from ..orders.crank_motion import CrankMotion
 from ..orders.fitted_orders import FittedOrders
+from ..orders.loud_lines import MOST_LOUDEST
 from ..orders.synchronous_average import RevolutionAverage
 from ..study.order_analysis import OrderAnalysis
+
+_PARTS: Final = 16
+"""Parts of a long recording in which its loudest orders are looked for."""
+_PART_SHARE: Final = 0.05
+"""Share of the recording that the parts have together."""
 
 
 def passed_over(
@@ -33,6 +44,10 @@ def passed_over(
     rate_hz, samples = recording.sample_rate_hz, recording.samples
     channel = _labels(recording, names)
     plan = of_recording.angular_plan(rate_hz, samples, motion, settings)
+    _, blocks, lines = map_size(plan, settings)
+    if not settings.orders and 16 * len(names) * blocks * lines > MOST_UNASKED_MAP_BYTES:
+        loudest = _loudest_of_parts(recording, names, motion, settings)
+        settings = replace(settings, orders=loudest)
     stream = AngularStream(plan, len(names))
     orders = BlockOrders(plan, len(names), settings)
     average = RevolutionAverage(plan.samples_per_revolution)
@@ -47,7 +62,7 @@ def passed_over(
         levels.add(block)
         passed += block.shape[1]
     progress("orders", samples, samples)
-    of_blocks = orders.result()
+    of_blocks = orders.result(channel["channel_unit"].values == "Pa")
     results = of_recording.recorded_orders(channel, of_blocks, settings)
     averages = of_recording.synchronous_average(channel, average)
     in_db = levels.result()
@@ -55,6 +70,26 @@ def passed_over(
     results = results.merge(averages).merge(in_db).merge(over_blocks)
     results.attrs = {**of_recording.resolution(of_blocks), **averages.attrs, **in_db.attrs}
     return results
+
+
+def _loudest_of_parts(
+    recording: RecordingBlocks, names: Sequence[str], motion: CrankMotion, settings: OrderAnalysis
+) -> tuple[float, ...]:
+    """Loudest orders of parts of a long recording, whose map is too large to be kept."""
+    rate_hz = recording.sample_rate_hz
+    units = _labels(recording, names)["channel_unit"].values
+    covered = known_samples(motion, rate_hz, recording.samples)
+    loudest: Counter[float] = Counter()
+    starts = np.linspace(*covered, _PARTS, endpoint=False).astype(int)
+    length = int(_PART_SHARE * (covered[1] - covered[0]) / _PARTS)
+    for first in starts.tolist():
+        part = CrankMotion(PPoly(motion.curve.c, motion.curve.x - first / rate_hz))
+        plan = of_recording.angular_plan(rate_hz, length, part, settings)
+        orders = BlockOrders(plan, len(names), settings)
+        stream = AngularStream(plan, len(names))
+        orders.add(stream.add(recording.read(names, first, first + length)))
+        loudest.update(orders.result(units == "Pa").order.tolist())
+    return tuple(sorted(order for order, _ in loudest.most_common(MOST_LOUDEST)))
 
 
 def _fitted(

@@ -69,7 +69,7 @@ class SpeedSettings(Parameters):
     """Source of the speed: a channel, a nominal speed, or the orders in a channel."""
 
     channel: str | None = None
-    pulses_per_revolution: int = Field(default=1, ge=1, le=100_000)
+    pulses_per_revolution: float = Field(default=1, ge=0.001, le=100_000)
     index_channel: str | None = None
     threshold: float | None = None
     edge: Edge | None = None

@@ -14,7 +14,8 @@ from ..orders.analysed import analysed_channels, channels_without_speed
 from ..orders.analysis_defaults import with_defaults
 from ..orders.crank_motion import CrankMotion
 from ..orders.labelled_map import labelled_map, mapped_spectra
-from ..orders.recorded_speed import RecordedSpeed, recorded_speed
+from ..orders.recorded_speed import recorded_speed
+from ..orders.shaft_speed import RecordedSpeed
 from ..orders.tracked import tracked_orders
 from ..recordings import LabelledBlocks
 from ..results import provenance

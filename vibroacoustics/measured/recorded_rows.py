@@ -20,6 +20,19 @@ Row = dict[str, Any]
 """Values of `BaselineSpectrum` or `BaselineOrders`."""
 
 
+def of_each_speed(results: xr.Dataset) -> xr.Dataset:
+    """Results with one operating point a speed: of several branches that of the most blocks.
+
+    Parameters
+    ----------
+    results : result of `analyse_orders`, or mean of several
+    """
+    if "block_count" not in results.coords:
+        return results.drop_duplicates("speed")
+    ranked = results.isel(speed=np.argsort(-results["block_count"].values, kind="stable"))
+    return ranked.drop_duplicates("speed").sortby("speed")
+
+
 def order_row(results: xr.Dataset, channel: str, key: tuple[str, float], apart: Row | None) -> Row:
     """Orders at a speed: the coherent mean where the phase held, else the power above the noise.
 

@@ -8,6 +8,13 @@ from ..base.errors import ParameterError
 from ..study.order_analysis import SpeedChannel, SpeedSource
 
 
+def speed_channels(speed: SpeedSource) -> list[str]:
+    """Channels of a source of the speed that are no sound or vibration."""
+    if not isinstance(speed, SpeedChannel):
+        return []
+    return [name for name in (speed.channel, speed.index_channel) if name is not None]
+
+
 def analysed_channels(names: Sequence[str], speed: SpeedSource) -> list[str]:
     """Names of the channels that are analysed: all but those of the speed.
 
@@ -16,7 +23,7 @@ def analysed_channels(names: Sequence[str], speed: SpeedSource) -> list[str]:
     ParameterError
         There is none besides that of the speed.
     """
-    of_speed = (speed.channel, speed.index_channel) if isinstance(speed, SpeedChannel) else ()
+    of_speed = speed_channels(speed)
     others = [name for name in names if name not in of_speed]
     if not others:
         raise ParameterError("there is no channel besides that of the speed")

@@ -11,6 +11,7 @@ from ..study.order_analysis import (
     DEFAULT_MAXIMUM_ORDER,
     DEFAULT_ORDERS,
     DEFAULT_RESOLUTION_ORDER,
+    FIRST_ORDERS,
     OrderAnalysis,
 )
 from .angular_plan import HIGHEST_PASS_BAND_RATIO, AngularPlan, known_samples
@@ -32,7 +33,7 @@ def highest_order(settings: OrderAnalysis) -> float:
     resolution = settings.resolution_order or DEFAULT_RESOLUTION_ORDER
     return max(
         settings.maximum_order or DEFAULT_MAXIMUM_ORDER,
-        max(settings.orders) + _HALF_LOBE * resolution,
+        max(settings.orders or FIRST_ORDERS) + _HALF_LOBE * resolution,
     )
 
 
@@ -56,7 +57,8 @@ def with_defaults(
         shorter than a revolution.
     """
     limit = _rate_limit(rate_hz, samples, motion, highest_order(settings))
-    if settings.orders is DEFAULT_ORDERS:
+    is_held = max(FIRST_ORDERS) + _HALF_LOBE * DEFAULT_RESOLUTION_ORDER <= limit
+    if settings.orders is DEFAULT_ORDERS or not (settings.orders or is_held):
         settings = replace(settings, orders=_orders_below(limit, rate_hz))
     if settings.maximum_order is None:
         _check_orders(settings, limit)
@@ -73,7 +75,8 @@ def with_defaults(
     lines = window_by_name(WINDOW).noise_bandwidth_lines
     if (turns - 1.0) * DEFAULT_RESOLUTION_ORDER > 2.0 * lines:  # the kernel takes some
         return settings
-    return _for_few_turns(settings, rate_hz, samples, motion, lines)
+    orders = settings.orders or _orders_below(limit, rate_hz)
+    return _for_few_turns(settings, rate_hz, samples, motion, lines, orders)
 
 
 def _rate_limit(rate_hz: float, samples: int, motion: CrankMotion, needed: float) -> float:
@@ -101,14 +104,19 @@ def _orders_below(limit: float, rate_hz: float) -> tuple[float, ...]:
 def _check_orders(settings: OrderAnalysis, limit: float) -> None:
     resolution = settings.resolution_order or DEFAULT_RESOLUTION_ORDER
     highest = limit - (0.0 if settings.is_fit else _HALF_LOBE * resolution)
-    if max(settings.orders) > highest:
+    if max(settings.orders, default=0.0) > highest:
         raise ParameterError(
             f"orders = {max(settings.orders):g}: must be at most {highest:.4g} at the highest speed"
         )
 
 
 def _for_few_turns(
-    settings: OrderAnalysis, rate_hz: float, samples: int, motion: CrankMotion, lines: float
+    settings: OrderAnalysis,
+    rate_hz: float,
+    samples: int,
+    motion: CrankMotion,
+    lines: float,
+    orders: tuple[float, ...],
 ) -> OrderAnalysis:
     """Settings with the finest resolution that blocks allow, or with a fit."""
     plan = _plan(settings, rate_hz, samples, motion)
@@ -118,7 +126,7 @@ def _for_few_turns(
         return settings
     if revolutions >= _LEAST_REVOLUTIONS:
         return replace(settings, resolution_order=lines / revolutions)
-    return replace(settings, is_fit=True)
+    return replace(settings, is_fit=True, orders=orders)
 
 
 def _plan(

@@ -11,7 +11,8 @@ from ..study.order_analysis import DEFAULT_RESOLUTION_ORDER, OrderAnalysis
 from .angular import AngularSignal, joined
 from .angular_plan import AngularPlan
 from .block_spectra import block_hop, block_starts
-from .order_cut import order_bands, rms_in_bands
+from .loud_lines import loud_orders
+from .order_cut import order_bands, order_lines, rms_in_bands
 from .order_map import OrderMap, block_phasors, block_revolutions, order_map, rms_of_lines
 from .windows import window_by_name
 
@@ -31,7 +32,8 @@ class OrdersOfBlocks:
 
     Attributes
     ----------
-    phasor : complex peak of the orders wanted, shape (channel, block, order)
+    order : orders of the settings, or the loudest, shape (order,)
+    phasor : complex peak of these orders, shape (channel, block, order)
     rms : in their bands, shape (channel, block, order)
     mean_spectrum : RMS of each line from the mean power over the blocks, shape (channel, line)
     map_order : order of the lines, shape (line,)
@@ -43,6 +45,7 @@ class OrdersOfBlocks:
     band_order : width of the bands, orders
     """
 
+    order: Array
     phasor: ComplexArray
     rms: Array
     mean_spectrum: Array
@@ -78,21 +81,14 @@ class BlockOrders:
     def __init__(self, plan: AngularPlan, channels: int, settings: OrderAnalysis) -> None:
         self._settings = settings
         self._resolution = settings.resolution_order or DEFAULT_RESOLUTION_ORDER
-        first, last = plan.grid
-        samples = last + 1 - first
-        per_revolution = plan.samples_per_revolution
-        spanned = samples / per_revolution
-        try:
-            self._revolutions = block_revolutions(window_by_name(WINDOW), self._resolution, spanned)
-        except ParameterError as error:
-            raise ParameterError(f"{error}; for a few revolutions give is_fit") from None
-        self._length = self._revolutions * per_revolution
-        blocks = block_starts(samples, self._length, OVERLAP_RATIO).size
-        lines = int(plan.maximum_order * self._revolutions) + 1
+        revolutions, blocks, lines = map_size(plan, settings)
+        self._length = revolutions * plan.samples_per_revolution
         if settings.with_map:
             _check_map(channels, blocks, lines)
         is_small = 16 * channels * blocks * lines <= MOST_UNASKED_MAP_BYTES
-        self._keeps_map = is_small if settings.with_map is None else settings.with_map
+        chooses = not settings.orders  # from the map
+        self._keeps_map = chooses or (is_small if settings.with_map is None else settings.with_map)
+        self._shows_map = is_small if settings.with_map is None else settings.with_map
         self._pending: AngularSignal | None = None
         self._spectra: list[OrderMap] = []  # without amplitudes where no map is wanted
         self._bands: list[range] = []
@@ -118,9 +114,10 @@ class BlockOrders:
         if signal.time_s.size < self._length:
             return
         spectra = order_map(signal, self._resolution, WINDOW, OVERLAP_RATIO)
-        self._phasors.append(block_phasors(signal, spectra, self._settings.orders))
-        self._bands = self._bands or order_bands(spectra, self._settings.orders)
-        self._rms.append(rms_in_bands(spectra, self._bands))
+        if self._settings.orders:
+            self._phasors.append(block_phasors(signal, spectra, self._settings.orders))
+            self._bands = self._bands or order_bands(spectra, self._settings.orders)
+            self._rms.append(rms_in_bands(spectra, self._bands))
         self._squares.append(np.sum(np.abs(spectra.amplitude) ** 2, axis=-2))
         if not self._keeps_map:
             spectra = replace(spectra, amplitude=np.empty(0, dtype=complex))
@@ -128,28 +125,67 @@ class BlockOrders:
         hop = block_hop(self._length, OVERLAP_RATIO)
         self._pending = signal.behind(int(spectra.starts[-1]) + hop)
 
-    def result(self) -> OrdersOfBlocks:
-        """Return the orders of all blocks added."""
+    def result(self, is_sound: Array) -> OrdersOfBlocks:
+        """Return the orders of all blocks added; of settings without orders, the loudest.
+
+        Parameters
+        ----------
+        is_sound : whether a channel is sound pressure, shape (channel,)
+        """
         last = self._spectra[-1]
         time_s = np.concatenate([spectra.time_s for spectra in self._spectra])
         shaft_frequency_hz = np.concatenate(
             [spectra.shaft_frequency_hz for spectra in self._spectra]
         )
         amplitude = None
-        if self._settings.with_map or (self._keeps_map and not is_steady(shaft_frequency_hz)):
+        if self._keeps_map:
             amplitude = np.concatenate([spectra.amplitude for spectra in self._spectra], axis=-2)
+        orders = self._settings.orders
+        if amplitude is not None and not orders:
+            speed_rpm, width = 60.0 * shaft_frequency_hz, last.main_lobe_order
+            orders = loud_orders(amplitude, last.order, speed_rpm, width, is_sound)
+            spectra = replace(last, amplitude=amplitude)
+            self._phasors = [order_lines(spectra, orders)]
+            self._rms = [rms_in_bands(spectra, order_bands(spectra, orders))]
+        is_shown = self._settings.with_map or not is_steady(shaft_frequency_hz)
         return OrdersOfBlocks(
+            order=np.array(orders),
             phasor=np.concatenate(self._phasors, axis=-2),
             rms=np.concatenate(self._rms, axis=-2),
             mean_spectrum=rms_of_lines(np.sum(self._squares, axis=0) / time_s.size),
             map_order=last.order,
-            amplitude=amplitude,
+            amplitude=amplitude if is_shown and self._shows_map else None,
             time_s=time_s,
             shaft_frequency_hz=shaft_frequency_hz,
             revolutions=last.revolutions,
             resolution_order=last.resolution_order,
             band_order=last.main_lobe_order,
         )
+
+
+def map_size(plan: AngularPlan, settings: OrderAnalysis) -> tuple[int, int, int]:
+    """Revolutions of a block, blocks and lines of the order map of a recording.
+
+    Parameters
+    ----------
+    plan : plan of the recording
+    settings : settings with the resolution
+
+    Raises
+    ------
+    ParameterError
+        The recording has too few revolutions for the resolution.
+    """
+    samples, per_revolution = plan.grid[1] + 1 - plan.grid[0], plan.samples_per_revolution
+    try:
+        resolution = settings.resolution_order or DEFAULT_RESOLUTION_ORDER
+        revolutions = block_revolutions(
+            window_by_name(WINDOW), resolution, samples / per_revolution
+        )
+    except ParameterError as error:
+        raise ParameterError(f"{error}; for a few revolutions give is_fit") from None
+    blocks = block_starts(samples, revolutions * per_revolution, OVERLAP_RATIO).size
+    return revolutions, blocks, int(plan.maximum_order * revolutions) + 1
 
 
 def is_steady(speed: Array) -> bool:

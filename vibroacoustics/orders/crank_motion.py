@@ -38,6 +38,10 @@ class CrankMotion:
         """Shaft frequency at times within start and end, Hz."""
         return np.asarray(self.curve(time_s, 1)) / (2.0 * np.pi)
 
+    def delayed(self, delay_s: float) -> "CrankMotion":
+        """Motion that is later by a time."""
+        return CrankMotion(PPoly(self.curve.c, self.curve.x + delay_s))
+
     def geared(self, ratio: float) -> "CrankMotion":
         """Motion of a shaft that turns `ratio` times as fast."""
         return CrankMotion(PPoly(self.curve.c * ratio, self.curve.x))

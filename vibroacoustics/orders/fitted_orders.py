@@ -126,6 +126,7 @@ class FittedOrders:
         rms[:, 0] = np.abs(fitted[:, 0])
         duration_s = self._time_s[-1] - self._time_s[0]
         return OrdersOfBlocks(
+            order=np.array(self._settings.orders),
             phasor=phasor,
             rms=np.abs(phasor) / np.sqrt(2.0),
             mean_spectrum=rms,

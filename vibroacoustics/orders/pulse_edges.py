@@ -58,8 +58,9 @@ def pulse_times(
     ----------
     signal : shape (time,), in any unit
     sample_rate_hz : samples per second
-    edge : the edge that marks the angle; where not given the rising one, but of pulses to both
-        sides of a rest the steeper one, which is the zero crossing of an inductive pickup
+    edge : the edge that marks the angle; where not given the first one of a pulse, rising or, of
+        inverted pulses, falling; of pulses to both sides of a rest the steeper one, which is the
+        zero crossing of an inductive pickup
     threshold : level to cross, in the signal's unit; from the signal where not given
     hysteresis : full width of the band around the threshold, in the signal's unit; 40 % of the
         swing where not given
@@ -109,8 +110,10 @@ def pulses_of(
         middle_follows=threshold is None,
         band_follows=hysteresis is None,
     )
+    if edge is None and are_two_states:
+        edge = "falling" if states.is_inverted() else "rising"
     if edge is None:
-        edge = "rising" if are_two_states else _steeper(blocks, levels)
+        edge = _steeper(blocks, levels)
     pulses = _followed(blocks, samples, edge, levels, not are_two_states)
     if pulses.size == 0:
         raise ParameterError(

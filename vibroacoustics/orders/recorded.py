@@ -9,10 +9,11 @@ import xarray as xr
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
-from ..study.order_analysis import OrderAnalysis
+from ..study.order_analysis import LEAST_BLOCKS, OrderAnalysis
 from .analysis_defaults import highest_order
 from .angular_plan import AngularPlan
 from .block_orders import WINDOW, OrdersOfBlocks, is_steady
+from .branches import Names, branch_of_blocks
 from .crank_motion import CrankMotion
 from .pulse_faults import PulseFault
 from .synchronous_average import RevolutionAverage
@@ -37,13 +38,14 @@ def recorded_orders(
     settings : the orders that are wanted
     """
     block_speed = 60.0 * blocks.shaft_frequency_hz
-    speeds, point = operating_points(block_speed, settings.speed_step_rpm)
-    at_points = _at_points(blocks.phasor, blocks.rms, point, speeds.size)
+    branch = branch_of_blocks(block_speed, order_square(blocks.rms))
+    speeds, branches, point = points_of_branches(block_speed, branch, settings.speed_step_rpm)
+    at_points = mean_orders(blocks.phasor, blocks.rms, point, speeds.size)
     by_line = {"channel": channel["channel"], "map_order": blocks.map_order}
     by_block = {
         "channel": channel["channel"],
         "block": np.arange(blocks.time_s.size),
-        "order": np.array(settings.orders),
+        "order": blocks.order,
     }
     by_speed = {"channel": channel["channel"], "speed": speeds, "order": by_block["order"]}
     labelled = {
@@ -58,7 +60,8 @@ def recorded_orders(
     coords = {
         "block_time": ("block", blocks.time_s),
         "block_speed": ("block", block_speed),
-        "block_count": ("speed", np.bincount(point, minlength=speeds.size)),
+        "branch": ("speed", branches),
+        "block_count": ("speed", np.bincount(point[point >= 0], minlength=speeds.size)),
         "channel_unit": channel["channel_unit"],
         "calibration_factor": channel["calibration_factor"],
     }
@@ -79,18 +82,75 @@ def operating_points(block_speed_rpm: Array, speed_step_rpm: float) -> tuple[Arr
     return speed_step_rpm * numbers, point
 
 
-def _at_points(
+def points_of_branches(
+    block_speed_rpm: Array, branch: Names, speed_step_rpm: float
+) -> tuple[Array, Names, IndexArray]:
+    """Operating points of each branch, in the order of time; see `operating_points`.
+
+    Parameters
+    ----------
+    block_speed_rpm : shape (block,)
+    branch : branch of each block, shape (block,); empty where it has none
+    speed_step_rpm : step of the operating points of a run-up
+
+    Returns
+    -------
+    speeds, rpm, and branches, shape (point,); point of each block, shape (block,), or -1
+    """
+    names = list(dict.fromkeys(branch[branch != ""].tolist()))
+    speeds: list[float] = []
+    branches: list[str] = []
+    point = np.full(block_speed_rpm.size, -1, dtype=np.intp)
+    for name in names:
+        of_name = branch == name
+        of_branch, position = operating_points(block_speed_rpm[of_name], speed_step_rpm)
+        point[of_name] = len(speeds) + position
+        speeds += of_branch.tolist()
+        branches += [name] * of_branch.size
+    return np.array(speeds), np.array(branches), point
+
+
+def order_square(rms: Array) -> Array:
+    """Mean square of the orders in each block, each channel over its greatest, shape (block,).
+
+    Parameters
+    ----------
+    rms : in the orders' bands, shape (channel, block, order)
+    """
+    square = np.sum(rms**2, axis=-1)
+    greatest = square.max(axis=1, keepdims=True)
+    return np.asarray(np.sum(square / np.where(greatest > 0.0, greatest, 1.0), axis=0))
+
+
+def mean_orders(
     lines: ComplexArray, rms: Array, point: IndexArray, number: int
 ) -> dict[str, Array | ComplexArray]:
-    """Coherent mean, root mean power and coherence, (channel, point, order), of the blocks."""
+    """Coherent mean, root mean power and coherence of the blocks of each operating point.
+
+    The coherence |mean X|² / mean |X|² of one block is 1 whatever it holds, of n blocks of noise
+    about 1/n: with fewer than `LEAST_BLOCKS` it is not a number.
+
+    Parameters
+    ----------
+    lines : complex peaks, shape (channel, block, order)
+    rms : in the orders' bands, same shape
+    point : operating point of each block, shape (block,); -1 where it has none
+    number : number of operating points
+
+    Returns
+    -------
+    `channel_order`, `channel_order_rms`, `channel_order_coherence`, shape (channel, point, order)
+    """
     member = np.equal.outer(np.arange(number), point).astype(float)
-    share = member / member.sum(axis=1, keepdims=True)
+    count = member.sum(axis=1, keepdims=True)
+    share = member / count
     mean = np.einsum("pb,cbo->cpo", share, lines)
     power = np.einsum("pb,cbo->cpo", share, np.abs(lines) ** 2)
+    coherence = np.abs(mean) ** 2 / np.maximum(power, np.finfo(float).tiny)
     return {
         "channel_order": mean,
         "channel_order_rms": np.sqrt(np.einsum("pb,cbo->cpo", share, rms**2)),
-        "channel_order_coherence": np.abs(mean) ** 2 / np.maximum(power, np.finfo(float).tiny),
+        "channel_order_coherence": np.where(count < LEAST_BLOCKS, np.nan, coherence),
     }
 
 

@@ -1,9 +1,9 @@
 """Crank angle of a recording: from a tacho, a speed channel, a given speed or the signal."""
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any, Final
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from typing import Final
 
 import numpy as np
 
@@ -20,12 +20,16 @@ from ..study.order_analysis import (
     SpeedSource,
     TacholessSpeed,
 )
+from .analysed import speed_channels
+from .angle_channel import angle_motion_of, is_sawtooth
+from .confirmed_speed import confirmed
 from .crank_motion import CrankMotion, constant_speed
 from .pulse_edges import pulses_of
-from .pulse_faults import PulseFault
 from .pulse_heights import silent_parts
 from .pulse_pattern import sampling_note
 from .rpm_channel import rpm_motion_of
+from .rpm_faults import SpeedFault
+from .shaft_speed import RecordedSpeed, UncertainSpeedWarning
 from .speed_check import MOSTLY, WIDE_LINE, SpeedCheck
 from .speed_line import motion_near_line
 from .tacho import tacho_motion
@@ -38,11 +42,9 @@ MOST_SPEED_SAMPLES: Final = 2**26
 """Most samples of a channel in which the speed is sought: half a GiB, 22 min at 51.2 kHz."""
 
 _PARTS: Final = 3
-"""Parts without pulses that are listed."""
-
-
-class UncertainSpeedWarning(UserWarning):
-    """The speed that a signal gives need not be that of the shaft."""
+"""Parts without pulses, and faults of a speed, that are listed."""
+RPM_PER_UNIT: Final = {"rpm": 1.0, "rad/s": 30.0 / np.pi, "Hz": 60.0, "rev/s": 60.0, "1/s": 60.0}
+"""Units of a channel that is a speed."""
 
 
 class StandstillWarning(UserWarning):
@@ -57,29 +59,6 @@ class PulseWarning(UserWarning):
     >>> import warnings
     >>> warnings.simplefilter("error", va.PulseWarning)  # refuse such recordings
     """
-
-
-@dataclass(frozen=True)
-class RecordedSpeed:
-    """Crank motion of a recording and where it comes from."""
-
-    motion: CrankMotion
-    source: str
-    """Source of the speed, in words."""
-    angle_zero: str = NO_ANGLE_ZERO
-    """The mark on the shaft at which the crank angle is zero."""
-    faults: tuple[PulseFault, ...] = ()
-    quality: Mapping[str, float] = field(default_factory=dict)
-    """`jitter` of a tacho in periods, or `confidence` without one."""
-
-    def attributes(self) -> dict[str, Any]:
-        """Return attributes of the results on the speed."""
-        return {
-            "speed_source": self.source,
-            "angle_zero": self.angle_zero,
-            **self.quality,
-            "tacho_faults": len(self.faults),
-        }
 
 
 def check_speed_channels(names: Sequence[str], speed: SpeedSource) -> None:
@@ -115,19 +94,44 @@ def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSp
         Teeth are missing, pulses unequally spaced or too quick for the sample rate, their jitter
         is above 5 % of a period, or a part of the recording has none.
     """
+    shaft = _source(recording, speed)
+    if isinstance(speed, TacholessSpeed | SpeedLine):  # checked beside the sound already
+        return shaft
+    names = [name for name in recording.channels if name not in speed_channels(speed)]
+    return confirmed(recording, shaft, names) if names else shaft
+
+
+def _source(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSpeed:
+    """Crank angle as the source of the speed gives it."""
     rate_hz = recording.sample_rate_hz
     if isinstance(speed, NominalSpeed):
         end_s = (recording.samples - 1) / rate_hz
         motion = constant_speed(shaft_frequency_hz(speed.speed_rpm), 0.0, end_s)
-        return RecordedSpeed(motion, f"nominal {speed.speed_rpm:g} rpm")
+        return RecordedSpeed(motion, f"nominal {speed.speed_rpm:g} rpm", kind="nominal")
     name = _channel(recording.channels, speed.channel)
     if isinstance(speed, TacholessSpeed):
         return _from_signal(_samples(recording, name), rate_hz, speed)
     if isinstance(speed, SpeedLine):
         return _from_line(_samples(recording, name), rate_hz, speed)
-    if recording.channel_units[recording.channels.index(name)] == "rpm":
-        return _from_rpm(recording, name)
+    unit = recording.channel_units[recording.channels.index(name)]
+    if unit in RPM_PER_UNIT:
+        return _from_rpm(recording, name, unit)
+    if unit in ("V", "1"):
+        _refuse_sawtooth(recording, name)
+    if unit == "rad":
+        motion = angle_motion_of(_blocks(recording, name), recording.samples, rate_hz)
+        return RecordedSpeed(motion, f"angle {name}", f"zero of {name}")
     return _from_pulses(recording, speed)
+
+
+def _refuse_sawtooth(recording: RecordingBlocks, name: str) -> None:
+    """Refuse an angle without its unit: its return to zero looks like pulses."""
+    if is_sawtooth(next(_blocks(recording, name)())):
+        unit = recording.channel_units[recording.channels.index(name)]
+        raise ParameterError(
+            f"channel {name} [{unit}]: rises evenly to a full turn and returns to zero, as an "
+            "angle in rad, ° or turns, not as pulses: state its unit, rad or °"
+        )
 
 
 def _from_signal(samples: Array, rate_hz: float, speed: TacholessSpeed) -> RecordedSpeed:
@@ -191,16 +195,33 @@ def _uncertain(mean_hz: float, check: SpeedCheck, mains_hz: float | None) -> str
     )
 
 
-def _from_rpm(recording: RecordingBlocks, name: str) -> RecordedSpeed:
+def _from_rpm(recording: RecordingBlocks, name: str, unit: str) -> RecordedSpeed:
     samples, rate_hz = recording.samples, recording.sample_rate_hz
-    motion = rpm_motion_of(_blocks(recording, name), samples, rate_hz)
-    source = f"channel {name}, rpm"
+    blocks = _blocks(recording, name)
+    recorded = rpm_motion_of(blocks, samples, rate_hz, RPM_PER_UNIT[unit])
+    motion, source = recorded.motion, f"channel {name}, {unit}"
     before, behind = motion.start_s, (samples - 1) / rate_hz - motion.end_s
-    if max(before, behind) < 0.5 / rate_hz:
-        return RecordedSpeed(motion, source)
-    cut = f"standstill cut off: {before:.3g} s before, {behind:.3g} s behind"
-    warnings.warn(f"channel {name}: {cut}", StandstillWarning, stacklevel=3)
-    return RecordedSpeed(motion, f"{source}; {cut}")
+    if max(before, behind) >= 0.5 / rate_hz:
+        cut = f"standstill cut off: {before:.3g} s before, {behind:.3g} s behind"
+        warnings.warn(f"channel {name}: {cut}", StandstillWarning, stacklevel=4)
+        source += f"; {cut}"
+    if recorded.faults:
+        note = _faults_note(recorded.faults)
+        warnings.warn(f"channel {name}: {note}", UncertainSpeedWarning, stacklevel=4)
+        source += f"; {note}"
+    return RecordedSpeed(motion, source, kind="recorded", held_s=recorded.held_s)
+
+
+def _faults_note(faults: Sequence[SpeedFault]) -> str:
+    """Sentence on parts of a recorded speed that are interpolated."""
+    listed = [
+        f"{fault.kind} of {fault.rpm:.0f} rpm "
+        + (f"from {fault.start_s:.4g} to {fault.end_s:.4g} s" if fault.end_s > fault.start_s
+           else f"at {fault.start_s:.4g} s")
+        for fault in faults[:_PARTS]
+    ]  # fmt: skip
+    more = f" and {len(faults) - _PARTS} more" if len(faults) > _PARTS else ""
+    return f"the speed is interpolated over {', '.join(listed)}{more}"
 
 
 def _from_pulses(recording: RecordingBlocks, speed: SpeedChannel) -> RecordedSpeed:
@@ -224,7 +245,7 @@ def _from_pulses(recording: RecordingBlocks, speed: SpeedChannel) -> RecordedSpe
     number = speed.pulses_per_revolution
     edge = "falling edge, " if pulses.edge == "falling" else ""
     source = (
-        f"tacho {speed.channel}, {number} pulse{'s' if number > 1 else ''} a revolution, "
+        f"tacho {speed.channel}, {number:g} pulse{'s' if number != 1 else ''} a revolution, "
         f"{edge}jitter {100.0 * tracked.jitter:.2g} % of a period"
     )
     return RecordedSpeed(

@@ -1,13 +1,15 @@
 """Crank motion from a recorded speed."""
 
 from collections.abc import Callable, Iterator
-from typing import Final
+from dataclasses import dataclass
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from ..base.arrays import Array, IndexArray
 from ..base.errors import ParameterError
 from .crank_motion import CrankMotion, from_angle
+from .rpm_faults import SpeedFault, listed_faults, repaired, without_strays
 
 _POINTS_PER_S: Final = 20
 """Points of a recorded speed: it holds nothing faster than the 10 Hz that drives are controlled
@@ -15,6 +17,11 @@ at."""
 _LEAST_POINTS: Final = 4
 _STANDSTILL: Final = 0.01
 """Share of the highest speed up to which a shaft that starts or stops counts as standing."""
+
+_WIDE: Final = 0.3
+"""Range of the speed within an interval, relative, from which strays are looked for."""
+_HELD_SAMPLES: Final = 8
+"""Samples with the same value from which a speed counts as held."""
 
 Blocks = Callable[[], Iterator[Array]]
 """Starts over with the channel's blocks, each of shape (time,)."""
@@ -42,17 +49,38 @@ def rpm_motion(speed_rpm: Array, sample_rate_hz: float) -> CrankMotion:
             f"speed: needs at least {_LEAST_POINTS} finite samples of one channel, got shape "
             f"{speed_rpm.shape}"
         )
-    return rpm_motion_of(lambda: iter((speed_rpm,)), speed_rpm.size, sample_rate_hz)
+    return rpm_motion_of(lambda: iter((speed_rpm,)), speed_rpm.size, sample_rate_hz).motion
 
 
-def rpm_motion_of(blocks: Blocks, samples: int, sample_rate_hz: float) -> CrankMotion:
+@dataclass(frozen=True)
+class RpmMotion:
+    """Crank motion from a recorded speed, and what was wrong with it.
+
+    Attributes
+    ----------
+    motion : crank motion
+    faults : spikes, drop-outs and frozen parts, which are interpolated
+    held_s : mean time for which a value is held; 0 where the channel has a value for each sample
+    """
+
+    motion: CrankMotion
+    faults: tuple[SpeedFault, ...] = ()
+    held_s: float = 0.0
+
+
+def rpm_motion_of(
+    blocks: Blocks, samples: int, sample_rate_hz: float, factor: float = 1.0
+) -> RpmMotion:
     """Crank motion from a speed channel that comes in blocks; see `rpm_motion`.
+
+    Spikes, drop-outs and frozen parts are interpolated.
 
     Parameters
     ----------
     blocks : read twice; thrice where the speed falls to zero
     samples : number of samples of all blocks
     sample_rate_hz : samples per second
+    factor : rpm per unit of the channel
     """
     if samples < _LEAST_POINTS:
         raise ParameterError(
@@ -61,8 +89,24 @@ def rpm_motion_of(blocks: Blocks, samples: int, sample_rate_hz: float) -> CrankM
     first, last = _turning_part(blocks, samples)
     points = max(_LEAST_POINTS, int(_POINTS_PER_S * (last - first) / sample_rate_hz))
     probes = np.linspace(first, last - 1, min(points, last - first)).round().astype(int)
-    angle_rad = 2.0 * np.pi / 60.0 / sample_rate_hz * _integral(blocks(), probes)
-    return from_angle(probes / sample_rate_hz, angle_rad)
+    means = _interval_means(blocks(), probes)
+    mended, is_fault = repaired(means.mean, means.low == means.high)
+    time_s = probes / sample_rate_hz
+    faults = listed_faults(factor * means.mean, is_fault, factor * mended, time_s)
+    faults += [
+        SpeedFault("spike" if value > 0.0 else "drop-out", number / sample_rate_hz,
+                   number / sample_rate_hz, factor * abs(value))
+        for number, value in means.strays
+    ]  # fmt: skip
+    turned = np.concatenate([[0.0], np.cumsum(mended * np.diff(probes))]) * factor
+    motion = from_angle(time_s, 2.0 * np.pi / 60.0 / sample_rate_hz * turned)
+    held_s = (last - first) / max(means.changes, 1) / sample_rate_hz
+    is_held = means.changes * _HELD_SAMPLES < last - first and means.changes >= _LEAST_POINTS
+    return RpmMotion(motion, tuple(sorted(faults, key=_start)), held_s if is_held else 0.0)
+
+
+def _start(fault: SpeedFault) -> float:
+    return fault.start_s
 
 
 def _turning_part(blocks: Blocks, samples: int) -> tuple[int, int]:
@@ -100,15 +144,48 @@ def _runs(
     return borders[::2], borders[1::2], moving
 
 
-def _integral(blocks: Iterator[Array], probes: IndexArray) -> Array:
-    """Sum of the trapezoids from the first of some rising samples up to each of them."""
-    integral = np.zeros(probes.size)
-    added, total, before = 0, 0.0, 0.0
+class _Means(NamedTuple):
+    """Mean, lowest and highest of intervals; strays with their sign; changes of the value."""
+
+    mean: Array
+    low: Array
+    high: Array
+    strays: list[tuple[int, float]]
+    changes: int
+
+
+def _interval_means(blocks: Iterator[Array], probes: IndexArray) -> _Means:
+    """Means of the intervals between some rising samples, by the trapezoidal rule."""
+    count = probes.size - 1
+    mean, low, high = np.empty(count), np.empty(count), np.empty(count)
+    strays: list[tuple[int, float]] = []
+    kept: Array = np.empty(0)
+    added, done, changes = 0, 0, 0
     for block in blocks:
-        steps = 0.5 * (block + np.concatenate([[before], block[:-1]]))
-        steps[: max(min(probes[0] + 1 - added, block.size), 0)] = 0.0  # up to the first
-        sums = total + np.cumsum(steps)
-        here = (probes >= added) & (probes < added + block.size)
-        integral[here] = sums[probes[here] - added]
-        added, total, before = added + block.size, float(sums[-1]), float(block[-1])
-    return integral
+        # From the first sample of the next interval on.
+        data, begin = np.concatenate([kept, block]), added - kept.size
+        added += block.size
+        last = int(np.searchsorted(probes, added)) - 1  # intervals that are complete
+        if last > done:
+            part = data[probes[done] - begin : probes[last] - begin + 1].copy()
+            starts = probes[done:last] - probes[done]
+            low[done:last], high[done:last] = (
+                extreme.reduceat(part[:-1], starts) for extreme in (np.minimum, np.maximum)
+            )
+            changes += int(np.count_nonzero(part[1:] != part[:-1]))
+            wide = high[done:last] - low[done:last] > _WIDE * np.abs(high[done:last])
+            for number in np.flatnonzero(wide).tolist():
+                of_interval = slice(starts[number], probes[done + number + 1] - probes[done])
+                mended, is_stray = without_strays(part[of_interval])
+                if 0 < np.count_nonzero(is_stray) < 0.5 * is_stray.size:
+                    worst = int(np.argmax(np.abs(part[of_interval] - mended)))
+                    sign = 1.0 if part[of_interval][worst] > mended[worst] else -1.0
+                    strays.append(
+                        (int(probes[done + number]) + worst, sign * abs(part[of_interval][worst]))
+                    )
+                    part[of_interval] = mended
+            sums = np.add.reduceat(0.5 * (part[1:] + part[:-1]), starts)
+            mean[done:last] = sums / np.diff(probes[done : last + 1])
+            done = last
+        kept = data[max(int(probes[done]) - begin, 0) :] if done < count else np.empty(0)
+    return _Means(mean, low, high, strays, changes)

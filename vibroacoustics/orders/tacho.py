@@ -6,10 +6,13 @@ from typing import Final
 import numpy as np
 from scipy.interpolate import PPoly
 
+from ..base.allowed import check_range
 from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..study.order_analysis import PULSES
 from .crank_motion import CrankMotion, from_curve
 from .pulse_faults import PulseFault, number_pulses
+from .pulse_marks import joint_note, joint_sizes, mark_angles
 from .pulse_pattern import pulse_notes
 from .smoothing import smooth_curve
 
@@ -31,20 +34,21 @@ class TachoResult:
 
 
 def tacho_motion(
-    pulse_times_s: Array, pulses_per_revolution: int = 1, index_times_s: Array | None = None
+    pulse_times_s: Array, pulses_per_revolution: float = 1, index_times_s: Array | None = None
 ) -> TachoResult:
     """Crank motion from the times of tacho pulses, from the first pulse to the last.
 
     Missing and double pulses are found first; the angle is then a spline through the pulses that is
     as smooth as their jitter asks for (`smooth_curve`). Within one knot distance of its ends the
-    speed is less certain than inside. The pulses are taken to be equally spaced on the shaft: a
-    pitch error of theirs shows as a fluctuation of the speed that repeats every revolution, from
-    which nothing in the pulses shows; a large one is noted.
+    speed is less certain than inside. The pulses are taken to be equally spaced on the shaft,
+    but for the joint of a tape, which is learnt: a pitch error of theirs shows as a fluctuation of
+    the speed that repeats every revolution, from which nothing in the pulses shows; a large one is
+    noted.
 
     Parameters
     ----------
     pulse_times_s : shape (pulses,), rising
-    pulses_per_revolution : pulses per revolution of the tacho
+    pulses_per_revolution : pulses per revolution of the tacho, whole or, behind a gear, not
     index_times_s : shape (index pulses,), of a second channel with one pulse a revolution. Angle
         zero is its first pulse within the motion; without it, it is the tacho's first pulse.
 
@@ -54,17 +58,23 @@ def tacho_motion(
         There are fewer than three pulses, they are no even train, the shaft stops, or the index
         pulses do not come once a revolution.
     """
-    if pulses_per_revolution < 1:
-        raise ParameterError(
-            f"pulses_per_revolution = {pulses_per_revolution}: out of range; allowed from 1"
-        )
-    pulses = number_pulses(np.asarray(pulse_times_s, dtype=float))
+    check_range("pulses_per_revolution", pulses_per_revolution, *PULSES)
     pitch_rad = 2.0 * np.pi / pulses_per_revolution
+    times = np.asarray(pulse_times_s, dtype=float)
+    is_whole = float(pulses_per_revolution).is_integer()
+    sizes = joint_sizes(times, int(pulses_per_revolution)) if is_whole else None
+    if sizes is not None:
+        smooth = smooth_curve(times, mark_angles(times.size, sizes))
+        motion = from_curve(smooth.curve)
+        if index_times_s is not None:
+            motion = _from_index(motion, index_times_s, pitch_rad)
+        return TachoResult(motion, (), smooth.scatter / pitch_rad, (joint_note(sizes),))
+    pulses = number_pulses(times)
     smooth = smooth_curve(pulses.time_s, pitch_rad * pulses.number.astype(float))
     motion = from_curve(smooth.curve)
     if index_times_s is not None:
         motion = _from_index(motion, index_times_s, pitch_rad)
-    notes, are_teeth = pulse_notes(pulses, pulses_per_revolution)
+    notes, are_teeth = pulse_notes(pulses, int(pulses_per_revolution)) if is_whole else ((), False)
     faults = [fault for fault in pulses.faults if not (are_teeth and fault.kind == "missing")]
     jitter = smooth.scatter / pitch_rad
     if jitter > MOST_JITTER and not notes:  # teeth or spacing that are noted make jitter too
@@ -90,9 +100,9 @@ def _from_index(motion: CrankMotion, index_times_s: Array, pitch_rad: float) -> 
     angle_rad = motion.angle_rad(index_times_s[covered])
     pulses = float(np.median(np.diff(angle_rad))) / pitch_rad if angle_rad.size > 1 else 0.0
     stated = 2.0 * np.pi / pitch_rad
-    if angle_rad.size > 1 and abs(pulses - stated) > 0.5:
+    if angle_rad.size > 1 and abs(pulses - stated) > 0.5 * min(stated, 1.0):
         raise ParameterError(
-            f"pulses_per_revolution = {stated:.0f}: {pulses:.1f} tacho pulses come between two "
+            f"pulses_per_revolution = {stated:g}: {pulses:.1f} tacho pulses come between two "
             "index pulses"
         )
     coefficients = motion.curve.c.copy()

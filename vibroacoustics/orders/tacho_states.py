@@ -18,6 +18,8 @@ _TWO_STATES: Final = 0.3
 """Share of the extremes' swing that lies between the two states' medians. White noise has 0.14, a
 pulse with noise of 0.2 of the swing 0.34; a pulse to both sides of a rest has about 0."""
 
+_MOST_LOW: Final = 0.4
+
 
 class TachoStates:
     """Low and high state of a tacho that comes in blocks, however short its pulses are.
@@ -99,6 +101,12 @@ class TachoStates:
         bottom = float(np.sort(self._bottom)[nth - 1])
         top = float(np.sort(self._top)[-nth])
         return (bottom, top) if top > bottom else (self.lowest, self.highest)
+
+    def is_inverted(self) -> bool:
+        """Whether the signal is high but for pulses: at most 40 % of the time it is low."""
+        bottom, top = self.extremes()
+        low = float(np.quantile(np.concatenate(self._some), _MOST_LOW))
+        return low >= 0.5 * (bottom + top)
 
     def idle(self) -> float:
         """Median of the samples, about which the height of pulses changes."""

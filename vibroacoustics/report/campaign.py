@@ -15,18 +15,18 @@ from .analysis import Analysis, origin
 from .blocks import Block, Bullets, Part, Pictures, Text
 from .figures.campaign import campaign_charts, order_level, reference
 from .limit_tables import limits_data, limits_words, order_limits_table
-from .recordings import shown_speeds
+from .recordings import branch_column, shown_speeds
 from .tables import (
     Cell,
     Columns,
     DataTable,
     Table,
     amplitude,
-    cell,
     data_table,
     phase_deg,
     records,
     table_of,
+    without_nan,
 )
 
 _MOST_CHANNELS: Final = 4
@@ -194,6 +194,7 @@ def _orders(mean: xr.Dataset) -> DataTable:
             "channel": mean["channel"],
             "unit": mean["channel_unit"],
             "speed_rpm": mean["speed"],
+            **branch_column(mean),
             "order": mean["order"],
             "rms_in_band": mean["channel_order_rms"],
             "level_db": order_level(mean["channel_order_rms"]),
@@ -241,7 +242,7 @@ def _data(mean: xr.Dataset) -> dict[str, DataTable]:
         tables["campaign_levels.csv"] = _levels(mean, "", {}, of_mean)
         tables["campaign_machine_levels.csv"] = _levels(mean, "machine", machine, by_machine)
         tables["campaign_run_levels.csv"] = _levels(mean, "run", run, {"run_{}_level": "level_db"})
-    return {name: _without_nan(table) for name, table in tables.items()}
+    return {name: without_nan(table) for name, table in tables.items()}
 
 
 def _levels(
@@ -272,7 +273,3 @@ def _levels(
         for head, column in data_table(dims, columns).items():
             joined.setdefault(head, []).extend(column)
     return joined
-
-
-def _without_nan(table: DataTable) -> DataTable:
-    return {head: list(map(cell, values)) for head, values in table.items()}

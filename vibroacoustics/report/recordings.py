@@ -15,6 +15,7 @@ from ..results.over_speed.avoid import recorded_speeds_to_avoid
 from ..results.over_speed.level_curves import is_run_up, recorded_curves
 from ..results.over_speed.loudest_channel import loudest_channel, orders_at_speeds
 from ..results.over_speed.run_up_sound import RunUpSound, shown_channel
+from ..study.order_analysis import LEAST_BLOCKS
 from .analysis import Analysis, origin
 from .avoid import RECORDED_RULE, recorded_avoid_table
 from .blocks import Block, Bullets, Live, Part, Pictures, Text
@@ -35,6 +36,7 @@ from .tables import (
     phase_deg,
     records,
     table_of,
+    without_nan,
 )
 
 _MOST_CHANNELS: Final = 4
@@ -46,14 +48,14 @@ _MOST_SPEEDS: Final = 6
 _MOST_FAULTS: Final = 5
 """Faults of the tacho that are listed; all are counted."""
 _LEAST_COHERENCE: Final = 0.8
-"""Coherence of an order whose phase is shown; noise in five independent blocks reaches it once in
-600, 0.2^(5 - 1)."""
+"""Coherence of an order whose phase is shown."""
 _LEVELS: Final = ("equivalent_level", "fast_maximum_level", "slow_maximum_level")
 _DIMENSIONS: Final = ("channel", "speed", "order")
 _COLUMNS: Final[Columns] = (
     ("Channel", "channel", str),
     ("unit", "unit", str),
     ("rpm", "speed_rpm", "{:.0f}".format),
+    ("branch", "branch", str),
     ("blocks", "blocks", "{:.0f}".format),
     ("Order", "order", "{:g}".format),
     ("Peak", "amplitude_peak", amplitude),
@@ -100,7 +102,7 @@ def analysis_of_orders(
         _tables_part("orders", "Orders and levels", tables),
         Part("settings", "Speed and resolution", (facts,)),
     ]
-    data = {"orders.csv": data_table(_DIMENSIONS, _orders(results))}
+    data = {"orders.csv": without_nan(data_table(_DIMENSIONS, _orders(results)))}
     shown: list[Block] = [facts, *in_db, *tables]
     if "equivalent_level" in results:
         data["levels.csv"] = levels_data(results)
@@ -188,11 +190,36 @@ def orders_facts(results: xr.Dataset) -> list[str]:
         f"resolution: {attrs['resolution_order']:.3g} orders (noise bandwidth), blocks of "
         f"{attrs['revolutions_per_block']} revolutions, {attrs['window']} window",
     ]
+    facts += [*_branches(results), *_few_blocks(results)]
     if "fault_time" in results:
         facts.append(_faults_line(results["fault_time"]))
     if "left_out" in attrs:
         facts.append(f"left out: {attrs['left_out']}")
     return facts
+
+
+def _branches(results: xr.Dataset) -> list[str]:
+    """Name the branches of the recording; a single dwell or run-up needs no word."""
+    if not has_branches(results):
+        return []
+    names = dict.fromkeys(results["branch"].values.tolist())
+    fact = f"branches, never averaged with each other: {', '.join(names)}"
+    if any(name.startswith("idle") for name in names):
+        fact += " (idle: the orders are 10 dB or more below those of the running machine)"
+    return [fact]
+
+
+def _few_blocks(results: xr.Dataset) -> list[str]:
+    """Say at how many speeds there are too few blocks for coherence and phase."""
+    is_short = results["block_count"].values < LEAST_BLOCKS
+    if not is_short.any():
+        return []
+    fewest = int(results["block_count"].min())
+    where = f" at {is_short.sum()} of {is_short.size} speeds" if is_short.size > 1 else ""
+    return [
+        f"no coherence and phase{where}: a mean of fewer than {LEAST_BLOCKS} blocks (here from "
+        f"{fewest}) may have a high coherence in noise"
+    ]
 
 
 def orders_tables(results: xr.Dataset) -> list[Table]:
@@ -238,18 +265,19 @@ def _faults_line(times: xr.DataArray) -> str:
 
 def _orders(results: xr.Dataset) -> dict[str, xr.DataArray]:
     """Columns of orders.csv."""
-    peak = results["channel_order"]
+    peak, coherence = results["channel_order"], results["channel_order_coherence"]
     return {
         "channel": results["channel"],
         "unit": results["channel_unit"],
         "speed_rpm": results["speed"],
+        **branch_column(results),
         "blocks": results["block_count"],
         "order": results["order"],
         "frequency_hz": results["order"] * results["speed"] / 60.0,
         "amplitude_peak": abs(peak),
-        "phase_deg": phase_deg(peak),
+        "phase_deg": phase_deg(peak).where(coherence.notnull()),
         "rms_in_band": results["channel_order_rms"],
-        "coherence": results["channel_order_coherence"],
+        "coherence": coherence,
     }
 
 
@@ -265,7 +293,20 @@ def _orders_table(results: xr.Dataset) -> Table:
     if len(shown) < results.sizes["speed"]:
         caption += f"; {len(shown)} of {results.sizes['speed']} speeds, all in the CSV"
     rows = [row for row in every if row["speed_rpm"] in shown]
-    return table_of(caption, rows, _COLUMNS, frozenset({0, 1}))
+    if has_branches(results):
+        return table_of(caption, rows, _COLUMNS, frozenset({0, 1, 3}))
+    without_branch = [column for column in _COLUMNS if column[1] != "branch"]
+    return table_of(caption, rows, without_branch, frozenset({0, 1}))
+
+
+def branch_column(results: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Branch of each operating point as a column, where it is known."""
+    return {"branch": results["branch"]} if "branch" in results.coords else {}
+
+
+def has_branches(results: xr.Dataset) -> bool:
+    """Whether operating points are of several branches, such as run-up and coast-down."""
+    return "branch" in results.coords and np.unique(results["branch"].values).size > 1
 
 
 def shown_speeds(results: xr.Dataset) -> set[float]:

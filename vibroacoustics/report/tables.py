@@ -48,6 +48,11 @@ def cell(value: str | float | None) -> str | float:
     return "" if value is None or (isinstance(value, float) and np.isnan(value)) else value
 
 
+def without_nan(table: DataTable) -> DataTable:
+    """Return a table with empty cells where a number is not known."""
+    return {head: list(map(cell, values)) for head, values in table.items()}
+
+
 def columns_of(head: Sequence[str], rows: Iterable[Sequence[str | float]]) -> DataTable:
     """Return rows as columns."""
     listed = list(rows)

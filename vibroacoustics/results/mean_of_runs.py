@@ -14,9 +14,10 @@ from ..base.hashing import canonical_json
 from ..base.vocabulary import NO_ANGLE_ZERO, check, label_coordinates, stamp, stamped
 from .order_comparison import (
     ORDER_TOLERANCE,
+    branch_of_points,
     channel_units,
     common_orders,
-    common_speeds,
+    common_points,
     values_at,
 )
 from .scatter import Scatter, by_specimen, scatter
@@ -94,12 +95,19 @@ def mean_of_runs(
         **_named("order", of_orders),
         "run_order": peaks,
         "run_order_rms": rms,
-        "run_speed": np.array([selection["speed"] for selection in selections]),
+        "run_speed": np.array(
+            [
+                run["speed"].values[selection["speed"]]
+                for run, selection in zip(runs, selections, strict=True)
+            ]
+        ),
         "machine_order_rms": amplitude_of_level(of_machine),
         "machine_order_deviation": deviation,
     }
     machines = list(dict.fromkeys(names))
-    coords = {**selections[0], "run": named, "machine": machines}
+    points = selections[0]["speed"]
+    speeds = runs[0]["speed"].values[points]
+    coords = {**selections[0], "speed": speeds, "run": named, "machine": machines}
     units = channel_units(runs[0])
     further = {
         "channel_unit": ("channel", [units[name] for name in selections[0]["channel"]]),
@@ -107,6 +115,8 @@ def mean_of_runs(
         "run_file": ("run", list(map(_file, runs))),
         "machine_runs": ("machine", list(map(names.count, machines))),
     }
+    if "branch" in runs[0].coords:
+        further["branch"] = ("speed", branch_of_points(runs[0])[points].tolist())
     result = stamped(values, coords).assign_coords(further)
     result = result.merge(_levels(runs, coords, names))
     result.attrs = _attributes(runs, names)
@@ -115,17 +125,21 @@ def mean_of_runs(
 
 def with_scatter(compared: xr.Dataset, mean: xr.Dataset) -> xr.Dataset:
     """Compared orders with the scatter of the second result, where it is of several runs."""
-    names_of_pairs = {
+    same = mean["speed"].values == compared["compared_speed"].values[:, None]
+    branch, of_mean = branch_of_points(compared), branch_of_points(mean)
+    if "branch" in mean.coords and set(branch) & set(of_mean):
+        same &= branch[:, None] == of_mean
+    chosen = {
         "channel": compared["compared_channel"].values,
-        "speed": compared["compared_speed"].values,
+        "speed": same.argmax(axis=1),
         "order": compared["order"].values,
     }
-    here = {name: compared[name].values for name in names_of_pairs}
+    here = {name: compared[name].values for name in chosen}
     names = [f"order_{part}" for part in _PARTS]
     if names[0] not in mean:
         return compared
     return compared.assign(
-        {name: stamp(name, values_at(mean[name], names_of_pairs), here) for name in names}
+        {name: stamp(name, values_at(mean[name], chosen), here) for name in names}
     ).assign_attrs({RUNS: mean.attrs[RUNS]})
 
 
@@ -140,18 +154,18 @@ def omitted_of(result: xr.Dataset) -> dict[str, str]:
 
 
 def _selections(runs: Sequence[xr.Dataset]) -> list[dict[str, Any]]:
-    """Channels, speeds and orders that all runs have, as each run has them."""
+    """Channels, positions of speeds, and orders that all runs have, as each run has them."""
     first = runs[0]
     units = [channel_units(run).items() for run in runs]
     common = [name for name, unit in units[0] if all((name, unit) in other for other in units)]
     if not common:
         raise ParameterError("the recordings have no channel of one name and unit in common")
     orders = np.asarray(first["order"].values, dtype=float)
-    speeds, problems = [], []
+    points, problems = [], []
     for run in runs:
         try:
             off = np.abs(orders[:, None] - common_orders(first, run))
-            speeds.append(dict(common_speeds(first, run).tolist()))
+            points.append(dict(common_points(first, run).tolist()))
         except ParameterError as error:
             problems.append(f"{_file(run)}: {error}")
             continue
@@ -160,12 +174,12 @@ def _selections(runs: Sequence[xr.Dataset]) -> list[dict[str, Any]]:
         raise ParameterError(*problems)
     if not orders.size:
         raise ParameterError("the recordings have no order in common")
-    shared = [speed for speed in speeds[0] if all(speed in of_run for of_run in speeds)]
+    shared = [point for point in points[0] if all(point in of_run for of_run in points)]
     if not shared:
         raise ParameterError("the recordings have no speed in common")
     return [
-        {"channel": common, "speed": [of_run[speed] for speed in shared], "order": orders}
-        for of_run in speeds
+        {"channel": common, "speed": [of_run[point] for point in shared], "order": orders}
+        for of_run in points
     ]
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..base.arrays import Array, ComplexArray
+from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.decibel import level_of_amplitude
 from ..base.errors import ParameterError
 from ..base.vocabulary import NO_ANGLE_ZERO, REFERENCE_OPTION, check, label_coordinates, stamp
@@ -46,10 +46,11 @@ def compare(
     `channel_order` of the first, `compared_order` of the second turned to the first's crank angle,
     `order_difference` (dB) and `order_phase_difference` (rad, within ±π), each (channel, speed,
     order), not a number where one of the two has no such order (`NEGLIGIBLE`); no phase difference
-    at all where one has no mark on the shaft as its angle zero, whose peaks then are √2 times the
-    RMS in the orders' bands. `channel_order_rms` and `compared_order_rms` are the RMS in
-    the orders' bands, of a study the peaks over √2. `channel_order_coherence` is the lower of the
-    two; coordinates `compared_speed` and `compared_channel`.
+    where a recording has too few blocks, and none at all where one has no mark on the shaft as its
+    angle zero, whose peaks then are √2 times the RMS in the orders' bands. `channel_order_rms` and
+    `compared_order_rms` are the RMS in the orders' bands, of a study the peaks over √2.
+    `channel_order_coherence` is the lower of the two; coordinates `compared_speed` and
+    `compared_channel`.
 
     Raises
     ------
@@ -75,32 +76,34 @@ def compare(
     ours, theirs = channel_orders(first, option), channel_orders(second, other_option)
     names = _pairs(ours, theirs, pairs)
     order = common_orders(ours, theirs)
-    speeds = common_speeds(ours, theirs)
-    here = {"channel": list(names), "speed": speeds[:, 0], "order": order}
-    other_coordinates = {"channel": list(names.values()), "speed": speeds[:, 1], "order": order}
-    reference, other = values_at(ours, here), values_at(theirs, other_coordinates)
+    points, other_points = common_points(ours, theirs).T
+    chosen = {"channel": list(names), "speed": points, "order": order}
+    other_chosen = {"channel": list(names.values()), "speed": other_points, "order": order}
+    here = {**chosen, "speed": ours["speed"].values[points]}
+    reference, other = values_at(ours, chosen), values_at(theirs, other_chosen)
     turned = other * np.exp(-1j * order * tacho_angle_rad)
-    is_comparable = ~(_negligible(ours, here) | _negligible(theirs, other_coordinates))
+    is_comparable = ~(_negligible(ours, chosen) | _negligible(theirs, other_chosen))
     with np.errstate(divide="ignore", invalid="ignore"):  # of what is not known
         level = level_of_amplitude(np.abs(turned) / np.abs(reference))
-    has_phase = is_comparable & (NO_ANGLE_ZERO not in (_angle_zero(first), _angle_zero(second)))
+    coherence = np.minimum(_coherence(first, chosen), _coherence(second, other_chosen))
+    has_phase = is_comparable & np.isfinite(coherence)
+    has_phase &= NO_ANGLE_ZERO not in (_angle_zero(first), _angle_zero(second))
     values = {
         "channel_order": reference,
         "compared_order": turned,
         "order_difference": np.where(is_comparable, level, np.nan),
         "order_phase_difference": np.where(has_phase, _phase(turned, reference), np.nan),
-        "channel_order_rms": _rms(first, ours, here),
-        "compared_order_rms": _rms(second, theirs, other_coordinates),
-        "channel_order_coherence": np.minimum(
-            _coherence(first, here), _coherence(second, other_coordinates)
-        ),
+        "channel_order_rms": _rms(first, ours, chosen),
+        "compared_order_rms": _rms(second, theirs, other_chosen),
+        "channel_order_coherence": coherence,
     }
     compared = xr.Dataset(
         {name: stamp(name, value, here) for name, value in values.items()},
         coords={
-            "compared_speed": ("speed", speeds[:, 1]),
+            "compared_speed": ("speed", theirs["speed"].values[other_points]),
+            **_branches(ours, theirs, points, other_points),
             "channel_unit": ("channel", [channel_units(ours)[name] for name in names]),
-            "compared_channel": ("channel", other_coordinates["channel"]),
+            "compared_channel": ("channel", other_chosen["channel"]),
         },
     )
     compared.attrs = _attributes(first, second, (option, other_option), tacho_angle_rad)
@@ -247,26 +250,54 @@ def common_orders(ours: Orders, theirs: Orders) -> Array:
     return common
 
 
-def common_speeds(ours: Orders, theirs: Orders) -> Array:
-    """Pairs of speeds (pair, 2) within the tolerance, each the nearest to the other."""
+def common_points(ours: Orders, theirs: Orders) -> IndexArray:
+    """Positions of operating points (pair, 2) within the tolerance, each the nearest to the other.
+
+    Points of one branch are paired; where the results have no branch in common, those of any.
+    """
     speed, other = (np.asarray(result["speed"].values, dtype=float) for result in (ours, theirs))
-    distance = np.abs(speed[:, None] - other)
-    nearest = distance.argmin(axis=1)
-    mutual = distance.argmin(axis=0)[nearest] == np.arange(speed.size)
-    near = distance[np.arange(speed.size), nearest] <= SPEED_TOLERANCE * speed
-    pairs: Array = np.stack([speed, other[nearest]], axis=1)[near & mutual]
-    if not pairs.size:
+    branch, other_branch = branch_of_points(ours), branch_of_points(theirs)
+    alike = branch[:, None] == other_branch
+    if not alike.any():
+        alike = np.ones_like(alike)
+    distance = np.where(alike, np.abs(speed[:, None] - other), np.inf)
+    pairs: list[tuple[int, int]] = []
+    for name, other_name in dict.fromkeys(product(branch.tolist(), other_branch.tolist())):
+        of_pair = np.ix_(*map(np.flatnonzero, (branch == name, other_branch == other_name)))
+        nearest = distance[of_pair].argmin(axis=1)
+        mutual = distance[of_pair].argmin(axis=0)[nearest] == np.arange(nearest.size)
+        rows, columns = of_pair[0][mutual, 0], of_pair[1][0, nearest[mutual]]
+        near = distance[rows, columns] <= SPEED_TOLERANCE * speed[rows]
+        pairs += zip(rows[near].tolist(), columns[near].tolist(), strict=True)
+    if not pairs:
         raise ParameterError(
             f"no speed in common within {100 * SPEED_TOLERANCE:g} %: "
             f"{', '.join(map('{:.0f}'.format, speed))} against "
             f"{', '.join(map('{:.0f}'.format, other))} rpm"
         )
-    return pairs
+    return np.array(sorted(pairs), dtype=np.intp)
+
+
+def branch_of_points(result: Orders) -> NDArray[np.str_]:
+    """Branch of each operating point of a recording, shape (speed,); empty without."""
+    if "branch" not in result.coords:
+        return np.full(result.sizes["speed"], "")
+    return np.asarray(result["branch"].values, dtype=str)
+
+
+def _branches(
+    ours: Orders, theirs: Orders, points: IndexArray, other_points: IndexArray
+) -> dict[str, Any]:
+    """Coordinate `branch` of compared points, where a result has branches."""
+    for result, of_result in ((ours, points), (theirs, other_points)):
+        if "branch" in result.coords:
+            return {"branch": ("speed", branch_of_points(result)[of_result])}
+    return {}
 
 
 def values_at(result: xr.DataArray, selection: Mapping[str, Any]) -> NDArray[Any]:
-    """Values (channel, speed, order) at channels, speeds and orders that a result has."""
-    chosen = result.sel(channel=selection["channel"], speed=selection["speed"])
+    """Values (channel, speed, order) at channels, positions of speeds, and orders of a result."""
+    chosen = result.sel(channel=selection["channel"]).isel(speed=selection["speed"])
     chosen = chosen.sel(order=selection["order"], method="nearest", tolerance=ORDER_TOLERANCE)
     return np.asarray(chosen.transpose("channel", "speed", "order").values)
 

@@ -108,7 +108,7 @@ def test_the_command_reads_a_large_file_in_blocks(run_up, tmp_path, monkeypatch)
         raise TooLargeError("too large")
 
     path = export_recording(run_up, tmp_path / "run_up.nc")
-    once = analyse_orders(run_up, OrderAnalysis(SpeedChannel("tacho")))
+    once = analyse_orders(run_up, OrderAnalysis(SpeedChannel("tacho"), orders=()))
     monkeypatch.setattr("vibroacoustics.recordings.read_recording", refuse)
     monkeypatch.setattr(recording_blocks, "READ_BYTES", 8 * 4 * 50_000)
     monkeypatch.setattr(recording_blocks, "BLOCK_BYTES", 8 * 4 * 6_000)
@@ -156,7 +156,7 @@ def test_a_standstill_is_cut_off_in_blocks_too():
     at_s = np.linspace(once.start_s, once.end_s, 500)
     for size in (1, 699, 1000, 4999):
         blocks = partial(np.split, speed, range(size, speed.size, size))
-        motion = rpm_motion_of(lambda blocks=blocks: iter(blocks()), speed.size, 1000.0)
+        motion = rpm_motion_of(lambda blocks=blocks: iter(blocks()), speed.size, 1000.0).motion
         np.testing.assert_array_equal(motion.curve.x, once.curve.x)
         np.testing.assert_allclose(motion.angle_rad(at_s), once.angle_rad(at_s), atol=1e-9)
     assert (once.start_s, once.end_s) == (0.7, 4.699)

@@ -332,7 +332,7 @@ def test_only_the_speed_is_no_recording():
     [
         (lambda: NominalSpeed(0.0), "speed_rpm = 0 rpm"),
         (lambda: NominalSpeed(np.inf), "speed_rpm = inf rpm"),
-        (lambda: SpeedChannel("tacho", 0), "pulses_per_revolution = 0: must be 1 to 100000"),
+        (lambda: SpeedChannel("tacho", 0), "pulses_per_revolution = 0: must be 0.001 to 100000"),
         (lambda: SpeedChannel("tacho", 10**400), "pulses_per_revolution = 1000"),
         (lambda: SpeedChannel("tacho", threshold=1e300), "threshold = 1e.300: must be"),
         (lambda: TacholessSpeed(None, 3e3, 1e3), "minimum_rpm = 3000 rpm: must be below"),
@@ -341,7 +341,7 @@ def test_only_the_speed_is_no_recording():
         (lambda: TacholessSpeed(None, 1e3, 3e3, (2.0, 1.0)), "comb = .* and rise"),
         (lambda: TacholessSpeed(None, 1e3, 3e3, mains_hz=0.0), "mains_hz = 0 Hz"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), bands="both"), "must be one of sums, filters"),
-        (lambda: OrderAnalysis(NominalSpeed(1.0), orders=()), "must be at least one"),
+        (lambda: OrderAnalysis(NominalSpeed(1.0), orders=(), is_fit=True), "must be at least one"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), orders=(2.0, 1.0)), "and rise"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), orders=(1.0, 1.0)), "and rise"),
         (lambda: OrderAnalysis(NominalSpeed(1.0), orders=(np.nan,)), "orders = nan"),

@@ -156,7 +156,10 @@ def test_threshold_of_the_user():
         (np.zeros((2, 9)), r"got shape \(2, 9\)"),
         (np.full(9, 2.5), r"no pulses: the signal is constant at 2\.5"),
         (np.array([0.0, np.nan, 1.0]), "1 of 3 samples are not finite"),
-        (np.array([1.0, 1.0, 0.0]), "no rising edge in 3 samples; the signal goes from 0 to 1"),
+        (
+            np.array([1.0, 1.0, 0.0, 0.0]),
+            "no rising edge in 4 samples; the signal goes from 0 to 1",
+        ),
     ],
 )
 def test_signals_without_pulses_are_refused(signal, words):
@@ -321,7 +324,7 @@ def test_index_pulses_that_contradict_the_encoder():
         tacho_motion(pulses, 60, np.arange(0.5, 9.5, 0.05))
     with pytest.raises(ParameterError, match="none of 1 pulses lies within the tacho's 0 to"):
         tacho_motion(pulses, 58, np.array([20.0]))
-    with pytest.raises(ParameterError, match="pulses_per_revolution = 0: out of range"):
+    with pytest.raises(ParameterError, match=r"pulses_per_revolution = 0: must be 0.001 to"):
         tacho_motion(pulses, 0)
 
 
@@ -508,6 +511,8 @@ def test_two_unequal_marks_are_noted():
 def test_unequal_teeth_of_a_wheel_are_noted():
     marks = 6.0 * np.arange(60)
     marks[20] += 0.3  # 5 % of a pitch: one pitch 5 % longer, the next one shorter
+    assert "joint of 1.05, 0.95 pitches" in tacho_motion(unequal(marks, 5.0), 60).notes[0]
+    marks[::7] += 0.3
     assert "unequally spaced, by 10 % of a pitch" in tacho_motion(unequal(marks, 5.0), 60).notes[0]
 
 

@@ -7,13 +7,11 @@ from vibroacoustics import OrderAnalysis, SpeedChannel, analyse_orders, label_re
 from vibroacoustics.levels import a_weighting
 from vibroacoustics.levels.tick_levels import windowed_mean_square
 from vibroacoustics.orders import block_orders
+from vibroacoustics.orders.loud_lines import a_weighted_power, band_power, standing_out
 from vibroacoustics.report.recordings import analysis_of_orders
 from vibroacoustics.report.run_up_tables import every_loudest, loudest_table
 from vibroacoustics.results.over_speed.loudest_orders import (
-    a_weighted_power,
-    band_power,
     loudest_orders,
-    standing_out,
 )
 
 RATE_HZ = 4096.0

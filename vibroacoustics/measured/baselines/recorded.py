@@ -14,7 +14,7 @@ from ...orders.recorded import operating_points
 from ...results.storage import open_results
 from ...study.baseline_files import BaselineContent, BaselineFile, BaselineReader
 from ..narrow_spectra import NarrowSpectrum, of_spectra
-from ..recorded_rows import band_row, order_row
+from ..recorded_rows import band_row, of_each_speed, order_row
 
 SPEED_STEP_RPM: Final = 100.0
 """Step of the operating points of a map, as `orders` has them."""
@@ -43,7 +43,7 @@ def read(file: BaselineFile) -> BaselineContent:
     try:
         if "speed_frequency_map" in results:
             return of_spectra(_of_map(results, channels), _WINDOW)
-        return _of_orders(results, channels)
+        return _of_orders(of_each_speed(results), channels)
     except ParameterError as error:
         raise ParameterError(f"{file.path}: {error}") from None
 

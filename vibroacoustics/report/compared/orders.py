@@ -15,7 +15,7 @@ from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_amplitude
 from ...base.vocabulary import NO_ANGLE_ZERO
-from ..recordings import shown_speeds
+from ..recordings import branch_column, has_branches, shown_speeds
 from ..tables import Columns, DataTable, Record, Table, amplitude, data_table, records, table_of
 
 WITHIN_DB: Final = 40.0
@@ -53,8 +53,11 @@ def orders_table(compared: xr.Dataset, channel: str) -> Table:
     at_channel = compared.sel(channel=channel)
     unit, is_repeated = str(at_channel["channel_unit"].item()), "order_run_deviation" in compared
     rows = []
-    for speed in sorted(shown_speeds(compared)):
-        at_speed = at_channel.sel(speed=speed)
+    shown = shown_speeds(compared)
+    for at_speed in (at_channel.isel(speed=each) for each in range(at_channel.sizes["speed"])):
+        speed = at_speed["speed"].item()
+        if speed not in shown:
+            continue
         for order in loud_orders(at_speed):
             at_order = at_speed.sel(order=order)
             sizes = (_size(at_order[f"{name}_order_rms"].item(), unit) for name in _RESULTS)
@@ -64,7 +67,8 @@ def orders_table(compared: xr.Dataset, channel: str) -> Table:
             )
             fixed = ["channel_order_coherence", *(_SCATTER if is_repeated else ())]
             others = (rounding.fixed(at_order[name].item(), 2) for name in fixed)
-            rows.append((f"{speed:.0f}", f"{order:g}×", *sizes, *changes, *others))
+            branch = f" {at_speed['branch'].item()}" if has_branches(compared) else ""
+            rows.append((f"{speed:.0f}{branch}", f"{order:g}×", *sizes, *changes, *others))
     of_unit = "dB re 20 µPa" if unit == "Pa" else f"RMS, {unit}"
     head = ["rpm", "Order", f"A, {of_unit}", f"B, {of_unit}", "B − A, dB", "phase, °", "coherence"]
     if is_repeated:
@@ -155,6 +159,7 @@ def compared_data(compared: xr.Dataset) -> DataTable:
         "unit": compared["channel_unit"],
         "speed_rpm": compared["speed"],
         "other_speed_rpm": compared["compared_speed"],
+        **branch_column(compared),
         "order": compared["order"],
         "amplitude_peak": abs(compared["channel_order"]),
         "other_amplitude_peak": abs(compared["compared_order"]),

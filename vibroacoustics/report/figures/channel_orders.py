@@ -42,7 +42,7 @@ def recorded_order_charts(
         if "order_map" in results:
             charts.append(order_map(results, channel))
         with_limits = bool(limits_of(results.sel(channel=channel)))
-        if results.sizes["speed"] > 1 and (with_limits or channel not in levels):
+        if np.unique(results["speed"]).size > 1 and (with_limits or channel not in levels):
             charts.append(orders_over_speed(results, channel))
         charts.append(order_spectrum(results, channel))
     return by_channel
@@ -206,11 +206,12 @@ def compared_orders(compared: xr.Dataset, channel: str | None = None) -> Chart:
     across, along = ("speed", "order") if by_speed else ("order", "speed")
     lowest = y.limits[0] if y.limits and y.limits[0] is not None else 0.0
     is_shown = ((sizes[0] > lowest) | (sizes[1] > lowest)).any(along)
-    shown = of_channel[across].where(is_shown, drop=True).values[:_MOST_PANELS]
+    shown = np.flatnonzero(is_shown.values)[:_MOST_PANELS]
     named = (of_channel.attrs["first"], of_channel.attrs["second"])
     panels = []
-    for value in shown.tolist():
-        some = [size.sel({across: value}) for size in (*sizes, *limits)]
+    for number in shown.tolist():
+        some = [size.isel({across: number}) for size in (*sizes, *limits)]
+        value = of_channel[across].values[number]
         where = f"{value:.0f} rpm" if by_speed else f"order {value:g}"
         marks = tuple(_points(some, named, stems=by_speed))
         panels.append(Panel(x, y, marks, f"{shortened(name, 40)}, {where}", 2.4))
@@ -259,8 +260,8 @@ def order_differences(compared: xr.Dataset, channels: Sequence[str] = ()) -> Cha
     x = _order_axis(float(difference["order"].where(difference.notnull()).max()))
     y = Axis("B − A, dB")
     panels = [
-        Panel(x, y, tuple(_differences(compared, shown, speed)), f"{speed:.0f} rpm", 2.2)
-        for speed in difference["speed"].values[:_MOST_PANELS]
+        Panel(x, y, tuple(_differences(compared, shown, number)), f"{speed:.0f} rpm", 2.2)
+        for number, speed in enumerate(difference["speed"].values[:_MOST_PANELS])
     ]
     with_bars = "order_mean_uncertainty" in compared
     bars = " Bars: twice the standard uncertainty of the mean of the runs." if with_bars else ""
@@ -273,11 +274,11 @@ def order_differences(compared: xr.Dataset, channels: Sequence[str] = ()) -> Cha
 
 
 def _differences(
-    compared: xr.Dataset, channels: Sequence[str], speed: float
+    compared: xr.Dataset, channels: Sequence[str], point: int
 ) -> Iterator[Points | Segments]:
     yield Segments([np.nan], [0.0], [np.nan], [0.0], width=0.8)
     for number, name in enumerate(channels):
-        case = compared.sel(channel=name, speed=speed)
+        case = compared.sel(channel=name).isel(speed=point)
         values, interval = case["order_difference"].values, None
         if "order_mean_uncertainty" in case:
             reach = _COVERAGE * np.nan_to_num(case["order_mean_uncertainty"].values)

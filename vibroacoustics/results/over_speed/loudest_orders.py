@@ -1,21 +1,17 @@
 """Overall level and loudest orders of a recorded run-up over its speed."""
 
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
-from ...base.decibel import level_of_power, power_of_level
-from ...base.weighting import WEIGHTING
+from ...base.decibel import level_of_power
+from ...orders.loud_lines import a_weighted_power, ranked_orders
 from ..titles import chosen
 
-MOST_LOUDEST: Final = 6
-_RANGE_DB: Final = 30.0
-"""Orders whose greatest level is further below the loudest order are omitted."""
-_PEAK_RATIO: Final = 4.0
-"""Power of a line over the median of the lines around it, from which it is an order: 6 dB."""
+__all__ = ["LoudestOrders", "a_weighted_power", "loudest_orders"]
 
 
 class LoudestOrders(NamedTuple):
@@ -45,60 +41,6 @@ class LoudestOrders(NamedTuple):
         return "dB(A)" if self.unit == "Pa" else f"dB re 1 {self.unit}"
 
 
-def a_weighted_power(order: Array, speed_rpm: Array) -> Array:
-    """Power gain of the A-weighting at orders and speeds, shape (block, line).
-
-    Parameters
-    ----------
-    order : multiples of the shaft frequency, shape (line,); that of order 0 is 0
-    speed_rpm : shape (block,)
-    """
-    frequency_hz = np.maximum(np.outer(speed_rpm / 60.0, order), 1e-3)
-    return np.asarray(power_of_level(WEIGHTING["A"](frequency_hz)))
-
-
-def band_power(power: Array, map_order: Array, order: Array, band_order: float) -> Array:
-    """Sum of the powers of the lines in the bands of orders, shape (block, order).
-
-    Parameters
-    ----------
-    power : power of the lines, shape (block, line)
-    map_order : order of the lines, evenly spaced from 0, shape (line,)
-    order : middles of the bands, shape (order,)
-    band_order : width of the bands, orders
-    """
-    slack = 1e-6 * map_order[1]
-    sums = np.concatenate([np.zeros((len(power), 1)), np.cumsum(power, axis=1)], axis=1)
-    first = np.searchsorted(map_order, order - 0.5 * band_order - slack)
-    end = np.searchsorted(map_order, order + 0.5 * band_order + slack)
-    return np.asarray(sums[:, end] - sums[:, first])
-
-
-def standing_out(mean_power: Array, map_order: Array, band_order: float) -> Array:
-    """Orders whose line is a peak, 6 dB above the median of the lines around it, rising.
-
-    The stronger of two peaks in one band counts.
-
-    Parameters
-    ----------
-    mean_power : mean power of the lines, shape (line,)
-    map_order : order of the lines, evenly spaced from 0, shape (line,)
-    band_order : width of the bands, orders; the first and last half of it are omitted
-    """
-    reach = max(round(band_order / map_order[1]), 1)
-    half = reach // 2 + 1
-    lines_found: list[int] = []
-    for line in np.argsort(-mean_power, kind="stable").tolist():
-        if not half <= line < mean_power.size - half:
-            continue
-        around = mean_power[max(line - 2 * reach, half) : line + 2 * reach + 1]
-        is_peak = mean_power[line] == mean_power[line - 1 : line + 2].max()
-        is_clear = mean_power[line] > _PEAK_RATIO * np.median(around)
-        if is_peak and is_clear and all(abs(line - other) > reach for other in lines_found):
-            lines_found.append(line)
-    return np.sort(map_order[lines_found])
-
-
 def loudest_orders(
     orders: xr.Dataset, channel: str | None = None, gain: Array | None = None
 ) -> LoudestOrders:
@@ -123,21 +65,15 @@ def loudest_orders(
     map_order, speed_rpm = orders["map_order"].values, orders["block_speed"].values
     peak = of_channel["order_map"].transpose("block", "map_order").values
     power = 0.5 * (peak.real**2 + peak.imag**2) / _noise_bandwidth_lines(orders)
-    weighted = power
+    weighting: Array = np.ones(1)
     if unit == "Pa":
         power /= REFERENCE_PRESSURE_PA**2
-        weighted = power * (a_weighted_power(map_order, speed_rpm) if gain is None else gain)
-    wanted = orders["order"].values
-    others = standing_out(weighted.mean(axis=0), map_order, band_order)
-    apart = np.abs(others[:, None] - wanted).min(axis=1, initial=np.inf) > band_order
-    candidates = np.sort(np.concatenate([wanted, others[apart]]))
-    in_bands = band_power(power, map_order, candidates, band_order)
-    if unit == "Pa":
-        in_bands = in_bands * a_weighted_power(candidates, speed_rpm)
+        weighting = a_weighted_power(map_order, speed_rpm) if gain is None else gain
+    candidates, in_bands, ranked = ranked_orders(
+        power, map_order, orders["order"].values, band_order, weighting
+    )
+    rows = np.sort(ranked)
     level_db = level_of_power(in_bands).T
-    greatest = level_db.max(axis=1)
-    ranked = np.argsort(-greatest, kind="stable")[:MOST_LOUDEST]
-    rows = np.sort(ranked[greatest[ranked] > greatest.max() - _RANGE_DB])
     rising = np.argsort(speed_rpm, kind="stable")
     overall_db = None
     if unit == "Pa" and "block_level" in of_channel:

@@ -75,8 +75,9 @@ def _of_recording(orders: xr.Dataset, channel: str | None) -> OrderCuts:
     of_channel = orders.sel(channel=chosen(orders, "channel", channel)).sortby("block_speed")
     limits = None
     if "order_limit" in of_channel and of_channel["order_limit"].count():
-        of_speed = of_channel["order_limit"].sel(speed=of_channel["block_speed"], method="nearest")
-        limits = of_speed.transpose("order", "block").values
+        off = np.abs(of_channel["block_speed"].values[:, None] - of_channel["speed"].values)
+        nearest = of_channel["order_limit"].isel(speed=off.argmin(axis=1))
+        limits = nearest.transpose("order", "speed").values
     rms = of_channel["block_order_rms"].transpose("order", "block").values
     return OrderCuts(
         str(of_channel["channel"].item()), str(of_channel["channel_unit"].item()),

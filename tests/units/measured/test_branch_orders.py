@@ -1,0 +1,104 @@
+"""Run-up, coast-down, dwell and idle are operating points of their own."""
+
+import numpy as np
+import pytest
+
+import vibroacoustics as va
+from vibroacoustics.measured.recorded_rows import of_each_speed
+from vibroacoustics.report.recordings import analysis_of_orders
+from vibroacoustics.report.tables import to_text
+
+RATE_HZ = 4096.0
+
+
+def up_and_down(duration_s=20.0, down=-1.0):
+    """900 to 3000 rpm and back: order 2 of 1 Pa up and `down` Pa down, order 1 of 0.3 Pa."""
+    time_s = np.arange(int(2.0 * duration_s * RATE_HZ)) / RATE_HZ
+    speed_rpm = 3000.0 - 2100.0 * np.abs(time_s - duration_s) / duration_s
+    angle = 2.0 * np.pi * np.cumsum(speed_rpm / 60.0) / RATE_HZ
+    peak = np.where(time_s < duration_s, 1.0, down)
+    sound = peak * np.cos(2.0 * angle) + 0.3 * np.cos(angle)
+    return va.label_recording([sound, speed_rpm], RATE_HZ, ["front", "speed"], ["Pa", "rpm"])
+
+
+@pytest.fixture(scope="module")
+def results():
+    settings = va.OrderAnalysis(va.SpeedChannel("speed"), (1.0, 2.0), maximum_order=8.0)
+    return va.analyse_orders(up_and_down(), settings)
+
+
+def test_up_and_down_are_two_branches(results):
+    assert list(dict.fromkeys(results["branch"].values.tolist())) == ["run-up", "coast-down"]
+    second = results["channel_order"].sel(channel="front", order=2.0)
+    for branch, peak in (("run-up", 1.0), ("coast-down", -1.0)):
+        of_branch = second[results["branch"].values == branch]
+        assert of_branch.sizes["speed"] >= 20
+        np.testing.assert_allclose(np.abs(of_branch), 1.0, atol=0.01)
+        first = results["channel_order"].sel(channel="front", order=1.0)
+        relative = of_branch / (first[results["branch"].values == branch] / 0.3) ** 2
+        np.testing.assert_allclose(relative.real, peak, atol=0.03)
+
+
+def test_branches_are_in_table_and_file(results):
+    analysis = analysis_of_orders(results)
+    table = analysis.tables["orders.csv"]
+    assert set(table["branch"]) == {"run-up", "coast-down"}
+    text = "\n".join(to_text(block) for block in analysis.shown if block.block == "table")
+    assert "coast-down" in text
+    assert "branches, never averaged with each other" in " ".join(analysis.shown[0].items)
+
+
+def test_one_branch_needs_no_column():
+    recording = up_and_down().isel(time=slice(0, int(20 * RATE_HZ)))
+    results = va.analyse_orders(recording, va.OrderAnalysis(va.SpeedChannel("speed"), (1.0, 2.0)))
+    assert set(results["branch"].values) == {"run-up"}
+    text = "\n".join(to_text(b) for b in analysis_of_orders(results).shown if b.block == "table")
+    assert "run-up" not in text
+
+
+def test_branches_are_compared_with_their_own_kind(results):
+    louder = va.analyse_orders(
+        up_and_down(down=-2.0), va.OrderAnalysis(va.SpeedChannel("speed"), (2.0,))
+    )
+    compared = va.compare(results, louder)
+    change_db = compared["order_difference"].sel(channel="front", order=2.0)
+    is_down = compared["branch"].values == "coast-down"
+    assert 40 < is_down.size <= results.sizes["speed"]
+    np.testing.assert_allclose(change_db.values[~is_down], 0.0, atol=0.2)
+    np.testing.assert_allclose(change_db.values[is_down], 6.02, atol=0.2)
+    one = va.compare(results, louder.isel(speed=louder["branch"].values == "run-up"))
+    assert set(one["branch"].values) == {"run-up"}
+
+
+def test_mean_of_runs_keeps_branches(results):
+    mean = va.mean_of_runs([results, results])
+    assert mean["branch"].values.tolist() == results["branch"].values.tolist()
+    np.testing.assert_allclose(mean["channel_order_rms"], results["channel_order_rms"], rtol=1e-9)
+    again = va.compare(results, mean)
+    assert again.sizes["speed"] == results.sizes["speed"]
+
+
+def test_limits_hold_in_every_branch(results):
+    checked = va.check_limits(results, [va.Limit("front", 2.0, 0.5, "Pa")])
+    assert not checked["within_limit"].sel(order=2.0).any()
+
+
+def test_a_baseline_has_each_speed_once(results):
+    single = of_each_speed(results)
+    assert single["speed"].values.tolist() == sorted(set(results["speed"].values.tolist()))
+
+
+def test_a_machine_that_stops_is_running_and_idle():
+    """20 s at 3000 rpm of which it runs from 5 to 14 s: 1 Pa peak, not its mean over the time."""
+    time_s = np.arange(int(20.0 * RATE_HZ)) / RATE_HZ
+    is_on = (time_s > 5.0) & (time_s < 14.0)
+    noise = 0.01 * np.random.default_rng(0).standard_normal(time_s.size)
+    sound = is_on * np.cos(2.0 * np.pi * 50.0 * time_s) + noise
+    recording = va.label_recording([sound], RATE_HZ, ["front"], ["Pa"])
+    results = va.analyse_orders(recording, va.OrderAnalysis(va.NominalSpeed(3000.0), (1.0, 2.0)))
+    assert results["branch"].values.tolist() == ["idle 1", "dwell", "idle 2"]
+    peak = np.abs(results["channel_order"].sel(channel="front", order=1.0).values)
+    np.testing.assert_allclose(peak[1], 1.0, rtol=0.01)
+    assert np.all(peak[[0, 2]] < 0.01)
+    facts = " ".join(analysis_of_orders(results).shown[0].items)
+    assert "idle: the orders are 10 dB or more below" in facts

@@ -1,0 +1,259 @@
+"""A speed beside the sound: a lag is corrected, a speed that the lines contradict is named."""
+
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+import scipy  # loads its subpackages when they are needed
+from numpy.typing import NDArray
+
+from ..base.arrays import Array
+from ..base.recording_blocks import RecordingBlocks, block_by_block
+from .comb_evidence import best_speeds, clear_lines, evidence, lines_in_place
+from .crank_motion import CrankMotion
+from .mains import mains_of
+from .shaft_speed import RecordedSpeed, UncertainSpeedWarning
+from .speed_lag import HIGHEST_ORDER, LEAST_LAG_S, SpeedLag, late, speed_lag
+
+MOST_CHANNELS: Final = 3
+"""Channels that are looked at, the first ones."""
+_MOST_SAMPLES: Final = 2**25
+"""Samples of the channels of a longer recording that are looked at, from its start."""
+_VARIES: Final = 0.05
+"""Range of a speed, relative, from which a lag changes anything."""
+_ERRORS: Final = 5.0
+"""Standard errors of a lag that is one."""
+_OVERSAMPLING: Final = 2.5
+_DEPARTURE_TURNS: Final = 1.0
+"""Change of the phase within a block that a resonance or a filter cannot make."""
+_BLOCK_REVOLUTIONS: Final = 16.0
+_DEPARTURE_SCATTER: Final = 10.0
+_DEPARTURE_BLOCKS: Final = 4
+"""Blocks in a row that depart: a line that crosses is not as long in all orders."""
+_BENDS: Final = 2.0
+"""Change of the orders that a lag explains, over the scatter of the lines."""
+_FINE_ORDERS: Final = 5.0
+_NEAR_ORDER: Final = 0.03
+_ALIKE: Final = 0.15
+_LINE_ERROR: Final = 4e-3
+_LEAST_SCALE: Final = 1e-3
+_LEAST_SLOPE: Final = 0.02
+"""Distances of lines from orders that have one scale, relative, and f'/f in 1/s from which a lag
+follows from it."""
+_ON_ORDER: Final = 0.01
+_OFF_ORDER: Final = 0.03
+"""Distance from multiples of 1/2 by which a lag may move lines: one line of the spectra."""
+_NEAR: Final = 0.1
+"""Distance of a nominal speed from the actual one, relative."""
+_APART: Final = 0.004
+_HALF_ORDERS: Final[Array] = np.arange(1, 21) / 2.0
+_COMB: Final[Array] = np.arange(1, 11, dtype=float)
+_UNITS: Final = {
+    "rad/s": 30.0 / np.pi, "Hz": 60.0, "rpm instead of rad/s": np.pi / 30.0,
+    "rpm instead of Hz": 1.0 / 60.0,
+}  # fmt: skip
+"""Factors between units of a speed that may be confused."""
+_LEAST_HZ: Final = 2.0
+_LEAST_EVIDENCE: Final = 8.0
+_LEAST_LINES: Final = 2
+
+
+def confirmed(
+    recording: RecordingBlocks, shaft: RecordedSpeed, names: Sequence[str]
+) -> RecordedSpeed:
+    """Compare a speed with the lines in the sound; correct its lag.
+
+    Parameters
+    ----------
+    recording : recording of the speed
+    shaft : speed of the shaft
+    names : channels with its sound or vibration
+
+    Warns
+    -----
+    UncertainSpeedWarning
+        The speed is late, or the lines of the sound contradict it.
+    """
+    motion, notes = shaft.motion, []
+    speeds_hz = _speeds_hz(motion)
+    highest_hz = float(speeds_hz.max())
+    if np.ptp(speeds_hz) < _VARIES * highest_hz:
+        if shaft.kind == "nominal":
+            signals, rate_hz = _decimated(recording, names, highest_hz)
+            notes = [note for each in signals for note in _scale_notes(each, rate_hz, motion)][:1]
+    else:
+        lags = list(_lags(recording, names, motion))
+        if lags:
+            lag = max(lags, key=lambda pair: pair[0])[1]
+            motion, notes = _corrected(shaft, lag)
+            notes += _departures(lag)
+        if shaft.kind == "recorded" and not any(_in_place(each.lines).any() for _, each in lags):
+            notes = _unit_notes(recording, names, motion, _LEAST_LINES if lags else 1) or notes
+    for note in notes:
+        warnings.warn(f"speed: {note}", UncertainSpeedWarning, stacklevel=3)
+    return replace(shaft, motion=motion, source="; ".join([shaft.source, *notes]))
+
+
+def _lags(
+    recording: RecordingBlocks, names: Sequence[str], motion: CrankMotion
+) -> Iterator[tuple[float, SpeedLag]]:
+    """Sharpness of the lines and lag of a motion by channel, up to one in which it is sure."""
+    highest_hz = float(_speeds_hz(motion).max())
+    for name in names[:MOST_CHANNELS]:
+        signals, rate_hz = _decimated(recording, [name], highest_hz)
+        lag, sharpness = speed_lag(signals[0], rate_hz, motion)
+        if lag is not None:
+            yield sharpness, lag
+            if lag.is_sure:
+                return
+
+
+def _decimated(
+    recording: RecordingBlocks, names: Sequence[str], highest_hz: float
+) -> tuple[list[Array], float]:
+    """Some channels at a rate that holds the orders, and that rate, Hz."""
+    chosen = list(names[:MOST_CHANNELS])
+    down = int(recording.sample_rate_hz / (_OVERSAMPLING * HIGHEST_ORDER * highest_hz))
+    coarse = max(down // 8, 1)  # a mean is enough of a filter far below its first zero
+    fine = max(down // coarse, 1)
+    kept: Array = np.empty((len(chosen), 0))
+    parts, added = [], 0
+    for block in block_by_block(recording, chosen):
+        joined = np.concatenate([kept, block], axis=1)
+        complete = joined.shape[1] // coarse * coarse
+        parts.append(joined[:, :complete].reshape(len(chosen), -1, coarse).mean(axis=2))
+        kept, added = joined[:, complete:], added + block.size
+        if added > _MOST_SAMPLES:
+            break
+    means = np.concatenate(parts, axis=1)
+    rate_hz = recording.sample_rate_hz / (coarse * fine)
+    return [scipy.signal.resample_poly(row - row.mean(), 1, fine) for row in means], rate_hz
+
+
+def _corrected(shaft: RecordedSpeed, lag: SpeedLag) -> tuple[CrankMotion, list[str]]:
+    """Motion without its lag, and a sentence on it; the motion as it is without a clear lag."""
+    is_lag = abs(lag.lag_s) > max(LEAST_LAG_S, _ERRORS * lag.error_s)
+    motion, held_s = shaft.motion, shaft.held_s
+    lag_s = _scale_lag(lag) if shaft.kind == "recorded" else 0.0
+    if is_lag and lag.bend > _BENDS and not _moves_off(lag):
+        lag_s = lag.lag_s
+    shifted = late(motion, lag_s)
+    if abs(lag_s) < LEAST_LAG_S or shifted is None:
+        return motion, []
+    orders = ", ".join(f"{order:.4g}" for order in np.sort(lag.unmoved_lines))
+    word = "late" if lag_s > 0.0 else "early"
+    note = f"{abs(lag_s):.3g} s {word} beside lines of the sound (near orders {orders})"
+    if held_s > LEAST_LAG_S:
+        note += f", its values are held for {held_s:.3g} s"
+    if lag.lines.size == 1 and lag_s != lag.lag_s:
+        return motion, [f"{note}, if that is a whole order: not corrected, orders read too low"]
+    return shifted, [f"{note}: corrected"]
+
+
+def _scale_lag(lag: SpeedLag) -> float:
+    """Lag in s by which lines are beside orders, of a speed that decays; 0 without one.
+
+    Where f'/f is constant, a lag changes the scale of the orders only: at least two lines must be
+    at the same distance, relative, from multiples of 1/2 below order 5 and of 1 above.
+    """
+    lines = lag.unmoved_lines
+    nearest = np.where(lines < _FINE_ORDERS, 0.5 * np.rint(2.0 * lines), np.rint(lines))
+    off = np.log(lines / np.maximum(nearest, 0.5))
+    error = _LINE_ERROR / lines
+    alike = np.abs(off - off[:, None]) < _ALIKE * np.abs(off)[:, None] + error
+    most = alike[int(np.argmax(alike @ lines))] & (np.abs(off) < _NEAR_ORDER)
+    is_sure = np.count_nonzero(most) >= max(_LEAST_LINES, 0.5 * lines.size)
+    is_sure |= lines.size == 1 and lines[0] > _FINE_ORDERS
+    if not is_sure or abs(lag.slope_per_s) < _LEAST_SLOPE:
+        return 0.0
+    weight = np.where(most, lines**2, 0.0)
+    scale = float(np.sum(weight * off) / max(float(np.sum(weight)), 1e-30))
+    least = max(_LEAST_SCALE, 2.0 * float(error[most].min())) if most.any() else np.inf
+    return scale / lag.slope_per_s if abs(scale) > least else 0.0
+
+
+def _moves_off(lag: SpeedLag) -> bool:
+    """Whether a lag moves lines that are orders: in a decay it only changes their scale."""
+    lines = lag.unmoved_lines
+    are_orders = lines.size > 0 and bool(np.all(_off_orders(lines) < _ON_ORDER))
+    farthest = np.abs(lag.lines[:, None] - lines).min(axis=1, initial=np.inf).max(initial=0.0)
+    return are_orders and bool(farthest > _OFF_ORDER)
+
+
+def _departures(lag: SpeedLag) -> list[str]:
+    """Name the longest part in which lines depart from the speed alike."""
+    least = _DEPARTURE_TURNS / (_BLOCK_REVOLUTIONS * float(lag.lines.min()))
+    threshold = max(least, _DEPARTURE_SCATTER * lag.scatter)
+    departs = np.concatenate([[False], np.abs(lag.departure) > threshold, [False]])
+    borders = np.flatnonzero(departs[1:] != departs[:-1])
+    runs = list(zip(borders[::2].tolist(), borders[1::2].tolist(), strict=True))
+    first, last = max(runs, key=lambda run: run[1] - run[0], default=(0, 0))
+    if last - first < _DEPARTURE_BLOCKS:
+        return []
+    worst = lag.departure[first:last][np.argmax(np.abs(lag.departure[first:last]))]
+    return [
+        f"from {lag.time_s[first]:.4g} to {lag.time_s[last - 1]:.4g} s the sound is at "
+        f"{1.0 + worst:.3f} times the speed: orders read too low there"
+    ]
+
+
+def _unit_notes(
+    recording: RecordingBlocks, names: Sequence[str], motion: CrankMotion, least_lines: int
+) -> list[str]:
+    """Name the unit in which a recorded speed has lines at its orders, and else none."""
+    for unit, factor in _UNITS.items():
+        geared = motion.geared(factor)
+        highest_hz = float(_speeds_hz(geared).max())
+        if not _LEAST_HZ < highest_hz < recording.sample_rate_hz / (2.0 * _LEAST_LINES):
+            continue
+        for _, lag in _lags(recording, names, geared):
+            if np.isfinite(lag.error_s) and np.sum(_in_place(lag.lines)) >= least_lines:
+                lines = ", ".join(f"{order:.4g}" for order in np.sort(lag.lines))
+                return [
+                    f"no line of the sound is an order of it; as a speed in {unit} it has lines at "
+                    f"orders {lines}: orders are wrong; state its unit"
+                ]
+    return []
+
+
+def _speeds_hz(motion: CrankMotion) -> Array:
+    """Speeds of a motion at times evenly apart, shape (1000,)."""
+    times = np.linspace(motion.start_s, motion.end_s, 1000, dtype=float)
+    return motion.frequency_hz(np.asarray(times))
+
+
+def _off_orders(lines: Array) -> Array:
+    """Distance of lines from multiples of 1/2, shape (line,)."""
+    return np.asarray(np.abs(lines - 0.5 * np.rint(2.0 * lines)))
+
+
+def _in_place(lines: Array) -> NDArray[np.bool_]:
+    """Whether lines are multiples of 1/2, shape (line,)."""
+    return np.asarray(_off_orders(lines) < _OFF_ORDER)
+
+
+def _scale_notes(signal: Array, rate_hz: float, motion: CrankMotion) -> list[str]:
+    """Name the speed that the lines fit where a nominal one explains none of them."""
+    first = int(np.ceil(motion.start_s * rate_hz))
+    samples = signal[first : int(motion.end_s * rate_hz) + 1]
+    hertz = float(motion.frequency_hz(np.array([motion.start_s]))[0])
+    per_revolution = rate_hz / hertz
+    length = int(min(samples.size / 3.0, 200.0 * per_revolution))
+    if length < 24.0 * per_revolution:
+        return []
+    lines = clear_lines(samples, per_revolution, length, 4.0)
+    in_place = lines_in_place(lines, _HALF_ORDERS)[0]
+    scales, worths = best_speeds(lines, _COMB, 1.0 - _NEAR, 1.0 + _NEAR, _APART)
+    if in_place or scales.size == 0 or mains_of(np.array([scales[0] * hertz])) is not None:
+        return []
+    explained = lines_in_place(lines, scales[0] * _COMB)[0]
+    gain = worths[0] - evidence(lines, _COMB, np.ones(1))[0]
+    if explained < _LEAST_LINES or gain < _LEAST_EVIDENCE or abs(scales[0] - 1.0) < _APART:
+        return []
+    rpm = 60.0 * hertz
+    return [
+        f"no line of the sound is an order of {rpm:.4g} rpm, {explained} are of "
+        f"{scales[0] * rpm:.4g} rpm: orders read too low; give that speed, or find it in the signal"
+    ]
