@@ -91,6 +91,18 @@ def design_matrix(weights: ComplexArray) -> ComplexArray:
     return np.concatenate([np.ones((len(weights), 1)), weights], axis=1)
 
 
+def rank_of_runs(weights: ComplexArray) -> int:
+    """Number of unknowns, of b₀ and of one A for each plane, that runs determine.
+
+    Parameters
+    ----------
+    weights : moments that are in, shape (run, plane), kg m
+    """
+    design = design_matrix(weights)
+    scale = np.maximum(np.abs(design).max(axis=0, initial=0.0), np.finfo(float).tiny)
+    return int(np.linalg.matrix_rank(np.asarray(design / scale, dtype=complex), tol=1e-6))
+
+
 class Scatter(NamedTuple):
     """Scatter of the readings of a row about the linear model.
 
@@ -157,11 +169,11 @@ def coefficients(
     run, row = np.nonzero(np.isfinite(readings))
     design = design_matrix(weights)[run]
     error = deviation[run, row]
-    left = np.einsum("ep,epv->ev", design, columns[row]) / error[:, None]
-    right = (readings[run, row] - np.einsum("ep,ep->e", design, middle[row])) / error
-    known = np.eye(columns.shape[-1])[flat:]
-    stacked = np.concatenate([left.real, left.imag, known])
-    values = np.concatenate([right.real, right.imag, np.zeros(len(known))])
+    equations = np.einsum("ep,epv->ev", design, columns[row]) / error[:, None]
+    targets = (readings[run, row] - np.einsum("ep,ep->e", design, middle[row])) / error
+    regular = np.eye(columns.shape[-1])[flat:]
+    stacked = np.concatenate([equations.real, equations.imag, regular])
+    values = np.concatenate([targets.real, targets.imag, np.zeros(len(regular))])
     size = np.sqrt(np.sum(stacked**2, axis=0))
     outer, spread, directions = np.linalg.svd(stacked / size, full_matrices=False)
     inverse = directions.T / spread / size[:, None]

@@ -59,7 +59,7 @@ def split_moment(moment: complex, angle_rad: Array) -> list[Piece]:
     parts = {hole: float(size * share / np.sin(gap)) for hole, share in shares.items()}
     return [
         Piece(hole + 1, part, float(angle_rad[hole]))
-        for hole, part in parts.items()
+        for hole, part in sorted(parts.items())
         if part > _SAME_RAD * size
     ]
 

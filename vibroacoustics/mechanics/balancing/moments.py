@@ -135,7 +135,7 @@ class _Scaled(NamedTuple):
         return np.append(self._sums(parts) - worst, squared - 1.0)
 
     def _slopes(self, parts: Array) -> Array:
-        """Derivatives of the sums of squares and of squared moments, shape (speed + limit, part)."""
+        """Slopes of the sums of squares and of squared moments, shape (speed + limit, part)."""
         moment = _complex(parts)
         residual = self.response + self.influence @ moment
         slope = 2.0 * np.einsum("sr,srw->sw", residual.conj(), self.influence)

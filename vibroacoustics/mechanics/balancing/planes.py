@@ -90,9 +90,11 @@ def sound_moments(response: ComplexArray, influence: ComplexArray) -> ComplexArr
     if not related:
         return least_squares_moments(response[None], influence[None])
     answers = [least_norm_moments(response, influence)]
-    for plane in related if influence.shape[1] > 1 else ():
-        if not dependence(np.delete(influence, plane, axis=1)).planes:
-            answers.append(without_plane(response, influence, plane))
+    answers += [
+        without_plane(response, influence, plane)
+        for plane in related * (influence.shape[1] > 1)
+        if not dependence(np.delete(influence, plane, axis=1)).planes
+    ]
     return min(answers, key=lambda moment: float(np.linalg.norm(response + influence @ moment)))
 
 
