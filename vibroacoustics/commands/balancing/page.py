@@ -10,7 +10,7 @@ from ...base import rounding
 from ...design.bench.balanced_runs import BalancedRuns, other_reading, shown_angle
 from ...design.bench.grade import grade_name, grade_of
 from ...report.analysis import Analysis
-from ...report.blocks import Bullets, Part, Pictures, Text
+from ...report.blocks import Bullets, Part, Pictures
 from ...report.charts.svg import Picture
 from ...report.tables import Table
 from .picture import plane_picture, weight_words
@@ -169,25 +169,24 @@ def bench_sheet(found: BalancedRuns) -> Analysis:
         for row, (sensor, speed) in enumerate(zip(runs.sensors, runs.speeds_rpm, strict=True))
     )
     head = ("Sensor", "rpm", "Now", "Expected, 80 %", "Unit")
-    steps = Bullets((
-        *conventions(found)[::-1],
-        f"Add {weights_in_words(found)}.",
-        "Run again. Write the readings into the file as a run with these weights: the next answer "
-        "uses it.",
-    ))  # fmt: skip
+    steps = Bullets(
+        (
+            *conventions(found)[::-1],
+            "Add the weights of the table. Run again; the readings should be within the bands.",
+            "Write the readings into the file as a run with these weights: the next answer uses "
+            "it.",
+        )
+    )
+    pictures = Pictures(tuple(_pictures(found)))
+    expected = Table(f"Expected readings, {settings.amplitudes}", head, rows)
+    blocks = (weights_table(found), steps, expected, pictures)
     return Analysis(
         "bench",
         f"Bench sheet: {settings.title}",
         "Machine on the bench",
         "",
         "Which mass goes where, and what is read then.",
-        (
-            Part("steps", "Steps", (weights_table(found), steps)),
-            Part("picture", "Planes", (Pictures(tuple(_pictures(found))),)),
-            Part(
-                "expected", "Expected readings", (Table(settings.amplitudes, head, rows), Text(""))
-            ),
-        ),
+        (Part("steps", "Steps", blocks),),
     )
 
 

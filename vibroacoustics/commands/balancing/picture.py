@@ -10,9 +10,9 @@ from ...measured.trial_runs.settings import Plane, hole_angles_rad
 from ...report.charts.svg import Picture
 from ...report.drawing import svg
 
-WIDTH: Final = 360.0
-HEIGHT: Final = 330.0
-_CENTRE: Final = np.array([180.0, 180.0])
+WIDTH: Final = 400.0
+HEIGHT: Final = 392.0
+_CENTRE: Final = np.array([200.0, 215.0])
 _RADIUS: Final = 95.0
 _MOST_NUMBERED: Final = 24
 _WEIGHT: Final = "#c0392b"
@@ -45,8 +45,8 @@ def plane_picture(found: BalancedRuns, name: str) -> Picture:
     return Picture(
         f"plane_{name}",
         f"Plane {name}: {words}",
-        f"Plane {name}, seen from the side that angles are read from, when the mark is at the tacho"
-        f" (top). The shaft turns {found.settings.rotation}. Add {words}.",
+        f"Plane {name} from the side that angles are read from, its mark at the tacho. "
+        f"Add {words}.",
         content,
         "svg",
     )
@@ -79,8 +79,7 @@ def _mark() -> list[str]:
     return [
         svg.path(foot, True, fill=svg.INK),
         svg.path(sensor, True, fill="#fff", stroke=svg.INK),
-        svg.words(top - np.array([14.0, 15.0]), "tacho", "end", fill=svg.SOFT),
-        svg.words(top + np.array([0.0, 27.0]), "mark", "middle", fill=svg.SOFT),
+        svg.words(top - np.array([12.0, 20.0]), "tacho at mark", "end", fill=svg.SOFT),
     ]
 
 
@@ -103,15 +102,15 @@ def _rotation(found: BalancedRuns) -> list[str]:
 def _zero(found: BalancedRuns, plane: Plane) -> list[str]:
     """Zero of the plane, and the direction in which its angles count."""
     angles = np.deg2rad(np.arange(0.0, 61.0, 2.0))
-    arc = np.array([_at(found, plane, float(angle), _RADIUS + 42.0) for angle in angles])
-    outer = _at(found, plane, 0.0, _RADIUS + 48.0)
+    arc = np.array([_at(found, plane, float(angle), _RADIUS + 66.0) for angle in angles])
+    outer = _at(found, plane, 0.0, _RADIUS + 72.0)
     return [
-        svg.path(np.array([_at(found, plane, 0.0, _RADIUS + 24.0), outer]), stroke=_SCALE,
+        svg.path(np.array([_at(found, plane, 0.0, _RADIUS + 30.0), outer]), stroke=_SCALE,
                  stroke_width=2),
         svg.path(arc, fill="none", stroke=_SCALE, stroke_width=1.5),
         svg.arrow(arc[-4], arc[-1] + (arc[-1] - arc[-4]), _SCALE),
-        svg.words(_at(found, plane, 0.13, _RADIUS + 56.0).tolist(), "0°", "middle", fill=_SCALE),
-        svg.words(_at(found, plane, 1.3, _RADIUS + 50.0).tolist(), "60°", "middle", fill=_SCALE),
+        svg.words(_at(found, plane, 0.13, _RADIUS + 80.0).tolist(), "0°", "middle", fill=_SCALE),
+        svg.words(_at(found, plane, 1.25, _RADIUS + 68.0).tolist(), "60°", "middle", fill=_SCALE),
     ]  # fmt: skip
 
 
@@ -129,7 +128,7 @@ def _holes(found: BalancedRuns, plane: Plane) -> list[str]:
 def _weight(found: BalancedRuns, plane: Plane, weight: PlacedWeight) -> list[str]:
     where = _at(found, plane, weight.angle_rad, 78.0)
     outside = _at(found, plane, weight.angle_rad, _RADIUS + 14.0)
-    anchor = "start" if outside[0] > _CENTRE[0] else "end"
+    anchor = "start" if outside[0] >= _CENTRE[0] else "end"
     label = f"{1e3 * weight.mass_kg:.3g} g"
     return [
         svg.disc(where, 8, fill=_WEIGHT),

@@ -132,6 +132,7 @@ def _unit_of_aim(found: BalancedRuns) -> str:
 def _remaining(found: BalancedRuns, moment: ComplexArray) -> tuple[float, float]:
     """Root mean square and largest of the weighted readings with moments."""
     size = found.problem.weight * np.abs(found.problem.residual(moment))
+    size = np.where(size > _NOISE * np.max(found.problem.weight * np.abs(found.before)), size, 0.0)
     return float(np.sqrt(np.mean(size**2))), float(size.max())
 
 
