@@ -24,7 +24,7 @@ def balance_command(
 
     load_plugins(plugin)
     target = printing.target(out or Path("reports") / file.stem)
-    found = balance_runs(file)
-    doubts = remarks(found)
+    result = balance_runs(file)
+    doubts = remarks(result)
     messages.warn(doubts)
-    return target.outcome(analysis_of_balancing(found, doubts))
+    return target.outcome(analysis_of_balancing(result, doubts))

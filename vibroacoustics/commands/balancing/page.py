@@ -36,60 +36,66 @@ _METHOD: Final = (
 )
 
 
-def analysis_of_balancing(found: BalancedRuns, remarks: list[str]) -> Analysis:
+def analysis_of_balancing(result: BalancedRuns, remarks: list[str]) -> Analysis:
     """Return weights, readings, answers and remarks; its further file is the bench sheet.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     remarks : doubts about it, a line each
     """
-    weights, readings, answers = weights_table(found), readings_table(found), answers_table(found)
+    weights, readings, answers = (
+        weights_table(result),
+        readings_table(result),
+        answers_table(result),
+    )
     doubts = Part("remarks", "Remarks", (Bullets(tuple(remarks)),)) if remarks else None
     parts = (
-        Part("weights", "Weights", (weights, Pictures(tuple(_pictures(found))))),
+        Part("weights", "Weights", (weights, Pictures(tuple(_pictures(result))))),
         Part("readings", "Readings", (readings,)),
         *([doubts] if doubts else []),
-        Part("answers", "Alternatives", (answers, Bullets(tuple(_alternatives(found))))),
-        Part("method", "Assumptions and limits", (Bullets((*conventions(found), *_METHOD)),), True),
+        Part("answers", "Alternatives", (answers, Bullets(tuple(_alternatives(result))))),
+        Part(
+            "method", "Assumptions and limits", (Bullets((*conventions(result), *_METHOD)),), True
+        ),
     )
     return Analysis(
         "balancing",
-        found.settings.title,
+        result.settings.title,
         "Machine on the bench",
         f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         _ABOUT,
         parts,
-        summary=tuple(headlines(found)),
+        summary=tuple(headlines(result)),
         shown=(weights, readings, answers),
-        tables=data_tables(found),
-        further={BENCH_NAME: bench_sheet(found).html()},
+        tables=data_tables(result),
+        further={BENCH_NAME: bench_sheet(result).html()},
     )
 
 
-def _pictures(found: BalancedRuns) -> Iterator[Picture]:
-    return (plane_picture(found, name) for name in list(found.settings.planes)[:MOST_PICTURES])
+def _pictures(result: BalancedRuns) -> Iterator[Picture]:
+    return (plane_picture(result, name) for name in list(result.settings.planes)[:MOST_PICTURES])
 
 
-def headlines(found: BalancedRuns) -> Iterator[str]:
+def headlines(result: BalancedRuns) -> Iterator[str]:
     """Weights, the largest reading and the grade, a sentence each.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     """
-    yield f"Add {weights_in_words(found)}."
-    size = found.problem.weight * np.abs(found.before)
+    yield f"Add {weights_in_words(result)}."
+    size = result.problem.weight * np.abs(result.before)
     row = int(size.argmax())
-    sensor, unit = found.runs.sensors[row], found.settings.sensors[found.runs.sensors[row]].unit
-    limits = band(found.after_band[0, row], found.after_band[2, row])
+    sensor, unit = result.runs.sensors[row], result.settings.sensors[result.runs.sensors[row]].unit
+    limits = band(result.after_band[0, row], result.after_band[2, row])
     yield (
-        f"{sensor} at {found.runs.speeds_rpm[row]:.0f} rpm: "
-        f"{rounding.three_digits(abs(found.before[row]))} to "
-        f"{rounding.three_digits(remaining(found, row))} {unit} {found.settings.amplitudes} "
+        f"{sensor} at {result.runs.speeds_rpm[row]:.0f} rpm: "
+        f"{rounding.three_digits(abs(result.before[row]))} to "
+        f"{rounding.three_digits(remaining(result, row))} {unit} {result.settings.amplitudes} "
         f"(80 %: {limits})."
     )
-    grade = grade_of(found)
+    grade = grade_of(result)
     if grade is not None:
         yield (
             f"Balance quality: {rounding.three_digits(grade.before)} to "
@@ -98,31 +104,33 @@ def headlines(found: BalancedRuns) -> Iterator[str]:
         )
 
 
-def weights_in_words(found: BalancedRuns) -> str:
+def weights_in_words(result: BalancedRuns) -> str:
     """Weights to add, in words.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     """
-    return "; ".join(f"{each.plane}: {weight_words(each)}" for each in found.weights) or "no weight"
+    return (
+        "; ".join(f"{each.plane}: {weight_words(each)}" for each in result.weights) or "no weight"
+    )
 
 
-def conventions(found: BalancedRuns) -> list[str]:
+def conventions(result: BalancedRuns) -> list[str]:
     """State directions and zeros of angles and phases, a sentence each.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     """
-    settings = found.settings
+    settings = result.settings
     phase = "after" if settings.phases == "lag" else "before"
     zeros = ", ".join(
         f"{name} {np.rad2deg(plane.zero_rad):.0f}°" for name, plane in settings.planes.items()
     )
     state = (
         "weights of all runs stay in, add these to them"
-        if np.any(np.abs(found.runs.installed) > 0.0)
+        if np.any(np.abs(result.runs.installed) > 0.0)
         else "all trial weights are out"
     )
     return [
@@ -133,37 +141,37 @@ def conventions(found: BalancedRuns) -> list[str]:
     ]
 
 
-def _alternatives(found: BalancedRuns) -> Iterator[str]:
+def _alternatives(result: BalancedRuns) -> Iterator[str]:
     """Condition of the planes, and weights for the other reading of the trial weights."""
-    condition = found.dependence.condition
+    condition = result.dependence.condition
     yield f"Condition number of the planes: {condition:.3g} (above 15 they act alike)."
-    other = other_reading(found)
+    other = other_reading(result)
     if other is None:
         return
-    word = "removed" if found.settings.trial_weights == "left in" else "left in"
-    planes = found.settings.planes
+    word = "removed" if result.settings.trial_weights == "left in" else "left in"
+    planes = result.settings.planes
     masses = "; ".join(
         f"{name}: {1e3 * abs(each) / plane.radius_m:.3g} g at "
-        f"{np.rad2deg(shown_angle(found.settings, plane, float(np.angle(each)))):.0f}°"
+        f"{np.rad2deg(shown_angle(result.settings, plane, float(np.angle(each)))):.0f}°"
         for (name, plane), each in zip(planes.items(), other, strict=True)
     )
     yield f"If the trial weights were {word}, the weights would be others ({masses}): check that."
 
 
-def bench_sheet(found: BalancedRuns) -> Analysis:
+def bench_sheet(result: BalancedRuns) -> Analysis:
     """Return the sheet for the bench: which mass goes where, and what is read then.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     """
-    settings, runs = found.settings, found.runs
+    settings, runs = result.settings, result.runs
     rows = tuple(
         (
             sensor,
             f"{speed:.0f}",
-            shown_reading(settings, found.before[row]),
-            _expected(found, row),
+            shown_reading(settings, result.before[row]),
+            _expected(result, row),
             settings.sensors[sensor].unit,
         )
         for row, (sensor, speed) in enumerate(zip(runs.sensors, runs.speeds_rpm, strict=True))
@@ -171,15 +179,15 @@ def bench_sheet(found: BalancedRuns) -> Analysis:
     head = ("Sensor", "rpm", "Now", "Expected, 80 %", "Unit")
     steps = Bullets(
         (
-            *conventions(found)[::-1],
+            *conventions(result)[::-1],
             "Add the weights of the table. Run again; the readings should be within the bands.",
             "Write the readings into the file as a run with these weights: the next answer uses "
             "it.",
         )
     )
-    pictures = Pictures(tuple(_pictures(found)))
+    pictures = Pictures(tuple(_pictures(result)))
     expected = Table(f"Expected readings, {settings.amplitudes}", head, rows)
-    blocks = (weights_table(found), steps, expected, pictures)
+    blocks = (weights_table(result), steps, expected, pictures)
     return Analysis(
         "bench",
         f"Bench sheet: {settings.title}",
@@ -190,9 +198,9 @@ def bench_sheet(found: BalancedRuns) -> Analysis:
     )
 
 
-def _expected(found: BalancedRuns, row: int) -> str:
+def _expected(result: BalancedRuns, row: int) -> str:
     """Band of the next reading; without one what should remain."""
-    low, _, high = found.expected_band[:, row]
+    low, _, high = result.expected_band[:, row]
     if np.isfinite(low):
         return band(low, high)
-    return f"about {rounding.three_digits(remaining(found, row))}"
+    return f"about {rounding.three_digits(remaining(result, row))}"

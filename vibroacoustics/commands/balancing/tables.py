@@ -37,19 +37,19 @@ def shown_reading(settings: TrialRuns, value: complex) -> str:
     return f"{_FEW(abs(value))}@{shown_phase_deg(settings, value):.0f}°"
 
 
-def remaining(found: BalancedRuns, row: int) -> float:
+def remaining(result: BalancedRuns, row: int) -> float:
     """Amplitude that remains: the median of its band, else its value; zero if rounding noise.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     row : number of the row
     """
-    value = float(found.after_band[1, row])
+    value = float(result.after_band[1, row])
     if np.isfinite(value):
         return value
-    size = abs(found.after[row])
-    return float(size if size > _NOISE * abs(found.before[row]) else 0.0)
+    size = abs(result.after[row])
+    return float(size if size > _NOISE * abs(result.before[row]) else 0.0)
 
 
 def band(low: float, high: float) -> str:
@@ -62,112 +62,114 @@ def band(low: float, high: float) -> str:
     return f"{_FEW(low)} to {_FEW(high)}" if np.isfinite(low) else "unknown"
 
 
-def weights_table(found: BalancedRuns) -> Table:
+def weights_table(result: BalancedRuns) -> Table:
     """Weights to add.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     """
     rows = tuple(
         (weight.plane, str(weight.hole or rounding.NOTHING), _FEW(1e3 * weight.mass_kg),
          f"{np.rad2deg(weight.angle_rad):.0f}",
-         _FEW(1e3 * found.settings.planes[weight.plane].radius_m))
-        for weight in found.weights
+         _FEW(1e3 * result.settings.planes[weight.plane].radius_m))
+        for weight in result.weights
     )  # fmt: skip
     return Table("Weights to add", ("Plane", "Hole", "Mass, g", "Angle, °", "Radius, mm"), rows)
 
 
-def readings_table(found: BalancedRuns) -> Table:
+def readings_table(result: BalancedRuns) -> Table:
     """Readings before and after, with the band of what remains.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     """
-    settings, runs = found.settings, found.runs
+    settings, runs = result.settings, result.runs
     rows = tuple(
         (sensor, f"{speed:.0f}", settings.sensors[sensor].unit,
-         shown_reading(settings, found.before[row]), _FEW(remaining(found, row)),
-         band(found.after_band[0, row], found.after_band[2, row]))
+         shown_reading(settings, result.before[row]), _FEW(remaining(result, row)),
+         band(result.after_band[0, row], result.after_band[2, row]))
         for row, (sensor, speed) in enumerate(zip(runs.sensors, runs.speeds_rpm, strict=True))
     )  # fmt: skip
     head = ("Sensor", "rpm", "Unit", "Before", "After", "80 %")
     return Table(f"Readings, {settings.amplitudes}", head, rows)
 
 
-def answers_table(found: BalancedRuns) -> Table:
+def answers_table(result: BalancedRuns) -> Table:
     """Weights and readings of every aim, before they are put in holes.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     """
-    planes = found.settings.planes
+    planes = result.settings.planes
     rows = []
-    for name, moment in {"no weight": 0.0 * found.moment_kg_m, **found.answers}.items():
+    for name, moment in {"no weight": 0.0 * result.moment_kg_m, **result.answers}.items():
         masses = (
             f"{_FEW(1e3 * abs(each) / plane.radius_m)}@"
-            f"{np.rad2deg(shown_angle(found.settings, plane, float(np.angle(each)))):.0f}°"
+            f"{np.rad2deg(shown_angle(result.settings, plane, float(np.angle(each)))):.0f}°"
             if abs(each) > 0.0
             else rounding.NOTHING
             for each, plane in zip(moment, planes.values(), strict=True)
         )
-        title = f"{name} (chosen)" if name == found.chosen else name
-        rows.append((title, *masses, *map(_FEW, _remaining(found, moment))))
-    unit = _unit_of_aim(found)
+        title = f"{name} (chosen)" if name == result.chosen else name
+        rows.append((title, *masses, *map(_FEW, _remaining(result, moment))))
+    unit = _unit_of_aim(result)
     head = ("Answer", *(f"{name}, g@°" for name in planes), f"rms, {unit}", f"largest, {unit}")
     return Table("What each answer leaves", head, tuple(rows))
 
 
-def _unit_of_aim(found: BalancedRuns) -> str:
+def _unit_of_aim(result: BalancedRuns) -> str:
     """Unit of weighted readings."""
-    sensors = [found.settings.sensors[name] for name in found.runs.sensors]
+    sensors = [result.settings.sensors[name] for name in result.runs.sensors]
     if all(sensor.limit is not None for sensor in sensors):
         return "of limits"
     units = {sensor.unit for sensor in sensors}
     return units.pop() if len(units) == 1 else "of the largest of a unit"
 
 
-def _remaining(found: BalancedRuns, moment: ComplexArray) -> tuple[float, float]:
+def _remaining(result: BalancedRuns, moment: ComplexArray) -> tuple[float, float]:
     """Root mean square and largest of the weighted readings with moments."""
-    size = found.problem.weight * np.abs(found.problem.residual(moment))
-    size = np.where(size > _NOISE * np.max(found.problem.weight * np.abs(found.before)), size, 0.0)
+    size = result.problem.weight * np.abs(result.problem.residual(moment))
+    size = np.where(
+        size > _NOISE * np.max(result.problem.weight * np.abs(result.before)), size, 0.0
+    )
     return float(np.sqrt(np.mean(size**2))), float(size.max())
 
 
-def data_tables(found: BalancedRuns) -> dict[str, DataTable]:
+def data_tables(result: BalancedRuns) -> dict[str, DataTable]:
     """Return the tables for programs, by the names of their files.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     """
-    settings, runs = found.settings, found.runs
+    settings, runs = result.settings, result.runs
     weights = [
         (each.plane, "" if each.hole is None else float(each.hole), 1e3 * each.mass_kg,
          float(np.rad2deg(each.angle_rad)), 1e3 * settings.planes[each.plane].radius_m)
-        for each in found.weights
+        for each in result.weights
     ]  # fmt: skip
     readings, influence = [], []
     for row, (sensor, speed) in enumerate(zip(runs.sensors, runs.speeds_rpm, strict=True)):
-        before, after = found.before[row], found.after[row]
-        bands = (*found.after_band, *found.expected_band)
+        before, after = result.before[row], result.after[row]
+        bands = (*result.after_band, *result.expected_band)
         readings.append((
             sensor, float(speed), settings.sensors[sensor].unit,
             abs(before), shown_phase_deg(settings, before),
             abs(after), shown_phase_deg(settings, after),
             *(cell(float(each[row])) for each in bands),
         ))  # fmt: skip
-        for plane, value in zip(settings.planes, found.problem.influence[row], strict=True):
+        for plane, value in zip(settings.planes, result.problem.influence[row], strict=True):
             influence.append((
                 sensor, float(speed), plane, 1e-6 * abs(value), float(np.angle(value, deg=True))
             ))  # fmt: skip
     answers = [
         (name, plane, 1e3 * abs(each) / settings.planes[plane].radius_m,
          float(np.rad2deg(shown_angle(settings, settings.planes[plane], float(np.angle(each))))),
-         *_remaining(found, moment), "yes" if name == found.chosen else "no")
-        for name, moment in found.answers.items()
+         *_remaining(result, moment), "yes" if name == result.chosen else "no")
+        for name, moment in result.answers.items()
         for plane, each in zip(settings.planes, moment, strict=True)
     ]  # fmt: skip
     return {

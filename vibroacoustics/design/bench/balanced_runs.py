@@ -142,11 +142,11 @@ def balanced(
     prior : influence coefficients before the runs
     """
     runs, scatter = _corrected(settings, runs)
-    found = coefficients(runs.readings, runs.weights, scatter.deviation, scatter.freedom, prior)
+    fitted = coefficients(runs.readings, runs.weights, scatter.deviation, scatter.freedom, prior)
     problem = BenchProblem(
-        found.response + found.influence @ runs.installed,
-        found.influence,
-        _row_weights(settings, runs, found.response + found.influence @ runs.installed),
+        fitted.response + fitted.influence @ runs.installed,
+        fitted.influence,
+        _row_weights(settings, runs, fitted.response + fitted.influence @ runs.installed),
         [_limits_of(settings, plane) for plane in settings.planes.values()],
     )
     names = list(settings.planes)
@@ -154,14 +154,14 @@ def balanced(
     chosen = SOUND if SOUND in answers else settings.answer
     pieces = problem.pieces(answers[chosen], settings.answer)
     moment = np.array([sum((piece.vector for piece in each), 0j) for each in pieces])
-    samples = found.sampled()
+    samples = fitted.sampled()
     residual = samples[..., 0] + samples[..., 1:] @ (runs.installed + moment)
     noise = np.nanmean(scatter.deviation, axis=0)
     expected = residual + noise * _noise(residual.shape)
     return BalancedRuns(
         settings,
         runs,
-        found,
+        fitted,
         problem,
         answers,
         chosen,

@@ -40,21 +40,21 @@ def grade_mm_per_s(moment_kg_m: Array, mass_kg: float, speed_rpm: float) -> Arra
     return np.asarray(1e3 * moment_kg_m / mass_kg * speed_rpm * np.pi / 30.0)
 
 
-def grade_of(found: BalancedRuns) -> Grade | None:
+def grade_of(result: BalancedRuns) -> Grade | None:
     """Return the grade before and after; None where the mass of the rotor is not known.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     """
-    rotor = found.settings.rotor
+    rotor = result.settings.rotor
     if rotor.mass_kg is None:
         return None
-    speed = rotor.service_speed_rpm or float(found.runs.speeds_rpm.max())
-    free = found.answers["least squares"]
-    sampled = np.abs(found.moment_samples - found.moment_kg_m).sum(axis=1)
+    speed = rotor.service_speed_rpm or float(result.runs.speeds_rpm.max())
+    free = result.answers["least squares"]
+    sampled = np.abs(result.moment_samples - result.moment_kg_m).sum(axis=1)
     low, median, high = np.quantile(sampled, QUANTILES)
-    after = np.abs(free - found.moment_kg_m).sum() if np.isnan(median) else median
+    after = np.abs(free - result.moment_kg_m).sum() if np.isnan(median) else median
     moments = np.array([np.abs(free).sum(), after, low, high])
     return Grade(*grade_mm_per_s(moments, rotor.mass_kg, speed).tolist())
 

@@ -37,22 +37,22 @@ class Pair(NamedTuple):
     moment: complex
 
 
-def remarks(found: BalancedRuns) -> list[str]:
+def remarks(result: BalancedRuns) -> list[str]:
     """Return what makes the weights doubtful, the most important first.
 
     Parameters
     ----------
-    found : answer for runs
+    result : answer for runs
     """
     return [
-        *_dependent(found),
-        *_weak(found),
-        *_wrapped(found),
-        *_nonlinear(found),
-        *_speeds(found),
-        *_resonances(found),
-        *_limits(found),
-        *_scatter(found),
+        *_dependent(result),
+        *_weak(result),
+        *_wrapped(result),
+        *_nonlinear(result),
+        *_speeds(result),
+        *_resonances(result),
+        *_limits(result),
+        *_scatter(result),
     ]
 
 
@@ -74,41 +74,41 @@ def pairs(weights: ComplexArray) -> list[Pair]:
     return result
 
 
-def _row(found: BalancedRuns, row: int) -> str:
-    return f"{found.runs.sensors[row]} at {found.runs.speeds_rpm[row]:.0f} rpm"
+def _row(result: BalancedRuns, row: int) -> str:
+    return f"{result.runs.sensors[row]} at {result.runs.speeds_rpm[row]:.0f} rpm"
 
 
 def _turned_deg(ratio: ComplexArray) -> Array:
     return np.asarray(np.abs(np.angle(ratio, deg=True)))
 
 
-def _dependent(found: BalancedRuns) -> Iterator[str]:
-    names = list(found.settings.planes)
-    alike = [names[plane] for plane in found.dependence.planes]
+def _dependent(result: BalancedRuns) -> Iterator[str]:
+    names = list(result.settings.planes)
+    alike = [names[plane] for plane in result.dependence.planes]
     if not alike:
         return
     size = {name: abs(moment) for name, moment in
-            zip(names, found.answers["least squares"], strict=True)}  # fmt: skip
+            zip(names, result.answers["least squares"], strict=True)}  # fmt: skip
     masses = ", ".join(
-        f"{name} {1e3 * size[name] / found.settings.planes[name].radius_m:.3g} g" for name in alike
+        f"{name} {1e3 * size[name] / result.settings.planes[name].radius_m:.3g} g" for name in alike
     )
     yield (
         f"planes {' and '.join(alike)} act alike at all readings (condition number "
-        f"{found.dependence.condition:.3g}): least squares needs large weights in opposition "
+        f"{result.dependence.condition:.3g}): least squares needs large weights in opposition "
         f"({masses}); the weights are those of the answer '{SOUND}'"
     )
 
 
-def _weak(found: BalancedRuns) -> Iterator[str]:
+def _weak(result: BalancedRuns) -> Iterator[str]:
     """Planes in which no trial weight moves any reading enough."""
-    readings, names = found.runs.readings, list(found.settings.planes)
+    readings, names = result.runs.readings, list(result.settings.planes)
     strong: set[int] = set()
     tried: dict[int, str] = {}
-    for pair in pairs(found.runs.weights):
+    for pair in pairs(result.runs.weights):
         first, second = readings[pair.first], readings[pair.second]
         ratio = second / np.where(np.abs(first) > 0.0, first, np.nan)
         ratio = ratio[np.isfinite(ratio)]
-        tried.setdefault(pair.plane, found.runs.names[pair.second])
+        tried.setdefault(pair.plane, result.runs.names[pair.second])
         if np.any((np.abs(np.abs(ratio) - 1.0) >= WEAK_RATIO) | (_turned_deg(ratio) >= WEAK_DEG)):
             strong.add(pair.plane)
     for plane, run in tried.items():
@@ -120,9 +120,9 @@ def _weak(found: BalancedRuns) -> Iterator[str]:
             )
 
 
-def _wrapped(found: BalancedRuns) -> Iterator[str]:
+def _wrapped(result: BalancedRuns) -> Iterator[str]:
     """Repeats with opposite phases."""
-    runs = found.runs
+    runs = result.runs
     for second in range(len(runs.weights)):
         for first in range(second):
             if not np.allclose(runs.weights[first], runs.weights[second], atol=1e-15):
@@ -131,15 +131,15 @@ def _wrapped(found: BalancedRuns) -> Iterator[str]:
             likely = (np.abs(ratio) > 0.5) & (np.abs(ratio) < 2.0)
             for row in np.flatnonzero(likely & (_turned_deg(ratio) > WRAP_DEG)).tolist():
                 yield (
-                    f"{_row(found, row)}: runs {runs.names[first]} and {runs.names[second]} have "
+                    f"{_row(result, row)}: runs {runs.names[first]} and {runs.names[second]} have "
                     f"the same weights and phases {_turned_deg(ratio)[row]:.0f}° apart: do not "
                     "average phases either side of 0° (359° and 1°) as numbers"
                 )
 
 
-def _nonlinear(found: BalancedRuns) -> Iterator[str]:
+def _nonlinear(result: BalancedRuns) -> Iterator[str]:
     """Planes whose trial weights give different coefficients."""
-    runs, names = found.runs, list(found.settings.planes)
+    runs, names = result.runs, list(result.settings.planes)
     from_start = [pair for pair in pairs(runs.weights) if abs(pair.moment) > 0.0]
     size = np.nanmax(np.abs(runs.readings), axis=0)
     for plane in sorted({pair.plane for pair in from_start}):
@@ -166,8 +166,8 @@ def _nonlinear(found: BalancedRuns) -> Iterator[str]:
             )
 
 
-def _speeds(found: BalancedRuns) -> Iterator[str]:
-    runs = found.runs
+def _speeds(result: BalancedRuns) -> Iterator[str]:
+    runs = result.runs
     share = np.abs(runs.actual_rpm / runs.speeds_rpm - 1.0)
     for number, name in enumerate(runs.names):
         if np.any(share[number] > SPEED_RATIO):
@@ -179,10 +179,10 @@ def _speeds(found: BalancedRuns) -> Iterator[str]:
             )
 
 
-def _resonances(found: BalancedRuns) -> Iterator[str]:
+def _resonances(result: BalancedRuns) -> Iterator[str]:
     """Phases that turn between speeds, and a service speed without readings."""
-    runs, speeds = found.runs, sorted(set(found.runs.speeds_rpm.tolist()))
-    columns = found.coefficients.influence
+    runs, speeds = result.runs, sorted(set(result.runs.speeds_rpm.tolist()))
+    columns = result.coefficients.influence
     for sensor in dict.fromkeys(runs.sensors):
         rows = [row for row, name in enumerate(runs.sensors) if name == sensor]
         for low, high in pairwise(rows):
@@ -192,7 +192,7 @@ def _resonances(found: BalancedRuns) -> Iterator[str]:
                     f"{sensor}: its phase turns by {turned:.0f}° from {runs.speeds_rpm[low]:.0f} "
                     f"to {runs.speeds_rpm[high]:.0f} rpm: a resonance is between them"
                 )
-    service = found.settings.rotor.service_speed_rpm
+    service = result.settings.rotor.service_speed_rpm
     if service is None or any(abs(service / each - 1.0) <= SAME_SPEED_RATIO for each in speeds):
         return
     nearest = min(speeds, key=lambda each: abs(each - service))
@@ -202,28 +202,28 @@ def _resonances(found: BalancedRuns) -> Iterator[str]:
     )
 
 
-def _limits(found: BalancedRuns) -> Iterator[str]:
-    for row, sensor in enumerate(found.runs.sensors):
-        stated = found.settings.sensors[sensor]
-        if stated.limit is not None and abs(found.after[row]) > stated.limit:
+def _limits(result: BalancedRuns) -> Iterator[str]:
+    for row, sensor in enumerate(result.runs.sensors):
+        stated = result.settings.sensors[sensor]
+        if stated.limit is not None and abs(result.after[row]) > stated.limit:
             yield (
-                f"{_row(found, row)}: {abs(found.after[row]):.3g} {stated.unit} remain, above its "
-                f"limit, {stated.limit:g} {stated.unit}"
+                f"{_row(result, row)}: {abs(result.after[row]):.3g} {stated.unit} remain, above "
+                f"its limit, {stated.limit:g} {stated.unit}"
             )
-    moments = found.answers[found.chosen]
-    for (name, plane), moment in zip(found.settings.planes.items(), moments, strict=True):
+    moments = result.answers[result.chosen]
+    for (name, plane), moment in zip(result.settings.planes.items(), moments, strict=True):
         most = plane.maximum_mass_kg
         if most is not None and abs(moment) >= (1.0 - 1e-4) * most * plane.radius_m:
             yield f"plane {name}: the weight is at its limit, {1e3 * most:g} g"
 
 
-def _scatter(found: BalancedRuns) -> Iterator[str]:
+def _scatter(result: BalancedRuns) -> Iterator[str]:
     unknown = [
         sensor
-        for sensor in dict.fromkeys(found.runs.sensors)
+        for sensor in dict.fromkeys(result.runs.sensors)
         if any(
-            found.coefficients.freedom[row] == 0.0
-            for row, name in enumerate(found.runs.sensors)
+            result.coefficients.freedom[row] == 0.0
+            for row, name in enumerate(result.runs.sensors)
             if name == sensor
         )
     ]
