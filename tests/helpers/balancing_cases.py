@@ -1,6 +1,6 @@
 """Printed cases of balancing: influence coefficients and readings as `amplitude@degrees`.
 
-The numbers are in the test table of the public program hsbalance (MIT); the sources are named there.
+The numbers are in the test table of the public program hsbalance (MIT), which names the sources.
 """
 
 from typing import Final, NamedTuple

@@ -40,7 +40,7 @@ def linear_runs(rng, weights, scatter=0.0, sensors=3):
 
 
 @pytest.mark.parametrize("zero_deg", [0.0, 25.0])
-@pytest.mark.parametrize("convention", EVERY, ids=lambda each: " ".join(each))
+@pytest.mark.parametrize("convention", EVERY, ids=" ".join)
 def test_every_convention_gives_the_weights(convention, zero_deg, tmp_path):
     """Readings of the file and of the closed form agree to 12 digits."""
     rng = np.random.default_rng(SEED)
@@ -280,7 +280,7 @@ def test_bands_hold_the_readings_that_remain(tmp_path):
         ('sensor_1 = "', 'sensor_9 = "', "no such sensor; known are sensor_1"),
         ("@0", " µm@0", "is in µm, the sensor in mm/s: must be in mm/s"),
         ("@0", " mm/s rms@0", "is rms, the amplitudes of the file are peak: must be peak"),
-        ('phases = "lead"', 'phases = "behind"', "phases = behind: must be 'lag' or 'lead'"),
+        ('phases = "lead"', 'phases = "behind"', "phases = 'behind': must be 'lag' or 'lead'"),
         ("radius_mm = 100.0", "radius_mm = -1", "planes.plane_1.radius_mm = -1 mm: out of range"),
         ("weights.plane_1", "weights.plane_7", "no plane plane_7; known are plane_1, plane_2"),
         ("angle_deg = 0", "angle_deg = 0, hole = 1", "give one of angle_deg and hole"),

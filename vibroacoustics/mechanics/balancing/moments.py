@@ -17,6 +17,8 @@ GAP: Final = 1e-7
 """Difference between the worst speed and its lower bound, of the worst speed, that is accepted."""
 _ACTIVE: Final = 1e-5
 """Share of the worst speed's sum of squares within which a speed counts as the worst."""
+_RANK: Final = 1e-9
+"""Singular value, of the largest, below which directions are rounding noise in the lower bound."""
 _STEPS: Final = 1000
 
 
@@ -157,7 +159,7 @@ class _Scaled(NamedTuple):
         influence = (speeds[:, None, None] * self.influence).reshape(-1, self.influence.shape[-1])
         stacked = np.concatenate([influence, limits[:, None] * self.bounds])
         response = np.append((speeds[:, None] * self.response).ravel(), 0.0 * limits)
-        best = least_squares_moments(response, stacked)
+        best = np.linalg.lstsq(stacked, -response, rcond=_RANK)[0]
         return float(np.sum(np.abs(response + stacked @ best) ** 2) - np.sum(limits**2))
 
 
