@@ -141,8 +141,10 @@ def balanced(
     runs : readings and weights
     prior : influence coefficients before the runs
     """
-    runs, scatter = _corrected(settings, runs)
-    fitted = coefficients(runs.readings, runs.weights, scatter.deviation, scatter.freedom, prior)
+    runs, scatter, by_speed = _corrected(settings, runs)
+    fitted = coefficients(
+        runs.readings, runs.weights, scatter.deviation, scatter.freedom, prior, by_speed
+    )
     problem = BenchProblem(
         fitted.response + fitted.influence @ runs.installed,
         fitted.influence,
@@ -177,16 +179,15 @@ def balanced(
     )  # fmt: skip
 
 
-def _corrected(settings: TrialRuns, runs: MeasuredRuns) -> tuple[MeasuredRuns, Deviations]:
-    """Readings at the nominal speeds, with their standard deviations."""
+def _corrected(
+    settings: TrialRuns, runs: MeasuredRuns
+) -> tuple[MeasuredRuns, Deviations, ComplexArray]:
+    """Readings at the nominal speeds, their standard deviations, and change with the speed."""
     units = {name: sensor.unit for name, sensor in settings.sensors.items()}
     growth = slopes(runs.readings, runs.sensors, runs.speeds_rpm, units)
     nominal = at_nominal_speed(runs.readings, runs.actual_rpm, runs.speeds_rpm, growth)
-    scatter = deviations(nominal.readings, runs.weights, runs.deviation, runs.sensors)
-    further = np.nan_to_num(nominal.deviation)
-    return replace(runs, readings=nominal.readings), scatter._replace(
-        deviation=np.hypot(scatter.deviation, further)
-    )
+    scatter = deviations(nominal, runs.weights, runs.deviation, runs.sensors)
+    return replace(runs, readings=nominal.readings), scatter, np.nan_to_num(nominal.by_speed)
 
 
 def _noise(shape: tuple[int, ...]) -> ComplexArray:

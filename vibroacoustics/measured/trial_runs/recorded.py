@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from ...base.arrays import Array, ComplexArray
 from ...base.errors import ParameterError
@@ -96,6 +97,25 @@ def recorded_readings(path: Path, campaign: Campaign) -> RecordedReadings:
             "pulse per revolution, or an index_channel"
         )
     recording = read_recording(path, **campaign.reading_of(path))
+    try:
+        return readings_of(recording, speed)
+    except ParameterError as error:
+        raise ParameterError(f"{path}: {error}") from None
+
+
+def readings_of(recording: xr.Dataset, speed: SpeedChannel) -> RecordedReadings:
+    """Return the 1× readings of a recording.
+
+    Parameters
+    ----------
+    recording : from `read_recording` or `label_recording`
+    speed : channel of the tacho
+
+    Raises
+    ------
+    ParameterError
+        A channel is missing, or there are too few revolutions.
+    """
     names = [str(name) for name in recording["channel"].values]
     units = dict(zip(names, map(str, recording["channel_unit"].values), strict=True))
     check_speed_channels(names, speed)
@@ -103,10 +123,7 @@ def recorded_readings(path: Path, campaign: Campaign) -> RecordedReadings:
     measured = [name for name in names if name not in (speed.channel, speed.index_channel)]
     samples = recording["signal"].sel(channel=measured).values
     angular = angular_resample(samples, recording.attrs["sample_rate_hz"], motion, MAXIMUM_ORDER)
-    try:
-        mean = mean_phasor(angular.values, angular.samples_per_revolution, angular.first_sample)
-    except ParameterError as error:
-        raise ParameterError(f"{path}: {error}") from None
+    mean = mean_phasor(angular.values, angular.samples_per_revolution, angular.first_sample)
     turned = float(np.ptp(motion.angle_rad(angular.time_s[[0, -1]]))) / (2.0 * np.pi)
     rpm = 60.0 * turned / float(np.ptp(angular.time_s[[0, -1]]))
     return RecordedReadings(

@@ -73,11 +73,11 @@ class Corrected(NamedTuple):
     Attributes
     ----------
     readings : shape (run, row)
-    deviation : standard deviation of real and imaginary part that the speed adds, shape (run, row)
+    by_speed : their change by one standard deviation of the exponent, shape (run, row)
     """
 
     readings: ComplexArray
-    deviation: Array
+    by_speed: ComplexArray
 
 
 def at_nominal_speed(
@@ -92,8 +92,7 @@ def at_nominal_speed(
     growth : exponents
     """
     scaled = readings * (speeds_rpm / actual_rpm) ** growth.exponent
-    share = np.abs(actual_rpm / speeds_rpm - 1.0) * growth.deviation
-    return Corrected(scaled, np.abs(scaled) * share / np.sqrt(2.0))
+    return Corrected(scaled, scaled * np.log(actual_rpm / speeds_rpm) * growth.deviation)
 
 
 class Deviations(NamedTuple):
@@ -111,7 +110,7 @@ class Deviations(NamedTuple):
 
 
 def deviations(
-    readings: ComplexArray, weights: ComplexArray, stated: Array, sensors: Sequence[str]
+    corrected: Corrected, weights: ComplexArray, stated: Array, sensors: Sequence[str]
 ) -> Deviations:
     """Find the standard deviation of each reading: stated, or that of repeats.
 
@@ -120,14 +119,15 @@ def deviations(
 
     Parameters
     ----------
-    readings : shape (run, row); not a number where a run has no reading
+    corrected : readings at the nominal speeds
     weights : moments that are in, shape (run, plane), kg m
     stated : shape (run, row); not a number where it is unknown
     sensors : sensor of each row
     """
     from scipy.stats import chi2
 
-    scatter = scatter_of_runs(readings, weights)
+    readings = corrected.readings
+    scatter = scatter_of_runs(readings, weights, np.nan_to_num(corrected.by_speed))
     size = np.sqrt(np.nanmean(np.abs(readings) ** 2, axis=0))
     size = np.where(size > 0.0, size, 1.0)
     deviation, freedom = stated.copy(), np.full(len(sensors), np.inf)

@@ -116,19 +116,25 @@ class Scatter(NamedTuple):
     freedom: Array
 
 
-def scatter_of_runs(readings: ComplexArray, weights: ComplexArray) -> Scatter:
+def scatter_of_runs(
+    readings: ComplexArray, weights: ComplexArray, by_speed: ComplexArray | None = None
+) -> Scatter:
     """Return what repeats and further runs differ from the best linear model of all runs.
 
     Parameters
     ----------
     readings : shape (run, row); not a number where a run has no reading
     weights : moments that are in, shape (run, plane), kg m
+    by_speed : change of readings with an unknown factor of each row, shape (run, row)
     """
     design = design_matrix(weights)
+    design = design / np.maximum(np.abs(design).max(axis=0), np.finfo(float).tiny)
     squares, freedom = np.zeros(readings.shape[1]), np.zeros(readings.shape[1])
     for row, column in enumerate(readings.T):
         present = np.isfinite(column)
-        equations = design[present] / np.maximum(np.abs(design).max(axis=0), np.finfo(float).tiny)
+        equations = design[present]
+        if by_speed is not None and np.any(change := by_speed[present, row]):
+            equations = np.column_stack([equations, change / np.abs(change).max()])
         fit, _, rank, _ = np.linalg.lstsq(equations, column[present], rcond=1e-9)
         freedom[row] = 2.0 * (present.sum() - rank)
         if freedom[row]:
@@ -142,6 +148,7 @@ def coefficients(
     deviation: Array,
     freedom: Array,
     prior: Ensemble | None = None,
+    by_speed: ComplexArray | None = None,
 ) -> Coefficients:
     """Find b₀ and A by least squares over all runs together, from a prior where there is one.
 
@@ -155,6 +162,8 @@ def coefficients(
     deviation : standard deviation of the real and of the imaginary part, shape (run, row)
     freedom : degrees of freedom of each row's deviation, shape (row,); see `Coefficients`
     prior : influence coefficients before the runs
+    by_speed : change of readings by one standard deviation of an exponent of the speed, which is
+        unknown in each row, shape (run, row)
     """
     rows, planes = readings.shape[1], weights.shape[1]
     middle = np.zeros((rows, 1 + planes), dtype=complex)
@@ -171,6 +180,13 @@ def coefficients(
     error = deviation[run, row]
     equations = np.einsum("ep,epv->ev", design, columns[row]) / error[:, None]
     targets = (readings[run, row] - np.einsum("ep,ep->e", design, middle[row])) / error
+    if by_speed is not None and np.any(by_speed):
+        further = np.zeros((len(run), 2 * rows), dtype=complex)
+        change = by_speed[run, row] / error
+        further[np.arange(len(run)), row] = change
+        further[np.arange(len(run)), rows + row] = 1j * change
+        equations = np.concatenate([equations, further], axis=1)
+        columns = np.concatenate([columns, np.zeros((rows, 1 + planes, 2 * rows))], axis=-1)
     regular = np.eye(columns.shape[-1])[flat:]
     stacked = np.concatenate([equations.real, equations.imag, regular])
     values = np.concatenate([targets.real, targets.imag, np.zeros(len(regular))])
