@@ -17,6 +17,7 @@ from ...measured.trial_runs.measured_runs import (
 )
 from ...measured.trial_runs.scatter import Deviations, at_nominal_speed, deviations, slopes
 from ...measured.trial_runs.settings import Plane, TrialRuns, hole_angles_rad, load_trial_runs
+from ...mechanics.balancing.bands import residual_samples
 from ...mechanics.balancing.coefficients import Coefficients, Ensemble, coefficients, rank_of_runs
 from ...mechanics.balancing.planes import Dependence
 from ...recordings.quantities import quantity
@@ -157,7 +158,7 @@ def balanced(
     pieces = problem.pieces(answers[chosen], settings.answer)
     moment = np.array([sum((piece.vector for piece in each), 0j) for each in pieces])
     samples = fitted.sampled()
-    residual = samples[..., 0] + samples[..., 1:] @ (runs.installed + moment)
+    residual = residual_samples(fitted, runs.installed + moment)
     noise = np.nanmean(scatter.deviation, axis=0)
     expected = residual + noise * _noise(residual.shape)
     return BalancedRuns(

@@ -1,6 +1,6 @@
 """Readings and weights of all runs as arrays, in one convention of angles."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final, NamedTuple
@@ -13,8 +13,8 @@ from ...base.fault import omit
 from ...mechanics.balancing.coefficients import rank_of_runs
 from ...recordings.quantities import quantity
 from .reading_text import PEAK_FACTORS, parsed
-from .recorded import recorded_readings
-from .settings import Plane, Run, RunWeight, TrialRuns, hole_angles_rad
+from .recorded import RecordedReadings, recorded_readings
+from .settings import Plane, RunWeight, TrialRuns, hole_angles_rad
 
 SAME_SPEED_RATIO: Final = 0.05
 """Readings of speeds that differ by less are of one operating point."""
@@ -72,12 +72,27 @@ def measured_runs(settings: TrialRuns, folder: Path) -> MeasuredRuns:
     ParameterError, StorageError
         A recording cannot be read, or its channel of a sensor is missing or of another quantity.
     """
-    moments, installed = moments_of_runs(settings)
-    entries = [
+    campaign = settings.campaign()
+    recorded = (
         entry
         for number, run in enumerate(settings.runs.values())
-        for entry in (*_written(settings, number, run), *_recorded(settings, number, run, folder))
-    ]
+        for name in run.recordings
+        for entry in entries_of(
+            settings, number, recorded_readings(folder / name, campaign), folder / name
+        )
+    )
+    return collected(settings, [*_written(settings), *recorded])
+
+
+def collected(settings: TrialRuns, entries: Sequence[Entry]) -> MeasuredRuns:
+    """Return readings and weights as arrays.
+
+    Parameters
+    ----------
+    settings : file of the runs
+    entries : readings
+    """
+    moments, installed = moments_of_runs(settings)
     speeds = _nominal([entry.speed_rpm for entry in entries])
     rows = sorted({(speeds[i], entry.sensor) for i, entry in enumerate(entries)},
                   key=lambda row: (row[0], list(settings.sensors).index(row[1])))  # fmt: skip
@@ -137,39 +152,49 @@ def _moment(settings: TrialRuns, plane: Plane, weight: RunWeight) -> complex:
     return complex(weight.mass_kg * radius * turned)
 
 
-def _written(settings: TrialRuns, number: int, run: Run) -> Iterator[Entry]:
+def _written(settings: TrialRuns) -> Iterator[Entry]:
     """Readings that the file holds."""
-    for speed, readings in run.readings.items():
-        for sensor, text in readings.items():
-            value = parsed(text).value
-            lead = value if settings.phases == "lead" else value.conjugate()
-            stated = settings.sensors[sensor].scatter
-            yield Entry(number, float(speed), sensor, lead, np.nan if stated is None else stated)
+    for number, run in enumerate(settings.runs.values()):
+        for speed, readings in run.readings.items():
+            for sensor, text in readings.items():
+                value = parsed(text).value
+                lead = value if settings.phases == "lead" else value.conjugate()
+                stated = settings.sensors[sensor].scatter
+                deviation = np.nan if stated is None else stated
+                yield Entry(number, float(speed), sensor, lead, deviation)
 
 
-def _recorded(settings: TrialRuns, number: int, run: Run, folder: Path) -> Iterator[Entry]:
-    """Readings of the recordings of a run, in the units and amplitudes of the file."""
-    for name in run.recordings:
-        recorded = recorded_readings(folder / name, settings.campaign())
-        for sensor, stated in settings.sensors.items():
-            if sensor not in recorded.values:
-                listed = ", ".join(recorded.values)
-                raise ParameterError(
-                    f"{folder / name}: has no channel {sensor} of sensors; known are {listed}"
-                )
-            measured = quantity(stated.unit)
-            if recorded.units[sensor] != measured.unit:
-                raise ParameterError(
-                    f"{folder / name}: channel {sensor} is in {recorded.units[sensor]}: must be "
-                    f"{measured.kind}, as sensors.{sensor} in {stated.unit}"
-                )
-            factor = 1.0 / (measured.factor * PEAK_FACTORS[settings.amplitudes])
-            deviation = factor * recorded.deviations[sensor]
-            if stated.scatter is not None:
-                deviation = float(np.hypot(deviation, stated.scatter))
-            yield Entry(
-                number, recorded.speed_rpm, sensor, factor * recorded.values[sensor], deviation
+def entries_of(
+    settings: TrialRuns, number: int, recorded: RecordedReadings, path: Path
+) -> Iterator[Entry]:
+    """Give the readings of a recording, in the units and amplitudes of the file.
+
+    Parameters
+    ----------
+    settings : file of the runs
+    number : number of the run
+    recorded : 1× readings, SI
+    path : file of the recording
+
+    Raises
+    ------
+    ParameterError
+        A channel of a sensor is missing or of another quantity.
+    """
+    for sensor, stated in settings.sensors.items():
+        if sensor not in recorded.values:
+            listed = ", ".join(recorded.values)
+            raise ParameterError(f"{path}: has no channel {sensor} of sensors; known are {listed}")
+        measured = quantity(stated.unit)
+        if recorded.units[sensor] != measured.unit:
+            raise ParameterError(
+                f"{path}: channel {sensor} is in {recorded.units[sensor]}: must be "
+                f"{measured.kind}, as sensors.{sensor} in {stated.unit}"
             )
+        factor = 1.0 / (measured.factor * PEAK_FACTORS[settings.amplitudes])
+        deviation = float(np.hypot(factor * recorded.deviations[sensor], stated.scatter or 0.0))
+        value = factor * recorded.values[sensor]
+        yield Entry(number, recorded.speed_rpm, sensor, value, deviation)
 
 
 def _nominal(speeds_rpm: list[float]) -> list[float]:

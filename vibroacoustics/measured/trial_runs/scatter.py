@@ -13,7 +13,9 @@ _SLOPES: Final = {"displacement": 1.0, "velocity": 2.0, "acceleration": 3.0, "so
 _SLOPE: Final = 2.0
 """Exponents of the speed, midway between those below and above the resonances of the mounts."""
 _SLOPE_DEVIATION: Final = 1.0
-_MEASURED_DEVIATION: Final = 0.5
+_MEASURED_DEVIATION: Final = 0.1
+_TURN_SHARE: Final = 0.5
+"""Standard deviation of an exponent between two speeds: a resonance near them turns the phase."""
 _NEIGHBOUR_RATIO: Final = 2.5
 """Ratio of speeds within which readings of two speeds give the exponent."""
 _SIGNIFICANT: Final = 0.99
@@ -56,10 +58,12 @@ def slopes(
         ]
         if others and size[row] > 0.0:
             other = min(others, key=lambda each: _ratio(speeds[each], speeds[row]))
-            growth = np.log(max(size[other], 1e-30) / size[row])
-            measured = growth / np.log(speeds_rpm[other] / speeds_rpm[row])
+            steps = np.log(speeds_rpm[other] / speeds_rpm[row])
+            measured = np.log(max(size[other], 1e-30) / size[row]) / steps
             exponent[row] = np.clip(measured, exponent[row] - 2.0, exponent[row] + 2.0)
-            deviation[row] = _MEASURED_DEVIATION
+            product = np.nansum(readings[:, other] * readings[:, row].conj())
+            turn = abs(float(np.angle(product)) / steps)
+            deviation[row] = min(_MEASURED_DEVIATION + _TURN_SHARE * turn, _SLOPE_DEVIATION)
     return Slopes(exponent, deviation)
 
 

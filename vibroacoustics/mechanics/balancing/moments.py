@@ -17,6 +17,8 @@ GAP: Final = 1e-7
 """Difference between the worst speed and its lower bound, of the worst speed, that is accepted."""
 _ACTIVE: Final = 1e-5
 """Share of the worst speed's sum of squares within which a speed counts as the worst."""
+_NOISE: Final = 1e-24
+"""Share of the sum of squares without weights below which what remains is rounding noise."""
 _RANK: Final = 1e-9
 """Singular value, of the largest, below which directions are rounding noise in the lower bound."""
 _STEPS: Final = 1000
@@ -71,35 +73,40 @@ def worst_speed_moments(
         The lower bound differs from the result by more than 1e-7.
     """
     start = least_squares_moments(response, influence)
-    size = float(sums_of_squares(response, influence, 0.0 * start).max())
     share = np.zeros(start.size) if largest is None else 1.0 / largest
     within = float(np.max(np.abs(start) * share, initial=0.0))
-    if size == 0.0 or (len(response) == 1 and within <= 1.0):
-        return start
     start = start / max(within, 1.0)
+    residual = response + influence @ start
+    size = np.sqrt(sums_of_squares(response, influence, start).max())
+    noise = np.sqrt(_NOISE * sums_of_squares(response, influence, 0.0 * start).max())
+    if size <= noise or (len(response) == 1 and within <= 1.0):
+        return start
     rows = influence.reshape(-1, start.size)
     _, spread, directions = np.linalg.svd(rows, full_matrices=False)
     kept = spread > spread[0] * max(rows.shape) * np.finfo(float).eps
     basis = (directions[kept].conj() / spread[kept, None]).T  # independent, of one size
-    bounds = np.sqrt(size) * basis * share[:, None]
-    scaled = _Scaled(response / np.sqrt(size), influence @ basis, bounds[share > 0.0])
-    moment = basis @ scaled.least_worst(_parts(np.linalg.pinv(basis) @ start / np.sqrt(size)))
-    return np.asarray(moment * np.sqrt(size))
+    limited = share > 0.0
+    bounds = (size * basis * share[:, None])[limited]
+    offset = (start * share)[limited]
+    scaled = _Scaled(residual / size, influence @ basis, bounds, offset)
+    return np.asarray(start + size * basis @ scaled.least_worst(np.zeros(2 * basis.shape[1])))
 
 
 class _Scaled(NamedTuple):
-    """Responses near one and influences of independent directions.
+    """Responses of at most one and influences of independent directions.
 
     Attributes
     ----------
     response : shape (speed, row)
     influence : shape (speed, row, direction)
     bounds : moments over their limits, shape (limit, direction)
+    offset : moments over their limits to begin with, shape (limit,)
     """
 
     response: ComplexArray
     influence: ComplexArray
     bounds: ComplexArray
+    offset: ComplexArray
 
     def least_worst(self, start: Array) -> ComplexArray:
         """Solve the convex problem from real and imaginary parts to begin with."""
@@ -133,7 +140,7 @@ class _Scaled(NamedTuple):
 
     def _excess(self, parts: Array, worst: float) -> Array:
         """Sums of squares above the worst, then squared moments above their limits."""
-        squared = np.abs(self.bounds @ _complex(parts)) ** 2
+        squared = np.abs(self.offset + self.bounds @ _complex(parts)) ** 2
         return np.append(self._sums(parts) - worst, squared - 1.0)
 
     def _slopes(self, parts: Array) -> Array:
@@ -141,7 +148,7 @@ class _Scaled(NamedTuple):
         moment = _complex(parts)
         residual = self.response + self.influence @ moment
         slope = 2.0 * np.einsum("sr,srw->sw", residual.conj(), self.influence)
-        further = 2.0 * (self.bounds @ moment).conj()[:, None] * self.bounds
+        further = 2.0 * (self.offset + self.bounds @ moment).conj()[:, None] * self.bounds
         slope = np.concatenate([slope, further])
         return np.concatenate([slope.real, -slope.imag], axis=1)
 
@@ -158,13 +165,9 @@ class _Scaled(NamedTuple):
         speeds, limits = np.split(root, [len(self.response)])
         influence = (speeds[:, None, None] * self.influence).reshape(-1, self.influence.shape[-1])
         stacked = np.concatenate([influence, limits[:, None] * self.bounds])
-        response = np.append((speeds[:, None] * self.response).ravel(), 0.0 * limits)
+        response = np.append((speeds[:, None] * self.response).ravel(), limits * self.offset)
         best = np.linalg.lstsq(stacked, -response, rcond=_RANK)[0]
         return float(np.sum(np.abs(response + stacked @ best) ** 2) - np.sum(limits**2))
-
-
-def _parts(moment: ComplexArray) -> Array:
-    return np.concatenate([moment.real, moment.imag])
 
 
 def _complex(parts: Array) -> ComplexArray:
