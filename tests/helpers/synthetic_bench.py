@@ -115,3 +115,31 @@ def speeds_of(rng: np.random.Generator, name: str) -> tuple[float, float]:
     """Speeds of a run, up to 1 % off."""
     off = 0.0 if name == "first" else 0.01
     return tuple(rpm * (1.0 + off * rng.uniform(-1.0, 1.0)) for rpm in (1500.0, 3000.0))
+
+
+def of_prior(rng: np.random.Generator, mass: float = 1.0, stiffness: float = 1.0) -> Machine:
+    """Machine of known geometry on mounts; mass and inertia ±10 %, stiffness ±20 %, damping ±54 %.
+
+    The factors take mass and stiffness out of these ranges.
+    """
+    mass_kg = 30.0 * mass * rng.uniform(0.9, 1.1)
+    inertia = mass_kg * 0.2**2 * rng.uniform(0.9, 1.1)
+    vertical, rocking = (
+        stiffness * rng.uniform(0.8, 1.2) * nominal * (2.0 * np.pi * hertz) ** 2
+        for nominal, hertz in ((30.0, 5.5), (30.0 * 0.2**2, 8.0))
+    )
+    natural = np.sqrt(np.array([vertical / mass_kg, rocking / inertia])) / (2.0 * np.pi)
+    unbalance = 1e-3 * rng.uniform(0.5, 2.0, 2) * np.exp(2j * np.pi * rng.random(2))
+    return Machine(
+        natural,
+        rng.uniform(0.03, 0.1, 2),
+        np.array([np.ones(3), [0.25, -0.25, 0.05]]),
+        np.array([np.ones(2), [0.2, -0.2]]),
+        np.array([mass_kg, inertia]),
+        unbalance,
+    )
+
+
+def influence_of(bench: Machine) -> ComplexArray:
+    """Influence at both speeds, shape (row, plane)."""
+    return np.concatenate([bench.influence(rpm) for rpm in (1500.0, 3000.0)])

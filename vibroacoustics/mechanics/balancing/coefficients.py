@@ -25,7 +25,7 @@ class Ensemble(NamedTuple):
     """
 
     samples: ComplexArray
-    discrepancy_ratio: float = 0.1
+    discrepancy_ratio: float = 0.03
 
 
 @dataclass(frozen=True)
