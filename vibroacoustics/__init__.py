@@ -52,6 +52,8 @@ it (ISO 3744), on a `MeasurementSurface`.
 `changed_response(...)` is its formula for arrays.
 `blocked_forces(path)` finds the blocked forces of a source where it stands (ISO 20270);
 `inverted_forces(...)` is its formula for arrays.
+`balance_runs(path)` balances a machine on the bench from runs with trial weights, `BalancedRuns`
+with each `PlacedWeight`.
 
 **Figures and arrays.**
 `plot` has every figure as a function that returns a matplotlib Figure.

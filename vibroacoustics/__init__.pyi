@@ -32,6 +32,9 @@ from .commands.several_machines import open_machines as open_machines
 from .declaration.sheet import data_sheet as data_sheet
 from .design.balance import Balanced as Balanced
 from .design.balance import balance as balance
+from .design.bench.balanced_runs import BalancedRuns as BalancedRuns
+from .design.bench.balanced_runs import PlacedWeight as PlacedWeight
+from .design.bench.balanced_runs import balance_runs as balance_runs
 from .design.engine.needs import Need as Need
 from .design.figure import DesignFigure as DesignFigure
 from .design.optimising import optimise as optimise

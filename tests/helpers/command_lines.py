@@ -17,6 +17,7 @@ from support import MACHINE_FILE, TINY, made_up_radiation, made_up_transfer_vect
 import vibroacoustics as va
 from vibroacoustics import pipeline
 from vibroacoustics.base.progress import no_progress
+from vibroacoustics.commands.balancing.template import TEMPLATE
 from vibroacoustics.pipeline.study import run as run_study
 from vibroacoustics.results.storage import write_results
 from vibroacoustics.stages import room
@@ -47,6 +48,7 @@ CASES: Final = {
         "--pair", "front=front_1m",
     ),
     "predict": ("bench.toml",),
+    "balance": ("balancing.toml",),
     "blocked-forces": ("in_situ/in_situ.toml",),
     "cache": (),
     "doctor": (),
@@ -115,6 +117,7 @@ def write_inputs(folder: Path) -> None:
         va.label_recording([sound], 8000.0, ["front"], ["Pa"]), folder / "recording.csv"
     )
     write_bench(folder, HALVED, state(FREQUENCY, AS_MEASURED))
+    (folder / "balancing.toml").write_text(TEMPLATE)
     (folder / "in_situ").mkdir()
     write_blocked(folder / "in_situ", BELOW)
 

@@ -12,6 +12,7 @@ import typer
 from ..base.errors import VibroacousticsError
 from ..base.fault import collected
 from . import (  # noqa: F401 - each registers its commands
+    balancing_commands,
     design_commands,
     installation_commands,
     messages,

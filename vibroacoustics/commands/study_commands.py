@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
@@ -33,6 +33,10 @@ if TYPE_CHECKING:
 
     from ..study.study import Study
     from .printing import Printer
+
+
+BALANCE: Final = "balance"
+"""Kind of `new` that writes a file of runs with trial weights."""
 
 
 @command("curves", "Studies", "pipelines/copeland_sources.toml --speed 2900")
@@ -251,7 +255,7 @@ def radiation_command(
 
 @command("new", "Studies", "oldham-scroll --out my_machine", computes=False)
 def new_command(
-    kind: Annotated[str, "KIND: Kind of machine."] = "",
+    kind: Annotated[str, "KIND: Kind of machine; `balance` for runs with trial weights."] = "",
     out: Annotated[Path | None, "Folder of the files; default: KIND."] = None,
     included: Annotated[
         str | None,
@@ -278,6 +282,8 @@ def new_command(
         )
     if not kind:
         raise ParameterError("new: KIND is missing; `vibroacoustics new --list` prints the kinds")
+    if kind == BALANCE:
+        return _new_balancing(out or Path(kind))
     if included not in (None, "sources"):
         raise ParameterError(f"--with {included}: unknown; allowed sources")
     files = starter.starting_files(kind, included is not None, level)
@@ -289,6 +295,15 @@ def new_command(
         f"next: vibroacoustics check {study}; vibroacoustics run {study}",
         {f"written {name}": folder / name for name in files},
     )
+
+
+def _new_balancing(folder: Path) -> Outcome:
+    """Write the file to begin with for `balance`."""
+    from .balancing.template import BALANCING_NAME, TEMPLATE
+
+    _write_new(folder, {BALANCING_NAME: TEMPLATE.encode()})
+    file = folder / BALANCING_NAME
+    return Outcome(f"next: vibroacoustics balance {file}", {f"written {BALANCING_NAME}": file})
 
 
 def _write_new(folder: Path, files: Mapping[str, bytes]) -> None:

@@ -13,15 +13,15 @@ from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.combination import Combination, members_by_name
 from ..machine.option import Option
-from ..radiation.given import Radiation
-from ..stages.radiation import transfer_vectors
-from ..study.study import Study
-from .balancing import (
+from ..mechanics.balancing.moments import (
     chosen_moments,
     least_squares_moments,
     sums_of_squares,
     worst_speed_moments,
 )
+from ..radiation.given import Radiation
+from ..stages.radiation import transfer_vectors
+from ..study.study import Study
 from .engine.on_mounts import ADDED, SOUND, Arrays, Lines, lines_of, pressure_by_source
 from .engine.probe import Probe, machine_of_design, probe
 from .engine.response import foot_forces

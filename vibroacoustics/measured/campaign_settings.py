@@ -310,16 +310,16 @@ def load_campaign(path: str | Path) -> Campaign:
     """
     path = Path(path)
     content = read_toml(path)
-    _name_files_beside(path, content)
+    name_calibrators_beside(path, content)
     reader = Reader(path, dict.fromkeys(leaves(content), path))
     return validated(Campaign, reader.to_si(content, ()), reader)
 
 
-def _name_files_beside(path: Path, content: dict[str, Any]) -> None:
+def name_calibrators_beside(path: Path, content: dict[str, Any]) -> None:
     """Make names of files relative to the file that gives them, at any depth."""
     for key, value in content.items():
         if isinstance(value, dict):
-            _name_files_beside(path, value)
+            name_calibrators_beside(path, value)
         elif key in ("calibrator_file", "machine_file") and isinstance(value, str):
             content[key] = str(beside(path, value))
 

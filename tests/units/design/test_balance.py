@@ -9,8 +9,8 @@ from support import PIPELINES, made_up_radiation
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.design.balance import _influence, _weights
-from vibroacoustics.design.balancing import sums_of_squares
 from vibroacoustics.design.engine.sound_path import SoundPaths
+from vibroacoustics.mechanics.balancing.moments import sums_of_squares
 from vibroacoustics.mechanics.capabilities import OldhamRing
 from vibroacoustics.results.estimates import nominal_values
 from vibroacoustics.study.loading import load_study

@@ -10,13 +10,17 @@ from typing import Final, NamedTuple
 import numpy as np
 from scipy.optimize import minimize, nnls
 
-from ..base.arrays import Array, ComplexArray, IndexArray
-from ..base.errors import SolverError
+from ...base.arrays import Array, ComplexArray, IndexArray
+from ...base.errors import SolverError
 
 GAP: Final = 1e-7
 """Difference between the worst speed and its lower bound, of the worst speed, that is accepted."""
 _ACTIVE: Final = 1e-5
 """Share of the worst speed's sum of squares within which a speed counts as the worst."""
+_NOISE: Final = 1e-24
+"""Share of the sum of squares without weights below which what remains is rounding noise."""
+_RANK: Final = 1e-9
+"""Singular value, of the largest, below which directions are rounding noise in the lower bound."""
 _STEPS: Final = 1000
 
 
@@ -46,16 +50,22 @@ def least_squares_moments(response: ComplexArray, influence: ComplexArray) -> Co
     return np.asarray(np.linalg.lstsq(rows, -response.ravel(), rcond=None)[0], dtype=complex)
 
 
-def worst_speed_moments(response: ComplexArray, influence: ComplexArray) -> ComplexArray:
+def worst_speed_moments(
+    response: ComplexArray, influence: ComplexArray, largest: Array | None = None
+) -> ComplexArray:
     """Return the moments whose largest sum of squares of any speed is least, (weight,), kg m.
 
-    The problem is convex: least t with |b + A u|² ≤ t at every speed. The result is checked by its
-    dual: for weights λ of the speeds with sum one, min over u of Σ λ |b + A u|² is a lower bound
-    (Boyd and Vandenberghe, Convex Optimization, 2004, section 5.2).
+    The problem is convex: least t with |b + A u|² ≤ t at every speed, and |u| ≤ m where moments
+    are limited. The result is checked by its dual: for weights λ of the speeds with sum one and
+    μ of the limits, min over u of Σ λ |b + A u|² + Σ μ (|u|² - m²) is a lower bound (Boyd and
+    Vandenberghe, Convex Optimization, 2004, section 5.2). One speed with all rows gives the
+    limited moments of least squares.
 
     Parameters
     ----------
     response, influence : see `sums_of_squares`
+    largest : largest moment of each weight, above zero or infinite, kg m, shape (weight,); none
+        for no limit
 
     Raises
     ------
@@ -63,29 +73,40 @@ def worst_speed_moments(response: ComplexArray, influence: ComplexArray) -> Comp
         The lower bound differs from the result by more than 1e-7.
     """
     start = least_squares_moments(response, influence)
-    size = float(sums_of_squares(response, influence, 0.0 * start).max())
-    if len(response) == 1 or size == 0.0:
+    share = np.zeros(start.size) if largest is None else 1.0 / largest
+    within = float(np.max(np.abs(start) * share, initial=0.0))
+    start = start / max(within, 1.0)
+    residual = response + influence @ start
+    size = np.sqrt(sums_of_squares(response, influence, start).max())
+    noise = np.sqrt(_NOISE * sums_of_squares(response, influence, 0.0 * start).max())
+    if size <= noise or (len(response) == 1 and within <= 1.0):
         return start
     rows = influence.reshape(-1, start.size)
     _, spread, directions = np.linalg.svd(rows, full_matrices=False)
     kept = spread > spread[0] * max(rows.shape) * np.finfo(float).eps
     basis = (directions[kept].conj() / spread[kept, None]).T  # independent, of one size
-    scaled = _Scaled(response / np.sqrt(size), influence @ basis)
-    moment = basis @ scaled.least_worst(_parts(np.linalg.pinv(basis) @ start / np.sqrt(size)))
-    return np.asarray(moment * np.sqrt(size))
+    limited = share > 0.0
+    bounds = (size * basis * share[:, None])[limited]
+    offset = (start * share)[limited]
+    scaled = _Scaled(residual / size, influence @ basis, bounds, offset)
+    return np.asarray(start + size * basis @ scaled.least_worst(np.zeros(2 * basis.shape[1])))
 
 
 class _Scaled(NamedTuple):
-    """Responses near one and influences of independent directions.
+    """Responses of at most one and influences of independent directions.
 
     Attributes
     ----------
     response : shape (speed, row)
     influence : shape (speed, row, direction)
+    bounds : moments over their limits, shape (limit, direction)
+    offset : moments over their limits to begin with, shape (limit,)
     """
 
     response: ComplexArray
     influence: ComplexArray
+    bounds: ComplexArray
+    offset: ComplexArray
 
     def least_worst(self, start: Array) -> ComplexArray:
         """Solve the convex problem from real and imaginary parts to begin with."""
@@ -96,10 +117,8 @@ class _Scaled(NamedTuple):
             jac=lambda x: np.eye(x.size)[-1],
             constraints={
                 "type": "ineq",
-                "fun": lambda x: x[-1] - self._sums(x[:-1]),
-                "jac": lambda x: np.column_stack(
-                    [-self._slopes(x[:-1]), np.ones(len(self.response))]
-                ),
+                "fun": lambda x: -self._excess(x[:-1], x[-1]),
+                "jac": lambda x: np.column_stack([-self._slopes(x[:-1]), self._is_speed]),
             },
             method="SLSQP",
             options={"maxiter": _STEPS, "ftol": 1e-16},
@@ -114,26 +133,41 @@ class _Scaled(NamedTuple):
     def _sums(self, parts: Array) -> Array:
         return sums_of_squares(self.response, self.influence, _complex(parts))
 
+    @property
+    def _is_speed(self) -> Array:
+        """One for each speed, then zero for each limit."""
+        return np.append(np.ones(len(self.response)), np.zeros(len(self.bounds)))
+
+    def _excess(self, parts: Array, worst: float) -> Array:
+        """Sums of squares above the worst, then squared moments above their limits."""
+        squared = np.abs(self.offset + self.bounds @ _complex(parts)) ** 2
+        return np.append(self._sums(parts) - worst, squared - 1.0)
+
     def _slopes(self, parts: Array) -> Array:
-        """Derivatives of the sums of squares, shape (speed, part)."""
-        residual = self.response + self.influence @ _complex(parts)
+        """Slopes of the sums of squares and of squared moments, shape (speed + limit, part)."""
+        moment = _complex(parts)
+        residual = self.response + self.influence @ moment
         slope = 2.0 * np.einsum("sr,srw->sw", residual.conj(), self.influence)
+        further = 2.0 * (self.offset + self.bounds @ moment).conj()[:, None] * self.bounds
+        slope = np.concatenate([slope, further])
         return np.concatenate([slope.real, -slope.imag], axis=1)
 
     def _bound(self, parts: Array) -> float:
         """Lower bound of the worst speed, by the weights that balance the slopes best."""
-        sums = self._sums(parts)
-        active = np.flatnonzero(sums >= (1.0 - _ACTIVE) * sums.max())
-        rows = np.vstack([self._slopes(parts)[active].T, np.ones(active.size)])
-        weight, _ = nnls(rows, np.eye(len(rows))[-1])
-        root = np.sqrt(weight / weight.sum())[:, None]
-        response, influence = root * self.response[active], root[..., None] * self.influence[active]
-        best = least_squares_moments(response, influence)
-        return float(sums_of_squares(response, influence, best).sum())
-
-
-def _parts(moment: ComplexArray) -> Array:
-    return np.concatenate([moment.real, moment.imag])
+        worst = self._sums(parts).max()
+        active = self._excess(parts, worst) >= -_ACTIVE * np.append(
+            np.full(len(self.response), worst), np.ones(len(self.bounds))
+        )
+        rows = np.vstack([self._slopes(parts).T, self._is_speed])
+        weight = np.zeros(active.size)
+        weight[active], _ = nnls(rows[:, active], np.eye(len(rows))[-1])
+        root = np.sqrt(weight / (weight @ self._is_speed))
+        speeds, limits = np.split(root, [len(self.response)])
+        influence = (speeds[:, None, None] * self.influence).reshape(-1, self.influence.shape[-1])
+        stacked = np.concatenate([influence, limits[:, None] * self.bounds])
+        response = np.append((speeds[:, None] * self.response).ravel(), limits * self.offset)
+        best = np.linalg.lstsq(stacked, -response, rcond=_RANK)[0]
+        return float(np.sum(np.abs(response + stacked @ best) ** 2) - np.sum(limits**2))
 
 
 def _complex(parts: Array) -> ComplexArray:

@@ -5,7 +5,7 @@ from itertools import permutations, product
 import numpy as np
 import pytest
 
-from vibroacoustics.design.balancing import (
+from vibroacoustics.mechanics.balancing.moments import (
     chosen_moments,
     least_squares_moments,
     sums_of_squares,
@@ -103,3 +103,27 @@ def test_bolt_holes_are_those_of_trying_all(weights, rows, speeds):
     assert found == pytest.approx(sums.min(), rel=1e-12)
     if len(np.flatnonzero(sums <= sums.min() * (1.0 + 1e-9))) == 1:
         np.testing.assert_array_equal(chosen, every[int(sums.argmin())])
+
+
+@pytest.mark.parametrize("speeds", [1, 5])
+def test_limited_moments_are_within_and_no_other_is_better(speeds):
+    response, influence = case(3, speeds)
+    free = np.abs(worst_speed_moments(response, influence))
+    largest = np.array([0.5, 0.7, np.inf]) * free
+    moment = worst_speed_moments(response, influence, largest)
+    size = np.abs(moment)
+    assert np.all(size <= largest * (1.0 + 1e-6))
+    assert size[0] == pytest.approx(largest[0], rel=1e-5)
+    worst = sums_of_squares(response, influence, moment).max()
+    rng = np.random.default_rng(SEED)
+    for step in rng.standard_normal((300, 3)) + 1j * rng.standard_normal((300, 3)):
+        near = moment + 1e-3 * free * step
+        near /= np.maximum(np.abs(near) / largest, 1.0)
+        assert sums_of_squares(response, influence, near).max() > worst * (1.0 - 1e-6)
+
+
+def test_limits_above_the_moments_change_nothing():
+    response, influence = case(2)
+    free = worst_speed_moments(response, influence)
+    limited = worst_speed_moments(response, influence, 2.0 * np.abs(free))
+    np.testing.assert_allclose(limited, free, rtol=1e-5)

@@ -1,0 +1,1 @@
+"""Pages of `balance`: weights, readings, pictures of angles, and the bench sheet."""

@@ -1,0 +1,1 @@
+"""Balancing of a machine on the bench: answers from runs with trial weights."""

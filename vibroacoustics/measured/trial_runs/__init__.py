@@ -1,0 +1,1 @@
+"""Runs with trial weights: their file, readings and recordings."""

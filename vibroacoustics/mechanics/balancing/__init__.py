@@ -1,0 +1,1 @@
+"""Balancing by influence coefficients: plain functions on arrays."""
