@@ -11,6 +11,8 @@ NO_LEVELS = {
     "base/rounding.py": "number of digits",
     "levels/bands.py": "ratios and numbers of octaves of base ten",
     "mechanics/added.py": "number of a third octave",
+    "recordings/axes.py": "digits of a written time",
+    "recordings/time_stamps.py": "nanoseconds of a second",
     "radiation/rooms/diffuse.py": "a standard's formula for the air",
     "report/charts/layout.py": "ticks of an axis",
     "sound/critical_bands.py": "powers and logarithms of a frequency",

@@ -20,6 +20,7 @@ NOT_OURS = {
     r"docs/(_build|generated)/.*": "written by `make docs`",
     r"\w+/(results|orders)\.nc": "results of two runs of the user",
     r"/?(east|west)/?": "folders and names of the reader's two machines",
+    r"\d+/\d+/\d+": "a date",
     r"group/channel": "name of a channel in a TDMS file",
     r"examples/rollingpiston_compressor\.py|PDSim/.*": "files of PDSim",
     r"(1|\w{1,3})(/\w{1,3})+": "a unit",
@@ -91,8 +92,9 @@ def test_links_at_the_root_lead_somewhere(page):
 @pytest.mark.parametrize("pattern", NOT_OURS)
 def test_every_exception_is_needed(pattern):
     words = {word for page in PAGES for word in words_in_code(page.read_text("utf-8"))}
-    paths = filter(PATH.fullmatch, filter(re.compile(pattern).fullmatch, words))
-    assert any(map(_is_missing, paths))
+    paths = [*filter(PATH.fullmatch, filter(re.compile(pattern).fullmatch, words))]
+    is_written = NOT_OURS[pattern].startswith("written by")  # and may be there
+    assert any(is_written or _is_missing(path) for path in paths)
 
 
 @pytest.mark.parametrize(

@@ -60,13 +60,11 @@ class ContributionsByPath(Stage):
     def run(self, chain: Chain) -> Given:
         speeds, nominal, split = chosen_speeds(chain.study), chain[Cases], {}
         chosen = chain.get(Representative)
-        cases = (nominal if chosen is None else chosen.cases).some(
-            key for key in nominal.cases if key[0] in speeds
-        )
+        every = nominal if chosen is None else chosen.cases
+        cases = every.some(key for key in nominal.cases if key[0] in speeds)
         chain.progress("sound by path", 0, len(cases.cases))
         for key, of_case in chain[Transmission].contributions(cases):
             split[key] = of_case if chosen is None else with_gain(of_case, chosen.gain[key])
             chain.progress("sound by path", len(split), len(cases.cases))
-        medians = None if chosen is None else chain.results
-        orders = loudest_orders(chain.results)
+        orders, medians = loudest_orders(chain.results), chain.results if chosen else None
         return Given(contribution_variables(chain[NominalSound].axes, split, orders, medians))
