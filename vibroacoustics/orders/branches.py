@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import median_filter
+from scipy.ndimage import binary_dilation, median_filter
 
 from ..base.arrays import Array
 from ..study.order_analysis import LEAST_BLOCKS
@@ -35,6 +35,8 @@ _RUNNING_RATIO: Final = 0.5
 _MOST_BETWEEN: Final = 0.2
 """Share of the blocks between both: a machine starts and stops faster than a beat of two tones."""
 _SMOOTHED_BLOCKS: Final = 5
+_RAMP_BLOCKS: Final = 4
+"""Blocks beside a start or stop whose orders are near the speed, with a phase that turns."""
 
 Names = NDArray[np.str_]
 
@@ -74,7 +76,8 @@ def states_of_blocks(order_square: Array) -> Names:
     running = float(np.quantile(smooth, 0.95))
     is_silent = smooth < _SILENT_RATIO * running
     is_between = ~is_silent & (smooth < _RUNNING_RATIO * running)
-    states = np.where(is_silent, IDLE, np.where(is_between, "", DWELL))
+    is_near = binary_dilation(is_silent | is_between, iterations=_RAMP_BLOCKS)
+    states = np.where(is_silent, IDLE, np.where(is_near, "", DWELL))
     lengths = [last - first for kind, first, last in _pieces(states) if kind == IDLE]
     if min(lengths, default=0) < LEAST_BLOCKS or np.mean(is_between) > _MOST_BETWEEN:
         return np.full(smooth.size, DWELL)

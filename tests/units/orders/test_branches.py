@@ -85,7 +85,7 @@ def states(square):
 
 def test_idle_is_a_state_of_many_blocks():
     square = [1e-3] * 20 + [1.0] * 40 + [1e-3] * 20
-    assert states(square) == ["idle"] * 20 + ["dwell"] * 40 + ["idle"] * 20
+    assert states(square) == ["idle"] * 20 + [""] * 4 + ["dwell"] * 32 + [""] * 4 + ["idle"] * 20
     assert set(states([1e-3] * 5 + [1.0] * 40)) == {"dwell"}
     assert set(states([0.2] * 20 + [1.0] * 40)) == {"dwell"}  # 7 dB: a load, not a stop
 
