@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import median_filter
+from scipy.ndimage import binary_dilation, median_filter
 
 from ..base.arrays import Array
 from ..study.order_analysis import LEAST_BLOCKS
@@ -30,10 +30,13 @@ _MOST_NUMBERED: Final = 6
 """Branches of one kind that are separate; more are a speed that swings."""
 _SILENT_RATIO: Final = 0.1
 """Mean square of the orders, over that of the running machine, of one that is idle."""
-_RUNNING_RATIO: Final = 0.25
-_MOST_BETWEEN: Final = 0.1
+_RUNNING_RATIO: Final = 0.5
+"""Mean square of one that starts or stops, at most."""
+_MOST_BETWEEN: Final = 0.2
 """Share of the blocks between both: a machine starts and stops faster than a beat of two tones."""
 _SMOOTHED_BLOCKS: Final = 5
+_RAMP_BLOCKS: Final = 4
+"""Blocks beside a start or stop whose orders are near the speed, with a phase that turns."""
 
 Names = NDArray[np.str_]
 
@@ -53,17 +56,17 @@ def branch_of_blocks(speed_rpm: Array, order_square: Array) -> Names:
     """
     speed = np.log(speed_rpm)
     if np.ptp(speed) < _TURN_RATIO:
-        kinds = np.where(idle_blocks(order_square), IDLE, DWELL)
-        pieces = list(_pieces(kinds))
+        pieces = list(_pieces(states_of_blocks(order_square)))
     else:
         pieces = _moving_pieces(speed, np.asarray(1.0 / speed_rpm))
     return _named(pieces, speed.size)
 
 
-def idle_blocks(order_square: Array) -> NDArray[np.bool_]:
-    """Whether the orders are silent, shape (block,): 10 dB below the running machine.
+def states_of_blocks(order_square: Array) -> Names:
+    """State of each block of a steady speed: dwell, idle, or empty in a start or stop.
 
-    Nothing is idle where the level has no two states, or where eight blocks are not in either.
+    Orders are silent, 10 dB below the running machine, in an idle one. Nothing is idle where the
+    level has no two states, or where fewer than eight blocks in a row are silent.
 
     Parameters
     ----------
@@ -73,11 +76,12 @@ def idle_blocks(order_square: Array) -> NDArray[np.bool_]:
     running = float(np.quantile(smooth, 0.95))
     is_silent = smooth < _SILENT_RATIO * running
     is_between = ~is_silent & (smooth < _RUNNING_RATIO * running)
-    shortest = min((last - first for _, first, last in _pieces(is_silent.astype(str))), default=0)
-    has_states = is_silent.any() and shortest >= LEAST_BLOCKS
-    if not has_states or np.mean(is_between) > _MOST_BETWEEN:
-        return np.zeros(smooth.size, dtype=bool)
-    return np.asarray(is_silent)
+    is_near = binary_dilation(is_silent | is_between, iterations=_RAMP_BLOCKS)
+    states = np.where(is_silent, IDLE, np.where(is_near, "", DWELL))
+    lengths = [last - first for kind, first, last in _pieces(states) if kind == IDLE]
+    if min(lengths, default=0) < LEAST_BLOCKS or np.mean(is_between) > _MOST_BETWEEN:
+        return np.full(smooth.size, DWELL)
+    return states
 
 
 Piece = tuple[str, int, int]
@@ -98,6 +102,8 @@ def _named(pieces: list[Piece], blocks: int) -> Names:
     for kind, first, last in pieces:
         count[kind] += 1
         is_numbered = 1 < total[kind] <= _MOST_NUMBERED
+        if not kind:
+            continue
         inner = slice(first + (2 if first else 0), last - (2 if last < blocks else 0))
         names[inner] = f"{kind} {count[kind]}" if is_numbered else kind
     if not (names != "").any():  # a few blocks

@@ -32,6 +32,8 @@ _BLOCK_REVOLUTIONS: Final = 16.0
 _DEPARTURE_SCATTER: Final = 10.0
 _DEPARTURE_BLOCKS: Final = 4
 """Blocks in a row that depart: a line that crosses is not as long in all orders."""
+_MOST_LAG_S: Final = 0.9
+"""Largest lag that is corrected: trials end at 1 s."""
 _BENDS: Final = 2.0
 """Change of the orders that a lag explains, over the scatter of the lines."""
 _FINE_ORDERS: Final = 5.0
@@ -147,6 +149,8 @@ def _corrected(shaft: RecordedSpeed, lag: SpeedLag) -> tuple[CrankMotion, list[s
     note = f"{abs(lag_s):.3g} s {word} beside lines of the sound (near orders {orders})"
     if held_s > LEAST_LAG_S:
         note += f", its values are held for {held_s:.3g} s"
+    if abs(lag_s) > _MOST_LAG_S:
+        return motion, [f"{note}, beyond what lines fix surely: not corrected, orders read too low"]
     if lag.lines.size == 1 and lag_s != lag.lag_s:
         return motion, [f"{note}, if that is a whole order: not corrected, orders read too low"]
     return shifted, [f"{note}: corrected"]
@@ -159,6 +163,8 @@ def _scale_lag(lag: SpeedLag) -> float:
     at the same distance, relative, from multiples of 1/2 below order 5 and of 1 above.
     """
     lines = lag.unmoved_lines
+    if not lines.size:
+        return 0.0
     nearest = np.where(lines < _FINE_ORDERS, 0.5 * np.rint(2.0 * lines), np.rint(lines))
     off = np.log(lines / np.maximum(nearest, 0.5))
     error = _LINE_ERROR / lines

@@ -38,7 +38,7 @@ def recorded_orders(
     settings : the orders that are wanted
     """
     block_speed = 60.0 * blocks.shaft_frequency_hz
-    branch = branch_of_blocks(block_speed, order_square(blocks.rms))
+    branch = branch_of_blocks(block_speed, order_square(blocks.phasor))
     speeds, branches, point = points_of_branches(block_speed, branch, settings.speed_step_rpm)
     at_points = mean_orders(blocks.phasor, blocks.rms, point, speeds.size)
     by_line = {"channel": channel["channel"], "map_order": blocks.map_order}
@@ -110,14 +110,14 @@ def points_of_branches(
     return np.array(speeds), np.array(branches), point
 
 
-def order_square(rms: Array) -> Array:
-    """Mean square of the orders in each block, each channel over its greatest, shape (block,).
+def order_square(lines: ComplexArray) -> Array:
+    """Square of the orders in each block, each channel over its greatest, shape (block,).
 
     Parameters
     ----------
-    rms : in the orders' bands, shape (channel, block, order)
+    lines : complex peaks, shape (channel, block, order)
     """
-    square = np.sum(rms**2, axis=-1)
+    square = np.sum(np.abs(lines) ** 2, axis=-1)
     greatest = square.max(axis=1, keepdims=True)
     return np.asarray(np.sum(square / np.where(greatest > 0.0, greatest, 1.0), axis=0))
 

@@ -145,20 +145,13 @@ def _followed(
     """Lag of a motion from a trial lag on; None where it does not converge."""
     latest = None
     for _ in range(_ROUNDS):
-        latest = _remaining(signal, sample_rate_hz, motion, lag_s)
+        shifted = late(motion, lag_s)
+        blocks = None if shifted is None else _order_blocks(signal, sample_rate_hz, shifted)
+        latest = None if blocks is None or shifted is None else _regression(blocks, shifted)
         if latest is None or abs(lag_s + latest.lag_s) > 2.0 * _LONGEST_S:
             return None
         lag_s += latest.lag_s
     return None if latest is None else replace(latest, lag_s=lag_s, bend=abs(lag_s) * latest.bend)
-
-
-def _remaining(
-    signal: Array, sample_rate_hz: float, motion: CrankMotion, lag_s: float
-) -> SpeedLag | None:
-    """Lag of a motion beyond a lag that is taken off; None without clear lines."""
-    shifted = late(motion, lag_s)
-    blocks = None if shifted is None else _order_blocks(signal, sample_rate_hz, shifted)
-    return None if blocks is None or shifted is None else _regression(blocks, shifted)
 
 
 def late(motion: CrankMotion, lag_s: float) -> CrankMotion | None:

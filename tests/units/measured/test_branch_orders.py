@@ -102,3 +102,17 @@ def test_a_machine_that_stops_is_running_and_idle():
     assert np.all(peak[[0, 2]] < 0.01)
     facts = " ".join(analysis_of_orders(results).shown[0].items)
     assert "idle: the orders are 10 dB or more below" in facts
+
+
+def test_a_start_and_a_stop_are_in_no_mean():
+    """3000 rpm from 6 to 14 s, with a start of 2 s and a stop of 3 s, at one nominal speed."""
+    time_s = np.arange(int(20.0 * RATE_HZ)) / RATE_HZ
+    hertz = np.interp(time_s, [0, 4, 6, 14, 17, 20], [0, 0, 50, 50, 0, 0])
+    angle = 2.0 * np.pi * np.cumsum(hertz) / RATE_HZ
+    sound = np.where(hertz > 0.0, np.cos(angle), 0.0)
+    sound += 0.01 * np.random.default_rng(0).standard_normal(time_s.size)
+    recording = va.label_recording([sound], RATE_HZ, ["front"], ["Pa"])
+    results = va.analyse_orders(recording, va.OrderAnalysis(va.NominalSpeed(3000.0), (1.0, 2.0)))
+    assert results["branch"].values.tolist() == ["idle 1", "dwell", "idle 2"]
+    peak = np.abs(results["channel_order"].sel(channel="front", order=1.0).values)
+    np.testing.assert_allclose(peak[1], 1.0, atol=0.02)

@@ -81,3 +81,15 @@ def test_a_long_recording_has_the_loudest_orders_of_its_parts(results, monkeypat
     monkeypatch.setattr(block_pass, "_PARTS", 4)
     in_parts = va.analyse_orders(recording([LOUD]), SETTINGS)
     assert in_parts["order"].values.tolist() == results["order"].values.tolist()
+
+
+def test_the_loudest_channel_of_sound_comes_first():
+    """Six channels with an order each: of vibration, which is louder, two find no place."""
+    map_order = np.arange(0.0, 25.0, 1.0 / 6.0)
+    amplitude = np.full((6, 4, map_order.size), 1e-6, dtype=complex)
+    for channel, order in enumerate((5, 7, 9, 11, 13, 15)):
+        amplitude[channel, :, 6 * order] = 1.0 + channel
+    is_sound = np.array([False] * 4 + [True] * 2)
+    amplitude[is_sound] *= 1e-3
+    orders = loud_orders(amplitude, map_order, np.full(4, 3000.0), 2.0 / 3.0, is_sound)
+    assert orders == (1.0, 2.0, 9.0, 11.0, 13.0, 15.0)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vibroacoustics.orders.branches import branch_of_blocks, idle_blocks
+from vibroacoustics.orders.branches import branch_of_blocks, states_of_blocks
 
 
 def block_speeds(points, revolutions=6.0):
@@ -79,17 +79,24 @@ def test_few_blocks_have_a_branch():
     assert names(np.array([900.0, 1300.0, 900.0]))[0] != []
 
 
+def states(square):
+    return states_of_blocks(np.asarray(square)).tolist()
+
+
 def test_idle_is_a_state_of_many_blocks():
-    square = np.concatenate([np.full(20, 1e-3), np.full(40, 1.0), np.full(20, 1e-3)])
-    np.testing.assert_array_equal(idle_blocks(square), square < 0.5)
-    short = np.concatenate([np.full(5, 1e-3), np.full(40, 1.0)])
-    assert not idle_blocks(short).any()
-    louder = np.concatenate([np.full(20, 0.2), np.full(40, 1.0)])  # 7 dB: a load, not a stop
-    assert not idle_blocks(louder).any()
+    square = [1e-3] * 20 + [1.0] * 40 + [1e-3] * 20
+    assert states(square) == ["idle"] * 20 + [""] * 4 + ["dwell"] * 32 + [""] * 4 + ["idle"] * 20
+    assert set(states([1e-3] * 5 + [1.0] * 40)) == {"dwell"}
+    assert set(states([0.2] * 20 + [1.0] * 40)) == {"dwell"}  # 7 dB: a load, not a stop
+
+
+def test_a_start_is_no_state():
+    """Five blocks at -6 dB on the way from idle to running belong to neither."""
+    assert states([1e-3] * 20 + [0.25] * 5 + [1.0] * 40)[20:25] == [""] * 5
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_noise_and_beats_are_not_idle(seed):
     rng = np.random.default_rng(seed)
-    assert not idle_blocks(rng.chisquare(4, 500)).any()
-    assert not idle_blocks(np.cos(np.linspace(0.0, 6.0 + seed, 400)) ** 2).any()
+    assert set(states(rng.chisquare(4, 500))) == {"dwell"}
+    assert set(states(np.cos(np.linspace(0.0, 6.0 + seed, 400)) ** 2)) == {"dwell"}

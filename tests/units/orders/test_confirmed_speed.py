@@ -7,7 +7,9 @@ import pytest
 from clean_recordings import clean_recordings
 
 import vibroacoustics as va
+from vibroacoustics.orders.confirmed_speed import _scale_lag
 from vibroacoustics.orders.recorded_speed import UncertainSpeedWarning, recorded_speed
+from vibroacoustics.orders.speed_lag import SpeedLag
 from vibroacoustics.recordings import LabelledBlocks
 
 RATE_HZ = 8192.0
@@ -150,6 +152,11 @@ def test_one_line_of_a_decay_is_named():
     _, (sentence,) = analysed(rpm, sound=sound)
     assert "0.2 s late" in sentence
     assert "not corrected, orders read too low" in sentence
+
+
+def test_a_lag_without_lines_before_has_no_scale():
+    lag = SpeedLag(0.3, 0.001, 5.0, np.array([2.0]), np.empty(0), -0.07, TIME_S[:1], RPM[:1], 1.0)
+    assert _scale_lag(lag) == 0.0
 
 
 def sentences_of(clean):
