@@ -13,6 +13,7 @@ from vibroacoustics.recordings import open_recording, read_recording
 from vibroacoustics.recordings.axes import rounded_rate_hz
 from vibroacoustics.recordings.quantities import quantity
 from vibroacoustics.recordings.remarks import RecordingWarning
+from vibroacoustics.recordings.time_stamps import is_stamp, stamp_ns
 
 RATE_HZ = 2048.0
 TIME_S = np.arange(512) / RATE_HZ
@@ -322,6 +323,16 @@ def test_units_of_time_columns(tmp_path, head, factor):
     (tmp_path / "a.csv").write_text("\n".join([f"{head},mic [Pa]", *rows]) + "\n")
     read = read_recording(tmp_path / "a.csv")
     assert read.attrs["sample_rate_hz"] == pytest.approx(RATE_HZ, rel=1e-6)
+
+
+def test_clocks_of_time_stamps():
+    clocks = ["9:59:59.5", "10:00:00", "10:00:00.25", "11:00:30"]
+    seconds = [1e-9 * (stamp_ns(clock) - stamp_ns("9:00:00")) for clock in clocks]
+    np.testing.assert_allclose(seconds, [3599.5, 3600.0, 3600.25, 7230.0])
+    assert stamp_ns("12:00:00 AM") == 0
+    assert stamp_ns("12:00:00 PM") == stamp_ns("12:00:00") == stamp_ns("14:00:00+02:00")
+    assert not is_stamp("25:00:00")
+    assert not is_stamp("31.02.2026 10:00:00")
 
 
 def test_sine_of_the_helper_is_the_same():

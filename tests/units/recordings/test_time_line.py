@@ -115,7 +115,11 @@ def test_the_order_of_a_run_up_with_a_slow_speed(tmp_path, suffix):
     import vibroacoustics as va
 
     recording = read_recording(run_up(tmp_path, suffix))
-    assert "errs" not in recording.attrs["reading_remarks"]
+    assert "'speed': samples of 100 Hz are interp" in recording.attrs["reading_remarks"]
+    blocks = open_recording(tmp_path / f"run.{suffix}")
+    for names in (["speed"], ["mic", "speed"]):
+        part = recording["signal"].sel(channel=names).values[:, 70_000:70_100]
+        np.testing.assert_array_equal(blocks.read(names, 70_000, 70_100), part)
     settings = va.OrderAnalysis(va.SpeedChannel("speed"), orders=(8.0,))
     orders = va.analyse_orders(recording, settings)
     peak = np.abs(orders["block_order"].sel(channel="mic", order=8.0).values)
