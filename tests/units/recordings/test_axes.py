@@ -129,6 +129,24 @@ def test_other_masters_of_mdf(tmp_path, kind, words):
         read_recording(tmp_path / "a.mf4")
 
 
+@pytest.mark.parametrize(("unit", "rate_hz"), [("kHz", 2000.0), ("Hz", 2.0), ("", 2.0)])
+def test_the_unit_of_a_sample_rate(tmp_path, unit, rate_hz):
+    data = xr.Dataset({"mic": ("x", SINE, {"units": "Pa"}), "fs": ((), 2.0, {"units": unit})})
+    data.to_netcdf(tmp_path / "a.nc")
+    assert read_recording(tmp_path / "a.nc").attrs["sample_rate_hz"] == rate_hz
+    data["fs"].attrs["units"] = "s"
+    data.to_netcdf(tmp_path / "b.nc")
+    with pytest.raises(ParameterError, match="'fs' has the unit 's': a sample rate needs Hz"):
+        read_recording(tmp_path / "b.nc")
+
+
+def test_a_channel_whose_name_ends_like_a_time_stays_one(tmp_path):
+    """The tangential direction of a foot does not grow."""
+    scipy.io.savemat(tmp_path / "a.mat", {"foot": SINE, "foot_t": SINE[::-1], "fs": RATE_HZ})
+    read = read_recording(tmp_path / "a.mat", units={"*": "m/s²"})
+    assert read["channel"].values.tolist() == ["foot", "foot_t"]
+
+
 # --- xarray's own times --------------------------------------------------------------------------
 
 

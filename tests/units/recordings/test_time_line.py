@@ -83,6 +83,23 @@ def test_channels_without_common_time_are_refused(tmp_path):
         read("mf4", tmp_path, 7.0)
 
 
+def test_channels_of_lvm_have_their_own_interval(tmp_path):
+    """Every second sample of the second channel, which has half as many."""
+    path = WRITERS["lvm"](tmp_path, 0.0)
+    head, _, table = path.read_text().rpartition("Comment\n")
+    head = head.replace(f"Samples\t{SAMPLES}\t{SAMPLES}", f"Samples\t{SAMPLES}\t{SAMPLES // 2}")
+    step = f"{1.0 / RATE_HZ:.12f}"
+    head = head.replace(f"{step}\t{step}", f"{step}\t{2.0 / RATE_HZ:.12f}")
+    rows = [row.split("\t") for row in table.splitlines()]
+    halved = [row[2] for row in rows[::2]] + [""] * (SAMPLES // 2)
+    lines = [f"\t{row[1]}\t{value}\n" for row, value in zip(rows, halved, strict=True)]
+    path.write_text(f"{head}Comment\n{''.join(lines)}")
+    recording = read_recording(path)
+    first, second = recording["signal"].values
+    assert recording.attrs["sample_rate_hz"] == pytest.approx(RATE_HZ, rel=1e-6)
+    np.testing.assert_allclose(second, first, atol=2e-5)
+
+
 # --- slow channels -------------------------------------------------------------------------------
 
 
