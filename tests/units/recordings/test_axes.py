@@ -184,6 +184,14 @@ def test_pairs_of_wide_columns_in_a_universal_file(tmp_path, per_line):
     np.testing.assert_array_equal(blocks.read(["a"], 100, 200), read["signal"].values[:, 100:200])
 
 
+def test_infinity_as_pyuff_writes_it(tmp_path):
+    samples = SINE.copy()
+    samples[7] = np.finfo(float).max
+    (tmp_path / "a.uff").write_text(dataset_58("a", samples, 0.0))
+    with pytest.raises(ParameterError, match=r"1 of 512 samples are not finite, the first is .* 8"):
+        read_recording(tmp_path / "a.uff")
+
+
 # --- uneven times --------------------------------------------------------------------------------
 
 
