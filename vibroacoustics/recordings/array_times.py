@@ -20,14 +20,16 @@ from .named_arrays import (
     is_rate,
     is_start,
     is_time,
-    is_time_of,
+    names_of_times,
     nearest,
+    owner_of,
 )
 from .quantities import axis_factor, find_time_factor
-from .recorded import MissingError, Request, Samples, listed
+from .recorded import MINIMUM_SAMPLES, MissingError, Request, Samples, listed
 
 _PROBES: Final = 9
 """Places at which the first column of a table is looked at."""
+_RATE_UNITS: Final = {"": 1.0, "Hz": 1.0, "1/s": 1.0, "s-1": 1.0, "kHz": 1e3, "MHz": 1e6}
 _SINCE: Final = " since "
 _DATE: Final = "wf_start_time"
 """Attribute with the date at which a channel starts, as npTDMS writes it to HDF5."""
@@ -42,8 +44,16 @@ def coordinates(arrays: Sequence[NamedArray]) -> set[str]:
         for axis in array.dimensions
         if axis in by_name and len(by_name[axis].shape) == 1 and by_name[axis].is_number
     }
-    axes |= {a.name for a in arrays if any(is_time_of(a.name, b.name) for b in arrays)}
-    return {name for name in axes if name not in by_name or by_name[name].is_number}
+    return axes | {a.name for a in arrays if owner_of(a.name) in by_name and _grows(a)}
+
+
+def _grows(array: NamedArray) -> bool:
+    """Whether a vector of numbers grows at the points at which it is looked at, as a time does."""
+    if not array.is_number or array.size < MINIMUM_SAMPLES or array.size != max(array.shape):
+        return False
+    probes = sorted({0, 1, *np.linspace(0, array.size - 1, _PROBES).astype(int).tolist()})
+    values = [float(_stored_times(array, probe, probe + 1)[0]) for probe in probes]
+    return bool(np.all(np.diff(values) > 0.0))
 
 
 def time_of(arrays: Sequence[NamedArray], column: Column) -> NamedArray | None:
@@ -65,7 +75,8 @@ def time_of(arrays: Sequence[NamedArray], column: Column) -> NamedArray | None:
                 f"channel {column.name!r}: its axis {axis.name!r} has the unit {unit!r}: a "
                 "recording needs a time"
             )
-    named = [each for each in arrays if is_time_of(each.name, array.name)]
+    names = names_of_times(array.name)
+    named = [each for each in arrays if each.name in names and _grows(each)]
     return (
         named[0] if named else nearest([each for each in arrays if is_time(each.name)], array.name)
     )
@@ -108,7 +119,7 @@ def stated_rate_hz(
     stated = [value for name, value in column.array.attributes.items() if is_rate(name)]
     if not stated:
         stated = [value for name, value in attributes.items() if is_rate(name)]
-        stated += [] if number is None else [number.values()]
+        stated += [] if number is None else [_rate_of(number)]
     rates = {float(np.asarray(value, dtype=float).item()) for value in stated}
     increment = column.array.attributes.get("wf_increment")
     if increment is not None and not rates:
@@ -116,6 +127,22 @@ def stated_rate_hz(
     if len(rates) > 1:
         raise ParameterError(f"states several sample rates: {sorted(rates)} Hz; choose channels")
     return rates.pop() if rates else None
+
+
+def _rate_of(number: NamedArray) -> float:
+    """Sample rate in Hz of a number, whose unit may be kHz or MHz.
+
+    Raises
+    ------
+    ParameterError
+        It has another unit.
+    """
+    unit = attribute_text(number, UNIT_NAMES)
+    if unit not in _RATE_UNITS:
+        raise ParameterError(
+            f"{number.name!r} has the unit {unit!r}: a sample rate needs Hz, kHz or MHz"
+        )
+    return float(np.asarray(number.values(), dtype=float).item()) * _RATE_UNITS[unit]
 
 
 def axes_of(

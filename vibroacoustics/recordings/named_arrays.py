@@ -64,6 +64,11 @@ class NamedArray:
         return unpacked(unsigned(stored, self.attributes), self.attributes)
 
     @property
+    def size(self) -> int:
+        """Number of values."""
+        return int(np.prod(self.shape))
+
+    @property
     def time_axis(self) -> int:
         """The longer side; of a square the last."""
         return int(len(self.shape) == 2 and self.shape[1] >= self.shape[0])
@@ -95,11 +100,19 @@ def is_time(name: str) -> bool:
     return leaf == "t" or leaf.lower().removesuffix("_s") in _TIMES
 
 
-def is_time_of(name: str, other: str) -> bool:
-    """Whether an array of this name is the time axis of the other array."""
+def owner_of(name: str) -> str:
+    """Name of the array whose time an array of this name may be; empty where it is none."""
     match = _TIME_OF.fullmatch(_leaf(name))
-    names = () if match is None else (match["before"], match["behind"])
-    return _parent(name) == _parent(other) and _leaf(other) in names
+    return "" if match is None else _parent(name) + (match["before"] or match["behind"])
+
+
+def names_of_times(name: str) -> tuple[str, ...]:
+    """Names that the time of an array of this name may have."""
+    parent, leaf = _parent(name), _leaf(name)
+    stems = [f"{stem}_{leaf}" for stem in ("t", "time")] + [
+        f"{leaf}_{stem}" for stem in ("t", "time")
+    ]
+    return tuple(f"{parent}{stem}{end}" for stem in stems for end in ("", "_s"))
 
 
 def is_start(name: str) -> bool:

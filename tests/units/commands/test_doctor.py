@@ -13,9 +13,9 @@ from vibroacoustics.results import provenance
     [
         (
             (),
-            "recordings: CSV (.csv .txt .tsv .prn), FLAC and Wave64 (.flac .w64), HDF5 and "
-            "netCDF (.h5 .hdf5 .nc .nc4), LVM (LabVIEW measurement) (.lvm), MAT (.mat), MDF and "
-            "MF4 (.mf4 .mdf), TDMS (.tdms), UFF (.uff .unv .ufb .bunv .uf), WAV (.wav .rf64 .bwf), "
+            "recordings: CSV (.csv .txt .tsv .prn), FLAC and Wave64 (.flac .w64), HDF5 and netCDF "
+            "(.h5 .hdf5 .nc .nc4), LVM (LabVIEW measurement) (.lvm), MAT (.mat), MDF and MF4 "
+            "(.mf4 .mdf), TDMS (.tdms), UFF (.uff .unv .ufb .bunv .uf), WAV (.wav .rf64 .bwf), "
             "XLSX (spreadsheet) (.xlsx .xlsm) can be read",
         ),
         (

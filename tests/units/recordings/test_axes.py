@@ -13,6 +13,7 @@ from vibroacoustics.recordings import open_recording, read_recording
 from vibroacoustics.recordings.axes import rounded_rate_hz
 from vibroacoustics.recordings.quantities import quantity
 from vibroacoustics.recordings.remarks import RecordingWarning
+from vibroacoustics.recordings.time_stamps import is_stamp, stamp_ns
 
 RATE_HZ = 2048.0
 TIME_S = np.arange(512) / RATE_HZ
@@ -128,6 +129,24 @@ def test_other_masters_of_mdf(tmp_path, kind, words):
         read_recording(tmp_path / "a.mf4")
 
 
+@pytest.mark.parametrize(("unit", "rate_hz"), [("kHz", 2000.0), ("Hz", 2.0), ("", 2.0)])
+def test_the_unit_of_a_sample_rate(tmp_path, unit, rate_hz):
+    data = xr.Dataset({"mic": ("x", SINE, {"units": "Pa"}), "fs": ((), 2.0, {"units": unit})})
+    data.to_netcdf(tmp_path / "a.nc")
+    assert read_recording(tmp_path / "a.nc").attrs["sample_rate_hz"] == rate_hz
+    data["fs"].attrs["units"] = "s"
+    data.to_netcdf(tmp_path / "b.nc")
+    with pytest.raises(ParameterError, match="'fs' has the unit 's': a sample rate needs Hz"):
+        read_recording(tmp_path / "b.nc")
+
+
+def test_a_channel_whose_name_ends_like_a_time_stays_one(tmp_path):
+    """The tangential direction of a foot does not grow."""
+    scipy.io.savemat(tmp_path / "a.mat", {"foot": SINE, "foot_t": SINE[::-1], "fs": RATE_HZ})
+    read = read_recording(tmp_path / "a.mat", units={"*": "m/s²"})
+    assert read["channel"].values.tolist() == ["foot", "foot_t"]
+
+
 # --- xarray's own times --------------------------------------------------------------------------
 
 
@@ -163,6 +182,14 @@ def test_pairs_of_wide_columns_in_a_universal_file(tmp_path, per_line):
     assert read.attrs["sample_rate_hz"] == pytest.approx(RATE_HZ, rel=1e-10)
     blocks = open_recording(tmp_path / "a.uff")
     np.testing.assert_array_equal(blocks.read(["a"], 100, 200), read["signal"].values[:, 100:200])
+
+
+def test_infinity_as_pyuff_writes_it(tmp_path):
+    samples = SINE.copy()
+    samples[7] = np.finfo(float).max
+    (tmp_path / "a.uff").write_text(dataset_58("a", samples, 0.0))
+    with pytest.raises(ParameterError, match=r"1 of 512 samples are not finite, the first is .* 8"):
+        read_recording(tmp_path / "a.uff")
 
 
 # --- uneven times --------------------------------------------------------------------------------
@@ -322,6 +349,16 @@ def test_units_of_time_columns(tmp_path, head, factor):
     (tmp_path / "a.csv").write_text("\n".join([f"{head},mic [Pa]", *rows]) + "\n")
     read = read_recording(tmp_path / "a.csv")
     assert read.attrs["sample_rate_hz"] == pytest.approx(RATE_HZ, rel=1e-6)
+
+
+def test_clocks_of_time_stamps():
+    clocks = ["9:59:59.5", "10:00:00", "10:00:00.25", "11:00:30"]
+    seconds = [1e-9 * (stamp_ns(clock) - stamp_ns("9:00:00")) for clock in clocks]
+    np.testing.assert_allclose(seconds, [3599.5, 3600.0, 3600.25, 7230.0])
+    assert stamp_ns("12:00:00 AM") == 0
+    assert stamp_ns("12:00:00 PM") == stamp_ns("12:00:00") == stamp_ns("14:00:00+02:00")
+    assert not is_stamp("25:00:00")
+    assert not is_stamp("31.02.2026 10:00:00")
 
 
 def test_sine_of_the_helper_is_the_same():

@@ -208,7 +208,7 @@ def test_samples_outside_the_valid_range_are_missing(tmp_path, attributes, form)
     import netCDF4
 
     stored = np.arange(-50, 50).astype("int16")
-    stored[17] = -999 if "valid_max" not in attributes else 999
+    stored[17] = -101 if "valid_max" not in attributes else 101
     with netCDF4.Dataset(tmp_path / "a.nc", "w", format=form) as file:
         file.createDimension("time", stored.size)
         file.fs = RATE_HZ

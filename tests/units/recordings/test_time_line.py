@@ -83,6 +83,23 @@ def test_channels_without_common_time_are_refused(tmp_path):
         read("mf4", tmp_path, 7.0)
 
 
+def test_channels_of_lvm_have_their_own_interval(tmp_path):
+    """Every second sample of the second channel, which has half as many."""
+    path = WRITERS["lvm"](tmp_path, 0.0)
+    head, _, table = path.read_text().rpartition("Comment\n")
+    head = head.replace(f"Samples\t{SAMPLES}\t{SAMPLES}", f"Samples\t{SAMPLES}\t{SAMPLES // 2}")
+    step = f"{1.0 / RATE_HZ:.12f}"
+    head = head.replace(f"{step}\t{step}", f"{step}\t{2.0 / RATE_HZ:.12f}")
+    rows = [row.split("\t") for row in table.splitlines()]
+    halved = [row[2] for row in rows[::2]] + [""] * (SAMPLES // 2)
+    lines = [f"\t{row[1]}\t{value}\n" for row, value in zip(rows, halved, strict=True)]
+    path.write_text(f"{head}Comment\n{''.join(lines)}")
+    recording = read_recording(path)
+    first, second = recording["signal"].values
+    assert recording.attrs["sample_rate_hz"] == pytest.approx(RATE_HZ, rel=1e-6)
+    np.testing.assert_allclose(second, first, atol=2e-5)
+
+
 # --- slow channels -------------------------------------------------------------------------------
 
 
@@ -115,7 +132,11 @@ def test_the_order_of_a_run_up_with_a_slow_speed(tmp_path, suffix):
     import vibroacoustics as va
 
     recording = read_recording(run_up(tmp_path, suffix))
-    assert "errs" not in recording.attrs["reading_remarks"]
+    assert "'speed': samples of 100 Hz are interp" in recording.attrs["reading_remarks"]
+    blocks = open_recording(tmp_path / f"run.{suffix}")
+    for names in (["speed"], ["mic", "speed"]):
+        part = recording["signal"].sel(channel=names).values[:, 70_000:70_100]
+        np.testing.assert_array_equal(blocks.read(names, 70_000, 70_100), part)
     settings = va.OrderAnalysis(va.SpeedChannel("speed"), orders=(8.0,))
     orders = va.analyse_orders(recording, settings)
     peak = np.abs(orders["block_order"].sel(channel="mic", order=8.0).values)

@@ -17,6 +17,8 @@ from ..reader import Reader
 from ..recorded import Recorded, Request, Samples, check_size, listed, numbered
 
 _TIME: Final = 1
+_JUDGED: Final = 2**16
+"""Samples by which columns in one channel are recognised."""
 _AXES: Final = {1: "time", 2: "angle", 3: "distance", 4: "index"}
 """Kinds of the master channel of a group, `cn_sync_type` (ASAM MDF 4.1, block CN)."""
 
@@ -79,7 +81,7 @@ def read(request: Request) -> Recorded:
 
 def _interleaved(names: Sequence[str], stored: Sequence[Samples]) -> list[str]:
     """Remarks on channels of which asammdf may have written columns one after the other."""
-    columns = [interleaved_columns(samples.astype(float)) for samples in stored]
+    columns = [interleaved_columns(samples[:_JUDGED].astype(float)) for samples in stored]
     return [
         f"channel {name!r}: its samples look like {number} columns one after the other, as asammdf "
         "writes an array of two dimensions: write each column as a signal"

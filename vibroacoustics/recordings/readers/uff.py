@@ -16,6 +16,7 @@ from ..uff58_values import values
 
 TIME_RESPONSE: Final = 1
 """Function type in record 6, field 1."""
+_INFINITE: Final = 1.797e308
 _TIMES: Final = (0, 1, 17)
 """Specific data types of an abscissa that may be a time: unknown, general, time."""
 _AXES: Final = {
@@ -51,7 +52,7 @@ def read(request: Request) -> Recorded:
         line = line_of(names, _shared(axes), request)
         check_size(len(names), line.last - line.first)
         stored = [
-            values(file, header, *part)[0]
+            _with_infinity(values(file, header, *part)[0])
             for header, part in zip(responses, line.parts, strict=True)
         ]
     return Recorded(
@@ -65,6 +66,14 @@ def read(request: Request) -> Recorded:
         total_samples=line.total,
         remarks=[*remarks, *line.remarks(units, stored)],
     )
+
+
+def _with_infinity(samples: Samples) -> Samples:
+    """Samples of which the largest number of doubles, which pyuff writes for infinity, is that."""
+    if samples.dtype.itemsize < np.dtype(float).itemsize or not samples.size:
+        return samples
+    is_infinite = np.abs(samples) >= _INFINITE
+    return np.where(is_infinite, np.inf, samples) if is_infinite.any() else samples
 
 
 def _time_responses(contents: Datasets) -> list[Header]:
