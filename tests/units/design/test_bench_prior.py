@@ -113,6 +113,17 @@ def test_a_machine_of_the_prior_needs_one_trial_run(tmp_path):
     assert np.median(without) < 0.1
 
 
+def test_a_tacho_off_the_x_axis_turns_the_coefficients(tmp_path):
+    """A weight at the mark is at the tacho when the pulse comes, so it leads by its angle."""
+    path = files(tmp_path)
+    path.write_text(path.read_text().replace("samples = 30", "samples = 10\ntacho_deg = 40.0"))
+    turned = load_trial_runs(path)
+    plain = turned.model_copy(update={"study": turned.study.model_copy(update={"tacho_rad": 0.0})})
+    runs = measured_runs(turned, tmp_path)
+    ratio = ensemble_of(turned, runs).samples / ensemble_of(plain, runs).samples
+    np.testing.assert_allclose(ratio, np.exp(1j * np.deg2rad(40.0)), rtol=1e-9)
+
+
 def test_runs_alone_do_not_determine_both_planes(tmp_path):
     path = files(tmp_path)
     text = path.read_text()

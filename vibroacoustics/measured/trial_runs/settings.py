@@ -212,6 +212,11 @@ def load_trial_runs(path: Path) -> TrialRuns:
         Anything is missing, unknown, of the wrong type or outside its allowed range.
     """
     content = read_toml(path)
+    if "runs" not in content:
+        raise ParameterError(
+            f"{path}: has no runs: must have tables [runs.NAME], [planes.NAME] and [sensors.NAME]; "
+            "`vibroacoustics new balance` writes a file to begin with"
+        )
     name_calibrators_beside(path, content)
     study = content.get("study")
     if isinstance(study, dict) and isinstance(study.get("file"), str):
