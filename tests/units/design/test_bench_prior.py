@@ -8,11 +8,12 @@ from trial_run_files import at
 
 import vibroacoustics as va
 from vibroacoustics.design.balance import MOTION, counterweights_of, influence_of_weights
-from vibroacoustics.design.bench.prior import ensemble_of
+from vibroacoustics.design.bench.prior import _along, ensemble_of
 from vibroacoustics.design.engine.sound_path import SoundPaths
 from vibroacoustics.measured.trial_runs.measured_runs import measured_runs
-from vibroacoustics.measured.trial_runs.settings import load_trial_runs
+from vibroacoustics.measured.trial_runs.settings import Sensor, load_trial_runs
 from vibroacoustics.stages.radiation import KeptRadiation
+from vibroacoustics.transfer.machine import on_mounts
 
 OPTION = "upper + lower"
 WEIGHT = (
@@ -70,6 +71,28 @@ def test_foot_forces_and_motion_are_newtons_law():
     mass = (force[:, :2] - applied) / (squares * motion[:, :2])
     assert mass == pytest.approx(np.full((2, 2), mass[0, 0].real), rel=1e-6)
     assert 20.0 < mass[0, 0].real < 60.0
+
+
+def test_motion_of_a_foot_gives_its_force():
+    """Force over displacement is the stiffness of the mount, the same at each foot."""
+    study = va.load_study(PIPELINES / "copeland_thesis.toml").replace({
+        "operation.speed_rpm": [2900.0],
+        "options.upper": {"kind": "counterweight", "mass_g": 10.0, "radius_mm": 20.0,
+                          "angle_deg": 25.0, "height_mm": 60.0},
+    })  # fmt: skip
+    weights = counterweights_of(study, "upper")
+    _, influence = influence_of_weights(
+        study, "upper", weights, (MOTION, "foot_force_n"), paths()
+    )  # fmt: skip
+    force = influence[0, 6:, 0].reshape(-1, 3)
+    for number, axis in enumerate("xyz"):
+        moved = [
+            _along(Sensor(unit="m", position_m=tuple(position), axis=axis)) @ influence[0, :6, 0]
+            for position in on_mounts(study.machine).foot_position.tolist()
+        ]
+        stiffness = force[:, number] / np.array(moved)
+        np.testing.assert_allclose(stiffness, stiffness[0], rtol=1e-6)
+        assert stiffness[0].real > 1e3
 
 
 def files(folder, readings=None):
