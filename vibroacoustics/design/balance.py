@@ -24,12 +24,16 @@ from ..stages.radiation import transfer_vectors
 from ..study.study import Study
 from .engine.on_mounts import ADDED, SOUND, Arrays, Lines, lines_of, pressure_by_source
 from .engine.probe import Probe, machine_of_design, probe
-from .engine.response import foot_forces
-from .engine.sound_path import SoundPaths
+from .engine.response import displacement, foot_forces
+from .engine.sound_path import Responses, SoundPaths
 
 BALANCED: Final = ("force_n", "moment_nm", "foot_force_n", "pressure_pa")
 """Figures whose sum of squares at the shaft frequency may be made least."""
+MOTION: Final = "motion_m"
+"""Translation and rotation of the body on the feet, m and rad."""
 _LIGHTEST_KG: Final = 1e-9
+_NO_SOUND: Final = Responses(np.zeros((0, 6, 0), complex), np.zeros((0, 0, 0), complex), ())
+"""Responses where no microphone counts, for which no radiation is computed."""
 
 
 @dataclass(frozen=True)
@@ -101,10 +105,12 @@ def balance(
     >>> bool(np.all(best.after < best.before))
     True
     """
-    weights = _weights(study, option)
+    weights = counterweights_of(study, option)
     if figure not in BALANCED:
         raise ParameterError(f"figure = {figure}: unknown; allowed {', '.join(BALANCED)}")
-    response, influence = _influence(study, option, weights, figure, SoundPaths(radiation))
+    response, influence = influence_of_weights(
+        study, option, weights, (figure,), SoundPaths(radiation)
+    )
     rows = response, influence
     if speeds == "all":
         rows = response.reshape(1, -1), influence.reshape(1, -1, len(weights))
@@ -124,8 +130,19 @@ def balance(
     return Balanced(moment, values, before, after)
 
 
-def _weights(study: Study, option: str) -> dict[str, Counterweight]:
-    """Counterweights of an option by name."""
+def counterweights_of(study: Study, option: str) -> dict[str, Counterweight]:
+    """Find the counterweights of an option by name.
+
+    Parameters
+    ----------
+    study : study with the option
+    option : name of the option
+
+    Raises
+    ------
+    ParameterError
+        There is no such option, or it has no counterweight.
+    """
     if option not in study.options:
         raise ParameterError(
             f"option = {option}: there is no such option; allowed {', '.join(study.options)}"
@@ -150,22 +167,39 @@ def _positions(
     )
 
 
-def _influence(
-    study: Study, option: str, weights: Mapping[str, Counterweight], figure: str, paths: SoundPaths
+def influence_of_weights(
+    study: Study,
+    option: str,
+    weights: Mapping[str, Counterweight],
+    figures: Sequence[str],
+    paths: SoundPaths,
 ) -> tuple[ComplexArray, ComplexArray]:
-    """Response without the counterweights, and per moment of each; see `sums_of_squares`."""
-    as_given = _response(study, option, {}, figure, paths)
+    """Return the response without the counterweights, and per moment; see `sums_of_squares`.
+
+    Parameters
+    ----------
+    study : study with the option
+    option : name of the option
+    weights : its counterweights by name
+    figures : some of `BALANCED`, or `MOTION`; their rows one after another
+    paths : paths to the microphones
+    """
+    as_given = _response(study, option, {}, figures, paths)
     parts = []
     for name, weight in weights.items():
         turned = weight.model_copy(update={"angle_rad": weight.angle_rad + pi})
-        parts.append(0.5 * (as_given - _response(study, option, {name: turned}, figure, paths)))
+        parts.append(0.5 * (as_given - _response(study, option, {name: turned}, figures, paths)))
     moments = [w.mass_kg * w.radius_m * np.exp(1j * w.angle_rad) for w in weights.values()]
     part = np.stack(parts, axis=-1)
     return as_given - part.sum(axis=-1), np.asarray(part / np.array(moments))
 
 
 def _response(
-    study: Study, option: str, changed: Mapping[str, Option], figure: str, paths: SoundPaths
+    study: Study,
+    option: str,
+    changed: Mapping[str, Option],
+    figures: Sequence[str],
+    paths: SoundPaths,
 ) -> ComplexArray:
     """Response with some counterweights changed, shape (speed, row)."""
     joined = study.options[option]
@@ -176,10 +210,11 @@ def _response(
     with_changed = study.model_copy(update={"options": options})
     made = probe(with_changed, option)
     machine = machine_of_design(with_changed, option, None, with_bodies=True)
-    responses = paths(with_changed).path(machine).responses(made.layout)
-    return _at_shaft_frequency(
-        made, lines_of(study.operation.speed_rpm, made.layout, responses), figure
-    )
+    responses = [_NO_SOUND] * len(made.layout)
+    if "pressure_pa" in figures:
+        responses = list(paths(with_changed).path(machine).responses(made.layout))
+    lines = lines_of(study.operation.speed_rpm, made.layout, responses)
+    return np.concatenate([_at_shaft_frequency(made, lines, each) for each in figures], axis=1)
 
 
 def _at_shaft_frequency(made: Probe, lines: Sequence[Lines], figure: str) -> ComplexArray:
@@ -200,6 +235,10 @@ def _row(figure: str, lines: Lines, arrays: Arrays, body: Arrays) -> ComplexArra
         pressure = pressure_by_source(lines.select(line), few, body)[0].sum(axis=0).ravel()
         return np.asarray(pressure / np.sqrt(2.0 * pressure.size))
     wrench = arrays["wrench"][:, line[0]]
+    if figure == MOTION:
+        more = arrays["added"][:, line] if "added" in arrays else None
+        motion = displacement(body, more, wrench[:, None], lines.frequency_hz[line])
+        return np.asarray(motion[0, 0, :6])
     if figure == "foot_force_n":
         added = {name: arrays[name] for name in ADDED if name in arrays}
         return foot_forces(body, added, wrench, lines.frequency_hz, line).ravel()

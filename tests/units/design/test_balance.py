@@ -8,7 +8,7 @@ from support import PIPELINES, made_up_radiation
 
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.design.balance import _influence, _weights
+from vibroacoustics.design.balance import counterweights_of, influence_of_weights
 from vibroacoustics.design.engine.sound_path import SoundPaths
 from vibroacoustics.mechanics.balancing.moments import sums_of_squares
 from vibroacoustics.mechanics.capabilities import OldhamRing
@@ -62,8 +62,10 @@ def test_bolt_holes_are_those_of_trying_all(study):
     masses_kg = [0.01, 0.02]
     holes = {"upper": (4, masses_kg), "lower": (3, masses_kg)}
     best = va.balance(study, BOTH, holes=holes, radiation=made_up_radiation)
-    weights = _weights(study, BOTH)
-    rows = _influence(study, BOTH, weights, "foot_force_n", SoundPaths(made_up_radiation))
+    weights = counterweights_of(study, BOTH)
+    rows = influence_of_weights(
+        study, BOTH, weights, ("foot_force_n",), SoundPaths(made_up_radiation)
+    )
     first = 0.02 * np.exp(1j * np.deg2rad(25.0))  # radius at the angle as given
     positions = [
         [first * mass_kg * np.exp(2j * np.pi * hole / count) for mass_kg in masses_kg for hole in

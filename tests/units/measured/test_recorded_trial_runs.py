@@ -53,6 +53,21 @@ def test_weights_are_within_2_percent_and_2_degrees(of_file):
         assert np.all(np.abs(np.angle(ratio, deg=True)) < 2.0)
 
 
+@pytest.mark.parametrize(
+    ("amplitudes", "unit", "factor"),
+    [("peak", "m/s", 1.0), ("peak to peak", "mm/s", 2e3), ("rms", "mm/s", 1e3 / np.sqrt(2.0))],
+)
+def test_readings_are_in_the_units_and_amplitudes_of_the_file(amplitudes, unit, factor, of_file):
+    file, path = of_file
+    rng = np.random.default_rng(SEED)
+    recorded = readings_of(recording(rng, machine(rng), weights_of("first"), 1500.0), TACHO)
+    sensors = {name: each.model_copy(update={"unit": unit}) for name, each in file.sensors.items()}
+    changed = file.model_copy(update={"amplitudes": amplitudes, "sensors": sensors})
+    for entry in entries_of(changed, 0, recorded, path):
+        assert entry.value == pytest.approx(factor * recorded.values[entry.sensor])
+        assert entry.deviation == pytest.approx(factor * recorded.deviations[entry.sensor])
+
+
 @pytest.mark.long
 def test_bands_hold_the_readings_that_remain(of_file):
     rng = np.random.default_rng(SEED)

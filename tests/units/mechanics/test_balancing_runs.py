@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from vibroacoustics.mechanics.balancing.bands import residual_samples
 from vibroacoustics.mechanics.balancing.coefficients import (
     Ensemble,
     coefficients,
@@ -139,3 +140,39 @@ def test_single_weights_are_those_of_trying_all():
     )
     moment = np.array([piece.vector for piece in chosen])
     assert np.linalg.norm(response + influence @ moment) == pytest.approx(best)
+
+
+def test_without_informative_runs_the_scatter_is_that_of_the_samples():
+    rng = np.random.default_rng(SEED)
+    prior = Ensemble(machine(rng)[:, 1:] + 0.1 * normal(rng, 40, ROWS, PLANES), 0.0)
+    found = coefficients(
+        normal(rng, 1, ROWS), WEIGHTS[:1], np.full((1, ROWS), 0.1), np.full(ROWS, np.inf), prior
+    )
+    variance = np.sum(np.abs(found.factor[:, 1:]) ** 2, axis=-1)
+    expected = np.var(prior.samples, axis=0, ddof=1)
+    np.testing.assert_allclose(variance, expected, rtol=1e-9)
+
+
+def test_what_no_weight_changes_shrinks_to_what_exceeds_its_scatter():
+    """Of a remaining reading far below its scatter none is real; of one far above it all is."""
+    rng = np.random.default_rng(SEED)
+    truth = machine(rng)
+    truth[:, 0] = -truth[:, 1:] @ np.array([1.0, 1j])
+    across = np.eye(ROWS) - truth[:, 1:] @ np.linalg.pinv(truth[:, 1:])
+    for size, scatter in ((1e-6, 1e-3), (1.0, 1e-3)):
+        further = across @ normal(rng, ROWS)
+        shifted = truth.copy()
+        shifted[:, 0] += size * further
+        readings = measured(rng, shifted, WEIGHTS, 0.0)
+        found = coefficients(
+            readings, WEIGHTS, np.full(readings.shape, scatter), np.full(ROWS, np.inf)
+        )
+        samples = residual_samples(found, np.array([1.0, 1j]))
+        spread = np.abs(samples @ across.T)
+        if size < scatter:
+            assert spread.max() < 1e-6 * scatter
+        else:
+            error = found.sampled() - found.mean
+            plain = (error[..., 0] + error[..., 1:] @ np.array([1.0, 1j])) @ across.T
+            deviation = samples @ across.T - size * further
+            np.testing.assert_allclose(deviation, plain, atol=0.1 * np.abs(plain).max())

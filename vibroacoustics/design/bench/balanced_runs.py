@@ -20,8 +20,10 @@ from ...measured.trial_runs.settings import Plane, TrialRuns, hole_angles_rad, l
 from ...mechanics.balancing.bands import residual_samples
 from ...mechanics.balancing.coefficients import Coefficients, Ensemble, coefficients, rank_of_runs
 from ...mechanics.balancing.planes import Dependence
+from ...radiation.given import Radiation
 from ...recordings.quantities import quantity
 from .answers import SOUND, BenchProblem, PlaneLimits, answers_of
+from .prior import ensemble_of
 
 QUANTILES: Final = (0.1, 0.5, 0.9)
 KINDS: Final = {"sound pressure": "microphones", "force": "feet"}
@@ -99,7 +101,7 @@ class BalancedRuns:
     dependence: Dependence
 
 
-def balance_runs(path: str | Path, prior: Ensemble | None = None) -> BalancedRuns:
+def balance_runs(path: str | Path, radiation: Radiation | None = None) -> BalancedRuns:
     """Find weights that balance a machine on the bench, from its runs with trial weights.
 
     Least squares over all runs gives the readings without weights and the influence coefficients
@@ -108,7 +110,7 @@ def balance_runs(path: str | Path, prior: Ensemble | None = None) -> BalancedRun
     Parameters
     ----------
     path : TOML file of the runs; docs/balancing.md has its tables
-    prior : influence coefficients before the runs, for the rows of the readings
+    radiation : function that gives the transfer vectors of a study that the file names
 
     Raises
     ------
@@ -127,8 +129,8 @@ def balance_runs(path: str | Path, prior: Ensemble | None = None) -> BalancedRun
     path = Path(path)
     settings = load_trial_runs(path)
     with naming_settings(path):
-        runs = without_gaps(measured_runs(settings, path.parent), prior is not None)
-        return balanced(settings, runs, prior)
+        runs = without_gaps(measured_runs(settings, path.parent), settings.study is not None)
+        return balanced(settings, runs, ensemble_of(settings, runs, radiation))
 
 
 def balanced(

@@ -62,12 +62,22 @@ class Sensor(Parameters):
     limit: float | None = Field(default=None, gt=0.0, le=1e12)
     scatter: float | None = Field(default=None, gt=0.0, le=1e12)
     """Standard deviation of a reading's real and of its imaginary part."""
-    model: str | None = Field(default=None, min_length=1, max_length=100)
-    """Figure of the study that it measures: a foot with an axis, or a microphone."""
+    receiver: str | None = Field(default=None, min_length=1, max_length=100)
+    """Microphone of the study that it is."""
+    foot: str | None = Field(default=None, min_length=1, max_length=100)
+    """Foot of the study whose force it measures."""
+    position_m: tuple[float, float, float] | None = None
+    """Position on the body, from its centre of mass at rest in the machine's axes."""
+    axis: Literal["x", "y", "z"] | None = None
 
     def contradictions(self) -> Contradictions:
         if find_quantity(self.unit) is None:
             yield f"unit = {self.unit}: must be one of {', '.join(QUANTITIES)}"
+        in_study = (self.receiver, self.foot, self.position_m)
+        if sum(each is not None for each in in_study) > 1:
+            yield "give one of receiver, foot and position_mm"
+        if (self.axis is None) == (self.foot is not None or self.position_m is not None):
+            yield "axis: belongs to foot or position_mm"
 
 
 class RunWeight(Parameters):
@@ -107,8 +117,8 @@ class StudyOfMachine(Parameters):
     file: str
     option: str
     samples: int = Field(default=60, ge=10, le=1000)
-    mark_rad: float = Field(default=0.0, ge=-7.0, le=7.0)
-    """Crank angle of the study at which the tacho gives its pulse."""
+    tacho_rad: float = Field(default=0.0, ge=-7.0, le=7.0)
+    """Angle of the tacho from the x axis of the study, with the rotation."""
 
 
 class TrialRuns(Parameters):
@@ -202,6 +212,11 @@ def load_trial_runs(path: Path) -> TrialRuns:
         Anything is missing, unknown, of the wrong type or outside its allowed range.
     """
     content = read_toml(path)
+    if "runs" not in content:
+        raise ParameterError(
+            f"{path}: has no runs: must have tables [runs.NAME], [planes.NAME] and [sensors.NAME]; "
+            "`vibroacoustics new balance` writes a file to begin with"
+        )
     name_calibrators_beside(path, content)
     study = content.get("study")
     if isinstance(study, dict) and isinstance(study.get("file"), str):

@@ -1,0 +1,184 @@
+"""Influence coefficients of a study with their spread over its samples, before any run."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from ...base.arrays import ComplexArray
+from ...base.errors import ParameterError, SolverError
+from ...machine.feet import FOOT_NAMES
+from ...measured.trial_runs.measured_runs import MeasuredRuns
+from ...measured.trial_runs.reading_text import PEAK_FACTORS
+from ...measured.trial_runs.settings import Sensor, StudyOfMachine, TrialRuns
+from ...mechanics.balancing.coefficients import Ensemble
+from ...radiation.given import Radiation
+from ...recordings.quantities import quantity
+from ...stages.radiation import KeptRadiation
+from ...study.loading import load_study
+from ...study.samples import samples_of, with_sample
+from ...study.study import Study
+from ..balance import MOTION, counterweights_of, influence_of_weights
+from ..engine.sound_path import SoundPaths
+
+FOOT: Final = "foot_force_n"
+PRESSURE: Final = "pressure_pa"
+_DERIVATIVES: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
+_LEAST_SAMPLES: Final = 10
+
+
+def ensemble_of(
+    settings: TrialRuns, runs: MeasuredRuns, radiation: Radiation | None = None
+) -> Ensemble | None:
+    """Compute the influence coefficients of the samples of a study; none without a study.
+
+    Parameters
+    ----------
+    settings : file of the runs; its planes are counterweights of the study's option
+    runs : readings, whose rows the coefficients have
+    radiation : function that gives the transfer vectors
+
+    Raises
+    ------
+    ParameterError
+        A plane is no counterweight of the option, a sensor is nothing of the study, or the study
+        has no ranges.
+    """
+    if settings.study is None:
+        return None
+    speeds = list(dict.fromkeys(runs.speeds_rpm.tolist()))
+    study = _at_speeds(load_study(Path(settings.study.file)), speeds, settings.study.samples)
+    weights = counterweights_of(study, settings.study.option)
+    for plane in settings.planes:
+        if plane not in weights:
+            raise ParameterError(
+                f"planes.{plane}: no counterweight of option {settings.study.option}; known are "
+                f"{', '.join(weights)}"
+            )
+    figures = {name: _figure(name, settings.sensors[name]) for name in dict.fromkeys(runs.sensors)}
+    paths = SoundPaths(KeptRadiation() if radiation is None else radiation)
+    order = [list(weights).index(plane) for plane in settings.planes]
+    turn = np.exp(1j * settings.study.tacho_rad)
+    wanted = list(dict.fromkeys(figures.values()))
+    samples = []
+    for sampled in _sampled(study, settings.study, PRESSURE in wanted):
+        try:
+            _, influence = influence_of_weights(
+                sampled, settings.study.option, weights, wanted, paths
+            )
+            by_figure = _by_figure(influence[..., order], wanted, len(study.receivers))
+        except (ParameterError, SolverError):
+            continue  # values that contradict one another
+        samples.append(turn * _rows(settings, runs, sampled, figures, by_figure, speeds))
+    if len(samples) < _LEAST_SAMPLES:
+        raise ParameterError(f"study.file: {len(samples)} samples have a solution: must be 10")
+    return Ensemble(np.array(samples))
+
+
+def _at_speeds(study: Study, speeds_rpm: Sequence[float], samples: int) -> Study:
+    """Study at the speeds of the readings, its supply frequencies between those that it has."""
+    values: dict[str, Sequence[float] | int] = {"operation.speed_rpm": speeds_rpm}
+    if study.ranges:
+        values["uncertainty.random_samples"] = samples
+    supply_hz = study.operation.supply_frequency_hz
+    if supply_hz:
+        pairs = sorted(zip(study.operation.speed_rpm, supply_hz, strict=True))
+        present = np.interp(speeds_rpm, *np.array(pairs).T)
+        values["operation.supply_frequency_hz"] = present.tolist()
+    return study.replace(values)
+
+
+def _sampled(study: Study, settings: StudyOfMachine, with_sound: bool) -> Sequence[Study]:
+    """Studies with sampled values of the machine, without their sources where no sound counts."""
+    samples = samples_of(study).samples
+    if not samples:
+        raise ParameterError(
+            f"study.file = {settings.file}: has no ranges that are sampled: give its values ranges "
+            "and the study [sources.NAME]"
+        )
+    changed: dict[str, None] = (
+        {} if with_sound else {f"sources.{name}": None for name in study.sources}
+    )
+    plain = study.replace(changed)
+    return [
+        plain.model_copy(update={"machine": with_sample(plain.machine, plain.machine, sample)})
+        for sample in samples
+    ]
+
+
+def _by_figure(
+    influence: ComplexArray, figures: Sequence[str], receivers: int
+) -> dict[str, ComplexArray]:
+    """Parts of the influence by figure, each of shape (speed, row, plane)."""
+    sizes = {MOTION: 6, PRESSURE: receivers}
+    further = influence.shape[1] - sum(sizes.get(figure, 0) for figure in figures)
+    ends = np.cumsum([sizes.get(figure, further) for figure in figures])
+    return dict(zip(figures, np.split(influence, ends[:-1], axis=1), strict=True))
+
+
+def _figure(name: str, sensor: Sensor) -> str:
+    """Figure of the study that a sensor measures, by its quantity."""
+    kind = quantity(sensor.unit).kind
+    if kind == "sound pressure" and sensor.receiver is not None:
+        return PRESSURE
+    if kind == "force" and sensor.foot is not None:
+        return FOOT
+    if kind in _DERIVATIVES and sensor.position_m is not None:
+        return MOTION
+    raise ParameterError(
+        f"sensors.{name}: is nothing of the study: give receiver with Pa, foot and axis with N, or "
+        "position_mm and axis with a motion"
+    )
+
+
+def _rows(
+    settings: TrialRuns,
+    runs: MeasuredRuns,
+    study: Study,
+    figures: Mapping[str, str],
+    by_figure: Mapping[str, ComplexArray],
+    speeds: Sequence[float],
+) -> ComplexArray:
+    """Influence of the rows of the readings, in their units, shape (row, plane)."""
+    rows = []
+    for name, speed in zip(runs.sensors, runs.speeds_rpm.tolist(), strict=True):
+        sensor, figure = settings.sensors[name], figures[name]
+        at_speed = by_figure[figure][speeds.index(speed)]
+        measured = quantity(sensor.unit)
+        if figure == MOTION:
+            omega = speed * np.pi / 30.0
+            value = (1j * omega) ** _DERIVATIVES[measured.kind] * _along(sensor) @ at_speed
+        elif figure == FOOT:
+            value = at_speed[3 * _foot(name, sensor, study) + "xyz".index(sensor.axis or "z")]
+        else:
+            value = np.sqrt(2.0 * len(study.receivers)) * at_speed[_receiver(name, sensor, study)]
+        rows.append(value / (measured.factor * PEAK_FACTORS[settings.amplitudes]))
+    return np.array(rows)
+
+
+def _along(sensor: Sensor) -> ComplexArray:
+    """Motion of a point along an axis by translation and rotation of the body, shape (6,)."""
+    along = np.eye(3)["xyz".index(sensor.axis or "z")]
+    arm = np.cross(np.array(sensor.position_m), along)
+    return np.asarray(np.concatenate([along, arm]), dtype=complex)
+
+
+def _foot(name: str, sensor: Sensor, study: Study) -> int:
+    feet = study.machine.feet
+    names = list(FOOT_NAMES) if feet is None else list(feet.by_name)
+    if sensor.foot not in names:
+        raise ParameterError(
+            f"sensors.{name}.foot = {sensor.foot}: no such foot; known are {', '.join(names)}"
+        )
+    return names.index(sensor.foot)
+
+
+def _receiver(name: str, sensor: Sensor, study: Study) -> int:
+    names = list(study.receivers)
+    if sensor.receiver not in names:
+        raise ParameterError(
+            f"sensors.{name}.receiver = {sensor.receiver}: no such microphone; known are "
+            f"{', '.join(names)}"
+        )
+    return names.index(sensor.receiver)
