@@ -80,6 +80,7 @@ def test_long_pages_are_found():
         f"a.md: {LARGEST_PAGE + 1} words, at most {LARGEST_PAGE}"
     ]
     many = {f"{number}.md": LARGEST_PAGE for number in range(LARGEST_TOTAL // LARGEST_PAGE)}
+    many["last.md"] = LARGEST_TOTAL % LARGEST_PAGE
     assert not long_pages(many)
     assert long_pages({**many, "further.md": 1}) == [
         f"all pages: {LARGEST_TOTAL + 1} words, at most {LARGEST_TOTAL}"
