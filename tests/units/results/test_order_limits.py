@@ -95,7 +95,7 @@ BAD_LINES = {
     "shell,1,,N": ["limit = nothing: must be a finite number"],
     "shell,1,0,N": ["limit = 0: must be a number above 0, in N"],
     "shell,1,nan,dB": ["limit = nan: must be a finite number"],
-    "shell,1,1,psi": ["unit = 'psi': must be one of dB (re 20 µPa), Pa"],
+    "shell,1,1,K": ["unit = 'K': must be one of dB (re 20 µPa), Pa"],
     "shell,1,1,dB(A)": ["unit = 'dB(A)': must be one of dB (re 20 µPa), Pa"],
 }
 
