@@ -168,9 +168,8 @@ class _Scaled(NamedTuple):
         influence = (speeds[:, None, None] * self.influence).reshape(-1, self.influence.shape[-1])
         stacked = np.concatenate([influence, limits[:, None] * self.bounds])
         response = np.append((speeds[:, None] * self.response).ravel(), limits * self.offset)
-        best = (
-            -np.linalg.pinv(stacked, rcond=_RANK / max(np.linalg.norm(stacked), _RANK)) @ response
-        )
+        smallest = _RANK / max(float(np.linalg.norm(stacked)), _RANK)
+        best = -np.linalg.pinv(stacked, rcond=smallest) @ response
         return float(np.sum(np.abs(response + stacked @ best) ** 2) - np.sum(limits**2))
 
 
