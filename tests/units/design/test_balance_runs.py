@@ -275,7 +275,7 @@ def test_bands_hold_the_readings_that_remain(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ('"9.1@', '"9.1', "must be an amplitude from 0 at an angle in degrees"),
+        ('"9.1@', '"9.1', "must be an amplitude from 0 to 1e12 at an angle in degrees"),
         ('sensor_1 = "', 'sensor_1 = "-', "must be an amplitude from 0"),
         ('sensor_1 = "', 'sensor_9 = "', "no such sensor; known are sensor_1"),
         ("@0", " µm@0", "is in µm, the sensor in mm/s: must be in mm/s"),
@@ -305,6 +305,26 @@ def test_bad_files_are_refused_in_one_line(old, new, words, tmp_path):
     first = str(caught.value.args[0])
     assert first.startswith(f"{path}: ")
     assert any(words in str(line) for line in caught.value.args), caught.value.args
+
+
+@pytest.mark.parametrize(
+    "readings",
+    [
+        ([0, 0], [0, 0], [0, 0]), ([0, 0], [1, 2], [2, 1]), ([0, 1], [1, 2j], [2, 1]),
+        ([1, 2], [1, 2], [1, 3]), ([1, 2], [2, 3], [2, 3]), ([1, 2], [1, 2], [1, 2]),
+    ],
+)  # fmt: skip
+def test_readings_of_zero_and_weights_without_effect_give_no_large_masses(readings, tmp_path):
+    runs = {
+        f"run_{number}": (np.array(weight, dtype=complex), np.array(values, dtype=complex))
+        for number, (weight, values) in enumerate(
+            zip([[0, 0], [1, 0], [0, 1]], readings, strict=True)
+        )
+    }
+    runs["again"] = runs["run_0"]
+    balanced = va.balance_runs(written(tmp_path, file_text(runs)))
+    assert np.all(np.abs(balanced.moment_kg_m) < 5.0 * PER_GRAM)
+    assert all(remarks(balanced))
 
 
 def test_runs_that_do_not_determine_the_planes_are_refused(tmp_path):

@@ -27,6 +27,7 @@ from .prior import ensemble_of
 
 QUANTILES: Final = (0.1, 0.5, 0.9)
 KINDS: Final = {"sound pressure": "microphones", "force": "feet"}
+_NO_EFFECT: Final = 1e-9
 VIBRATION: Final = "vibration"
 
 
@@ -148,6 +149,7 @@ def balanced(
     fitted = coefficients(
         runs.readings, runs.weights, scatter.deviation, scatter.freedom, prior, by_speed
     )
+    fitted = _with_effect(fitted, runs)
     problem = BenchProblem(
         fitted.response + fitted.influence @ runs.installed,
         fitted.influence,
@@ -180,6 +182,16 @@ def balanced(
         _sampled_moments(problem.weight, samples, runs.installed),
         problem.dependence(),
     )  # fmt: skip
+
+
+def _with_effect(fitted: Coefficients, runs: MeasuredRuns) -> Coefficients:
+    """Coefficients, zero in planes whose weights change the readings by rounding noise only."""
+    largest = np.abs(runs.weights).max(axis=0)
+    effect = np.abs(fitted.influence).max(axis=0) * largest
+    idle = (effect < _NO_EFFECT * np.nanmax(np.abs(runs.readings))) & (largest > 0.0)
+    mean = fitted.mean.copy()
+    mean[:, 1:][:, idle] = 0.0
+    return replace(fitted, mean=mean)
 
 
 def _corrected(

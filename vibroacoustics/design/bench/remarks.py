@@ -87,6 +87,12 @@ def _dependent(result: BalancedRuns) -> Iterator[str]:
     alike = [names[plane] for plane in result.dependence.planes]
     if not alike:
         return
+    if len(result.runs.sensors) < len(names):
+        yield (
+            f"{len(result.runs.sensors)} readings for {len(names)} planes do not determine the "
+            f"weights: add a sensor or a speed; the weights are those of the answer '{SOUND}'"
+        )
+        return
     size = {name: abs(moment) for name, moment in
             zip(names, result.answers["least squares"], strict=True)}  # fmt: skip
     masses = ", ".join(
@@ -106,8 +112,8 @@ def _weak(result: BalancedRuns) -> Iterator[str]:
     tried: dict[int, str] = {}
     for pair in pairs(result.runs.weights):
         first, second = readings[pair.first], readings[pair.second]
-        ratio = second / np.where(np.abs(first) > 0.0, first, np.nan)
-        ratio = ratio[np.isfinite(ratio)]
+        clear = np.isfinite(first + second) & (np.abs(first) > 0.0)
+        ratio = second[clear] / first[clear]
         tried.setdefault(pair.plane, result.runs.names[pair.second])
         if np.any((np.abs(np.abs(ratio) - 1.0) >= WEAK_RATIO) | (_turned_deg(ratio) >= WEAK_DEG)):
             strong.add(pair.plane)
@@ -127,8 +133,9 @@ def _wrapped(result: BalancedRuns) -> Iterator[str]:
         for first in range(second):
             if not np.allclose(runs.weights[first], runs.weights[second], atol=1e-15):
                 continue
-            ratio = runs.readings[second] / runs.readings[first]
-            likely = (np.abs(ratio) > 0.5) & (np.abs(ratio) < 2.0)
+            present = np.abs(runs.readings[first]) > 0.0
+            ratio = runs.readings[second] / np.where(present, runs.readings[first], 1.0)
+            likely = present & (np.abs(ratio) > 0.5) & (np.abs(ratio) < 2.0)
             for row in np.flatnonzero(likely & (_turned_deg(ratio) > WRAP_DEG)).tolist():
                 yield (
                     f"{_row(result, row)}: runs {runs.names[first]} and {runs.names[second]} have "
@@ -153,8 +160,8 @@ def _nonlinear(result: BalancedRuns) -> Iterator[str]:
                 mean = 0.5 * np.abs(one_coefficient + other_coefficient)
                 smaller = min(abs(one_pair.moment), abs(other_pair.moment))
                 clear = mean * smaller > WEAK_RATIO * size
-                ratio = np.abs(one_coefficient - other_coefficient) / mean
-                largest = float(np.max(ratio[clear], initial=0.0))
+                apart = np.abs(one_coefficient - other_coefficient)
+                largest = float(np.max(apart[clear] / mean[clear], initial=0.0))
                 if largest > worst:
                     worst = largest
                     which = runs.names[other_pair.second], runs.names[one_pair.second]

@@ -15,6 +15,7 @@ PEAK_FACTORS: Final[dict[Amplitudes, float]] = {
     "rms": float(np.sqrt(2.0)),
 }
 """Peak of a reading of one, by the kind of amplitudes."""
+_LARGEST: Final = 1e12
 _SPELLINGS: Final[dict[str, Amplitudes]] = {
     "peak": "peak", "pk": "peak", "0-p": "peak", "peak to peak": "peak to peak",
     "pp": "peak to peak", "p-p": "peak to peak", "rms": "rms",
@@ -48,8 +49,10 @@ def parsed(text: str) -> Reading:
         It is no amplitude at an angle, or the amplitude is below zero.
     """
     parts = _READING.fullmatch(text)
-    if parts is None or float(parts[1]) < 0.0:
-        raise ParameterError("must be an amplitude from 0 at an angle in degrees, such as 4.2@35")
+    if parts is None or not 0.0 <= float(parts[1]) <= _LARGEST or abs(float(parts[3])) > _LARGEST:
+        raise ParameterError(
+            "must be an amplitude from 0 to 1e12 at an angle in degrees, such as 4.2@35"
+        )
     value = complex(float(parts[1]) * np.exp(1j * np.deg2rad(float(parts[3]))))
     kind = _KIND.fullmatch(parts[2])
     if kind is None:

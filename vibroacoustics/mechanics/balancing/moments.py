@@ -20,7 +20,7 @@ _ACTIVE: Final = 1e-5
 _NOISE: Final = 1e-24
 """Share of the sum of squares without weights below which what remains is rounding noise."""
 _RANK: Final = 1e-9
-"""Singular value, of the largest, below which directions are rounding noise in the lower bound."""
+"""Singular value, of all rows together, below which directions are noise in the lower bound."""
 _STEPS: Final = 1000
 
 
@@ -84,6 +84,8 @@ def worst_speed_moments(
     rows = influence.reshape(-1, start.size)
     _, spread, directions = np.linalg.svd(rows, full_matrices=False)
     kept = spread > spread[0] * max(rows.shape) * np.finfo(float).eps
+    if not kept.any():
+        return start
     basis = (directions[kept].conj() / spread[kept, None]).T  # independent, of one size
     limited = share > 0.0
     bounds = (size * basis * share[:, None])[limited]
@@ -166,7 +168,8 @@ class _Scaled(NamedTuple):
         influence = (speeds[:, None, None] * self.influence).reshape(-1, self.influence.shape[-1])
         stacked = np.concatenate([influence, limits[:, None] * self.bounds])
         response = np.append((speeds[:, None] * self.response).ravel(), limits * self.offset)
-        best = np.linalg.lstsq(stacked, -response, rcond=_RANK)[0]
+        smallest = _RANK / max(float(np.linalg.norm(stacked)), _RANK)
+        best = -np.linalg.pinv(stacked, rcond=smallest) @ response
         return float(np.sum(np.abs(response + stacked @ best) ** 2) - np.sum(limits**2))
 
 
