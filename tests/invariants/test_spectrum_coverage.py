@@ -104,6 +104,7 @@ def test_weights_are_those_of_the_package():
         microphone="front_1m", speed_rpm=2900.0, operating_point=None, deviation_db=2.0,
         band_hz=tuple(band_hz), level_dba=tuple(third_db[columns].tolist()),
     )  # fmt: skip
+    spectrum.within = lambda _: spectrum
     study = study.model_copy(update={"evidence": SimpleNamespace(spectrum=spectrum)})
     published = published_of(study)
     flat = Prior("flat", "", lambda level: np.where(np.isin(level, GRID_DB), 1.0, 0.0))

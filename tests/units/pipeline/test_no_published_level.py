@@ -109,7 +109,7 @@ def test_what_contradicts_it_is_refused():
     study = load_study(SOURCES_STUDY)
     first = next(iter(study.receivers))
     assert study.replace({"catalogue_receiver": None}).catalogue_receiver == first
-    with pytest.raises(ParameterError, match=f"catalogue_receiver = {first}: stands 3"):
+    with pytest.raises(ParameterError, match=f"catalogue_receiver = {first}: stands 2.9"):
         study.replace({"catalogue_receiver": None, f"receivers.{first}.x_mm": 3000.0})
     with pytest.raises(ParameterError, match="catalogue_receiver = back: not among the receivers"):
         study.replace({"catalogue_receiver": "back"})

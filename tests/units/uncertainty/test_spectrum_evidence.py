@@ -28,12 +28,13 @@ def spectrum_evidence(settings, level_dba, receiver="front", speed_rpm=SPEED):
     study, axes = evidence.nominal.study, evidence.nominal.axes
     machine.remainder.speed_factor = lambda speed, published: (speed / published) ** 3
     study.operation = SimpleNamespace(point=None)
-    study.evidence = SimpleNamespace(
-        spectrum=SimpleNamespace(
-            microphone=receiver, speed_rpm=speed_rpm, operating_point=None,
-            deviation_db=DEVIATION_DB, band_hz=BAND_HZ, level_dba=level_dba,
-        )
+    spectrum = SimpleNamespace(
+        microphone=receiver, speed_rpm=speed_rpm, operating_point=None,
+        deviation_db=DEVIATION_DB, band_hz=BAND_HZ, level_dba=level_dba,
     )  # fmt: skip
+    spectrum.within = lambda _: spectrum
+    study.radiation = SimpleNamespace(maximum_frequency_hz=1e4)
+    study.evidence = SimpleNamespace(spectrum=spectrum)
     axes.receivers = ["front", "side"]
     return evidence, machine
 
