@@ -2,8 +2,8 @@
 Runs with trial weights
 =======================
 
-A fan with two planes on the bench: which weights balance it, and how far? ``vibroacoustics balance``
-reads the runs from a file, :doc:`/balancing` says what the file holds.
+A fan with two planes on the bench: which weights balance it, and how far?
+``vibroacoustics balance`` reads the runs from a file, :doc:`/balancing` says what the file holds.
 """
 
 import subprocess
