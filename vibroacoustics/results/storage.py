@@ -195,13 +195,16 @@ def _entry(kind: str, material: Mapping[str, Any]) -> str:
 def _known(folder: Folder, name: str) -> xr.Dataset | None:
     """The cached result, where it is there, whole and stored for this entry.
 
-    A file of another entry has a right hash, too.
+    A file of another entry has a right hash, too; it is named in a warning.
     """
     try:
         result = results_in(folder, name)
     except StorageError:
         return None
-    if result.attrs.pop(_ENTRY, None) != name:
+    stored_for = result.attrs.pop(_ENTRY, None)
+    if stored_for is None:  # of an earlier version
+        return None
+    if stored_for != name:
         cache.warn(StorageError(f"{folder.path / name}: is no result of this entry"))
         return None
     cache.mark_used(folder, name)
