@@ -172,7 +172,7 @@ def _model_alone(results: xr.Dataset) -> str:
     if "model_level" in results and has_samples(results):
         alone = Band(*results["model_level"].values.tolist())
         text = alone.middle_and_ends(partial(rounding.fixed, decimals=0))
-        parts.append(f"the model alone: {text}")
+        parts.append(f"model alone: {text} dB(A)")
     if has_samples(results) and effective_samples(results) < _FEW_SAMPLES:
         parts.append(f"{effective_samples(results):.0f} effective samples")
     text = "; ".join(parts)
