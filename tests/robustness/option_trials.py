@@ -83,6 +83,8 @@ CONTROL: Final = re.compile(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u202e\ud800-\udfff]")
 
 FEW_NUMBERS: Final = ("1e-300", "1e300", "nan")
 FEW_TEXTS: Final = ("a\nb\x1b[31m\x07" + "x" * 10_000,)
+TABLES: Final = ("blocked-forces", "predict")
+"""Commands that read a table from a file of any name."""
 FEW_PATHS: Final = ("x" * 300,)
 QUICKEST: Final = ("export", "map", "track", "replay", "sound-power", "datasheet", "listen", "new")
 """Commands in which an option that several have is tried where each is tried once."""
@@ -261,8 +263,8 @@ def fault(folder: Path, trial: Trial) -> str:
             last = last.tb_next
         place = "" if last is None else f"{last.tb_frame.f_code.co_filename}:{last.tb_lineno}"
         return f"traceback: {type(error).__name__}: {str(error)[:100]} {place[-60:]}"
-    # All refusals of a table are printed; an empty file of any name is an empty table.
-    is_table = trial.value.endswith((".toml", ".csv", "empty.nc"))
+    # All refusals of a table are printed, whatever the name of the file.
+    is_table = trial.value.endswith((".toml", ".csv")) or trial.command in TABLES
     return _judged(outcome.returncode, outcome.stdout, outcome.stderr, is_table)
 
 

@@ -155,10 +155,10 @@ def _by_band(area_m2: float | Mapping[float, float]) -> Array:
     for band in BAND_HZ:
         if band not in by_band:
             raise ParameterError(f"absorption_area_m2: has no value at {band:g} Hz")
-        if not 0.0 < by_band[band] <= 1e6:
+        if not 1e-3 <= by_band[band] <= 1e6:
             raise ParameterError(
-                f"absorption_area_m2 = {by_band[band]:g} m² at {band:g} Hz: must be above 0 and at "
-                "most 1e+06 m²"
+                f"absorption_area_m2 = {by_band[band]:g} m² at {band:g} Hz: must be 0.001 to "
+                "1e+06 m²"
             )
     return np.array([by_band[band] for band in BAND_HZ])
 

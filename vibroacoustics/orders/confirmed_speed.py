@@ -60,6 +60,8 @@ _UNITS: Final = {
 _LEAST_HZ: Final = 2.0
 _LEAST_EVIDENCE: Final = 8.0
 _LEAST_LINES: Final = 2
+_LEAST_TURNS: Final = 4.0
+"""Revolutions below which no line can be compared."""
 
 
 def confirmed(
@@ -81,6 +83,8 @@ def confirmed(
     motion, notes = shaft.motion, []
     speeds_hz = _speeds_hz(motion)
     highest_hz = float(speeds_hz.max())
+    if recording.samples / recording.sample_rate_hz * highest_hz < _LEAST_TURNS:
+        return shaft
     if np.ptp(speeds_hz) < _VARIES * highest_hz:
         if shaft.kind == "nominal":
             signals, rate_hz = _decimated(recording, names, highest_hz)

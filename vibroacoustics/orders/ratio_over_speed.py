@@ -87,7 +87,10 @@ def speeds_to_add(speed_rpm: Array, lowest_rpm: float, highest_rpm: float) -> Ar
     lowest_rpm, highest_rpm : lowest and highest speed of the recording
     """
     within_range = speed_rpm[(speed_rpm >= lowest_rpm) & (speed_rpm <= highest_rpm)]
-    begins = [speed_rpm[speed_rpm < lowest_rpm][-1:], np.floor([lowest_rpm])]
+    begins = [
+        speed_rpm[speed_rpm < lowest_rpm][-1:],
+        np.array([np.floor(lowest_rpm) or lowest_rpm]),
+    ]
     ends = [speed_rpm[speed_rpm > highest_rpm][:1], np.ceil([highest_rpm])]
     covers_begin = within_range.size and lowest_rpm >= within_range[0] * (1.0 - _BEYOND)
     covers_end = within_range.size and highest_rpm <= within_range[-1] * (1.0 + _BEYOND)
@@ -106,7 +109,7 @@ def _without_gaps(speed_rpm: Array) -> Array:
     for low, high in pairwise(speed_rpm):
         gap = LARGEST_GAP
         if high > low * (1.0 + gap):  # rounding to whole speeds must not make a gap too large
-            gap -= 1.0 / low
+            gap = max(gap - 1.0 / low, 0.5 * gap)
         gaps = max(1, int(np.ceil(np.log(high / low) / np.log1p(gap) - 1e-9)))
         between.append(np.round(np.geomspace(low, high, gaps + 1)[1:-1]))
     return np.sort(np.concatenate([speed_rpm, *between]))

@@ -86,7 +86,7 @@ def test_room_by_reverberation_time_in_a_file(folder: Path, tmp_path: Path) -> N
             "--reverberation-time = 0 s: must be 0.01 to 100 s",
         ),
         (["--hemisphere", "1", "--absorption-area", "large"], "must be a number or a CSV file"),
-        (["--hemisphere", "1", "--absorption-area", "-3"], "-3 m² at 100 Hz: must be above 0"),
+        (["--hemisphere", "1", "--absorption-area", "-3"], "-3 m² at 100 Hz: must be 0.001 to"),
         (
             ["--hemisphere", "1", "--absorption-area", "9", "--reverberation-time", "1"],
             "one of --absorption-area and --reverberation-time",
