@@ -214,7 +214,7 @@ def test_study_on_three_feet_goes_to_its_results(tmp_path):
          "vertical_n_per_m, loss_factor are mi"),
         ("mount_stiffness", HEAD.replace("lateral_n_per_mm", "lateral_kg"),
          "lateral_kg: unit kg: must be N/m or N/mm"),
-        ("mount_stiffness", HEAD.replace("loss_factor", "colour"), "colour: unknown"),
+        ("mount_stiffness", HEAD.replace("loss_factor", "colour"), "vertical_n_per_mm, colour"),
         ("mount_stiffness", HEAD + "1,2,3\n", "line 2: 3 cells, the head has 4"),
         ("mount_stiffness", HEAD + "1,2,3,nan\n", "line 2: loss_factor = nan: must be a finite"),
         ("mount_stiffness", HEAD + "1,2,,0.1\n", "vertical_n_per_mm = nothing: must be a finite"),
