@@ -15,7 +15,7 @@ from .analysis import Analysis, origin
 from .blocks import Block, Bullets, Part, Pictures, Text
 from .figures.campaign import campaign_charts, order_level, reference
 from .limit_tables import limits_data, limits_words, order_limits_table
-from .recordings import branch_column, shown_speeds
+from .operating_points import branch_column, branched_table, omitted_points, shown_speeds
 from .tables import (
     Cell,
     Columns,
@@ -25,7 +25,6 @@ from .tables import (
     data_table,
     phase_deg,
     records,
-    table_of,
     without_nan,
 )
 
@@ -38,6 +37,7 @@ _DIMENSIONS: Final = ("channel", "speed", "order")
 _ORDERS: Final[Columns] = (
     ("Channel", "channel", str),
     ("rpm", "speed_rpm", "{:.0f}".format),
+    ("branch", "branch", str),
     ("Order", "order", "{:g}".format),
     ("RMS in band", "rms_in_band", amplitude),
     ("unit", "unit", str),
@@ -181,9 +181,8 @@ def _orders_table(mean: xr.Dataset) -> Table:
         f"Orders: energy mean in a band of {mean.attrs['band_order']:.3g} orders; levels in "
         f"{', '.join(map(reference, units))}"
     )
-    if len(shown) < mean.sizes["speed"]:
-        caption += f"; {len(shown)} of {mean.sizes['speed']} speeds, all in the CSV"
-    return table_of(caption, rows, _ORDERS, frozenset({0, 4}))
+    caption += omitted_points(mean)
+    return branched_table(caption, rows, _ORDERS, frozenset({0, 5}), mean)
 
 
 def _orders(mean: xr.Dataset) -> DataTable:

@@ -24,6 +24,13 @@ from .figures.channel_orders import recorded_order_charts, speed_map_charts, tra
 from .limit_tables import limits_data, limits_words, order_limits_table
 from .live.run_up_data import run_up_data
 from .loudest_words import loudest_sentences
+from .operating_points import (
+    branch_column,
+    branched_table,
+    has_branches,
+    omitted_points,
+    shown_speeds,
+)
 from .run_up_tables import every_loudest, loudest_table
 from .tables import (
     Cell,
@@ -43,8 +50,6 @@ _MOST_CHANNELS: Final = 4
 """Channels whose pictures are all unfolded."""
 _MOST_ROWS: Final = 20
 """Rows of tables that are not folded."""
-_MOST_SPEEDS: Final = 6
-"""Operating points in the text; all are in the CSV."""
 _MOST_FAULTS: Final = 5
 """Faults of the tacho that are listed; all are counted."""
 _LEAST_COHERENCE: Final = 0.8
@@ -290,30 +295,9 @@ def _orders_table(results: xr.Dataset) -> Table:
         "Orders: peak and phase of the coherent mean over the blocks at a speed; RMS in a band of "
         f"{results.attrs['band_order']:.3g} orders"
     )
-    if len(shown) < results.sizes["speed"]:
-        caption += f"; {len(shown)} of {results.sizes['speed']} speeds, all in the CSV"
+    caption += omitted_points(results)
     rows = [row for row in every if row["speed_rpm"] in shown]
-    if has_branches(results):
-        return table_of(caption, rows, _COLUMNS, frozenset({0, 1, 3}))
-    without_branch = [column for column in _COLUMNS if column[1] != "branch"]
-    return table_of(caption, rows, without_branch, frozenset({0, 1}))
-
-
-def branch_column(results: xr.Dataset) -> dict[str, xr.DataArray]:
-    """Branch of each operating point as a column, where it is known."""
-    return {"branch": results["branch"]} if "branch" in results.coords else {}
-
-
-def has_branches(results: xr.Dataset) -> bool:
-    """Whether operating points are of several branches, such as run-up and coast-down."""
-    return "branch" in results.coords and np.unique(results["branch"].values).size > 1
-
-
-def shown_speeds(results: xr.Dataset) -> set[float]:
-    """Some operating points, from the lowest to the highest."""
-    speeds = results["speed"].values
-    indices = np.linspace(0, speeds.size - 1, _MOST_SPEEDS).round().astype(int)
-    return set(speeds[indices].tolist())
+    return branched_table(caption, rows, _COLUMNS, frozenset({0, 1}), results)
 
 
 def _level_rows(results: xr.Dataset) -> Iterator[tuple[str, str]]:

@@ -42,6 +42,8 @@ LABELS: Final[dict[str, tuple[str, ...]]] = {
 """Labels that a dimension must hold; others are free."""
 AMONG: Final = {"path_speed": "speed", "path_order": "order"}
 """Dimensions whose values are some of those of another."""
+BESIDE: Final = {"speed": "branch"}
+"""Dimensions whose labels may repeat where another coordinate differs."""
 IN_ORDER: Final = ("axis", "dof")
 """Dimensions that hold nothing else, in this order."""
 HIGHEST_COLUMN: Final = 2
@@ -77,6 +79,8 @@ def check_known(results: xr.Dataset) -> xr.Dataset:
     checked = check(results.drop_vars(third_party))
     for name in checked.coords:
         _check_coordinate(str(name), checked.variables[name])
+    for name in checked.dims:
+        _check_labels_of(checked, str(name))
     for name in checked.data_vars:
         VARIABLES[str(name)].check_numbers(checked.variables[name])
     return checked
@@ -98,7 +102,17 @@ def _check_coordinate(name: str, array: xr.Variable) -> None:
         raise SchemaError(f"coordinate {name} holds no text")
     if not declared.is_text:
         declared.check_numbers(array)
-    if array.dims == (name,) and np.unique(array.values).size < array.size:
+
+
+def _check_labels_of(results: xr.Dataset, name: str) -> None:
+    """Refuse a label that is there twice; a speed may be, in another branch."""
+    labels = [
+        results.variables[each].values.tolist()
+        for each in (name, BESIDE.get(name, name))
+        if each in results.coords
+    ]
+    pairs = [*zip(*labels, strict=True)]
+    if len(set(pairs)) < len(pairs):
         raise SchemaError(f"coordinate {name} holds a label twice")
 
 

@@ -2,11 +2,18 @@
 
 import numpy as np
 import pytest
+from support import command_here, tiny_run
 
 import vibroacoustics as va
+from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.measured.recorded_rows import of_each_speed
+from vibroacoustics.report import analysis_of_comparison
+from vibroacoustics.report.compared.validation import validations_of
 from vibroacoustics.report.recordings import analysis_of_orders
 from vibroacoustics.report.tables import to_text
+from vibroacoustics.results.figure_limits import Compared
+from vibroacoustics.results.run_variables import check_known
+from vibroacoustics.results.storage import write_results
 
 RATE_HZ = 4096.0
 
@@ -76,6 +83,34 @@ def test_mean_of_runs_keeps_branches(results):
     np.testing.assert_allclose(mean["channel_order_rms"], results["channel_order_rms"], rtol=1e-9)
     again = va.compare(results, mean)
     assert again.sizes["speed"] == results.sizes["speed"]
+
+
+def test_files_with_branches_are_compared_in_rows_of_their_own(results, tmp_path):
+    file = write_results(results, tmp_path / "orders.nc")
+    mean = write_results(va.mean_of_runs([results, results]), tmp_path / "campaign.nc")
+    for other in (file, mean):
+        outcome = command_here("compare", file, other, "--out", tmp_path / "compared")
+        assert outcome.returncode == 0, outcome.stderr
+        head, _, *rows = outcome.stdout[outcome.stdout.index("Channel") :].splitlines()
+        assert "branch" in head
+        assert {"run-up", "coast-down"} <= {word for row in rows for word in row.split()}
+
+
+def test_a_study_is_beside_every_branch(results):
+    study = tiny_run()  # at 2900 rpm
+    compared = va.compare(study, results, {"pressure front_1m": "front"})
+    beside = Compared(compared, study, results)
+    quantities = [row.quantity for row in validations_of(beside)]
+    points = [word.partition(", ")[2] for word in quantities if word.startswith("Order 1 ")]
+    assert points == ["2900 rpm, run-up", "2900 rpm, coast-down"]
+    assert "2900, coast-down" in analysis_of_comparison(beside, ()).html().decode()
+
+
+def test_a_speed_twice_in_a_branch_is_refused(results):
+    twice = results.isel(speed=[0, *range(results.sizes["speed"])])
+    with pytest.raises(SchemaError, match="coordinate speed holds a label twice"):
+        check_known(twice)
+    assert check_known(results).sizes == results.sizes
 
 
 def test_limits_hold_in_every_branch(results):

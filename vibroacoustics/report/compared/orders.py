@@ -15,8 +15,8 @@ from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_amplitude
 from ...base.vocabulary import NO_ANGLE_ZERO
-from ..recordings import branch_column, has_branches, shown_speeds
-from ..tables import Columns, DataTable, Record, Table, amplitude, data_table, records, table_of
+from ..operating_points import branch_column, branched_table, shown_points, shown_speeds
+from ..tables import Columns, DataTable, Record, Table, amplitude, data_table, records
 
 WITHIN_DB: Final = 40.0
 """Orders further below the loudest of their channel are left to the CSV."""
@@ -34,6 +34,7 @@ _COLUMNS: Final[Columns] = (
     ("unit", "unit", str),
     ("rpm", "speed_rpm", "{:.0f}".format),
     ("of B", "other_speed_rpm", "{:.0f}".format),
+    ("branch", "branch", str),
     ("Order", "order", "{:g}".format),
     ("Peak A", "amplitude_peak", amplitude),
     ("peak B", "other_amplitude_peak", amplitude),
@@ -53,11 +54,7 @@ def orders_table(compared: xr.Dataset, channel: str) -> Table:
     at_channel = compared.sel(channel=channel)
     unit, is_repeated = str(at_channel["channel_unit"].item()), "order_run_deviation" in compared
     rows = []
-    shown = shown_speeds(compared)
-    for at_speed in (at_channel.isel(speed=each) for each in range(at_channel.sizes["speed"])):
-        speed = at_speed["speed"].item()
-        if speed not in shown:
-            continue
+    for at_speed, point in shown_points(at_channel):
         for order in loud_orders(at_speed):
             at_order = at_speed.sel(order=order)
             sizes = (_size(at_order[f"{name}_order_rms"].item(), unit) for name in _RESULTS)
@@ -67,8 +64,7 @@ def orders_table(compared: xr.Dataset, channel: str) -> Table:
             )
             fixed = ["channel_order_coherence", *(_SCATTER if is_repeated else ())]
             others = (rounding.fixed(at_order[name].item(), 2) for name in fixed)
-            branch = f" {at_speed['branch'].item()}" if has_branches(compared) else ""
-            rows.append((f"{speed:.0f}{branch}", f"{order:g}×", *sizes, *changes, *others))
+            rows.append((point.replace(" rpm", ""), f"{order:g}×", *sizes, *changes, *others))
     of_unit = "dB re 20 µPa" if unit == "Pa" else f"RMS, {unit}"
     head = ["rpm", "Order", f"A, {of_unit}", f"B, {of_unit}", "B − A, dB", "phase, °", "coherence"]
     if is_repeated:
@@ -139,7 +135,7 @@ def matching_orders(compared: xr.Dataset) -> Table:
             f"; {len(rows)} of {len(every)} rows, those within {LOUD_DB:g} dB of the strongest or "
             f"with more than {CHANGED_DB:g} dB between A and B; all in the CSV"
         )
-    return table_of(caption, rows, _COLUMNS, frozenset({0, 1, 2}))
+    return branched_table(caption, rows, _COLUMNS, frozenset({0, 1, 2}), compared)
 
 
 def compared_facts(compared: xr.Dataset) -> list[str]:

@@ -7,7 +7,7 @@ from ...base import rounding
 from ...results.estimates import Estimate
 from ...results.figure_limits import Compared
 from ...results.rating_changes import RatingChange, rating_changes
-from ..recordings import shown_speeds
+from ..operating_points import shown_speeds
 from ..tables import DataTable, Table, columns_of
 
 _WORDS: Final = {

@@ -11,7 +11,7 @@ from ...base import rounding
 from ...results import labels
 from ...results.figure_limits import Compared
 from ...results.stored_study import parameters
-from ..recordings import shown_speeds
+from ..operating_points import shown_speeds
 from ..tables import Table
 
 Figure = tuple[str, str, float, float]

@@ -1,7 +1,6 @@
 """Levels of two results; error and validation uncertainty of a study beside recordings."""
 
 from collections.abc import Iterator, Mapping
-from itertools import product
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -15,7 +14,7 @@ from ...results.estimates import estimate, is_sampled
 from ...results.figure_limits import PRESSURE, Compared
 from ...results.grid_error import grid_error_db
 from ...results.validation import WITHIN_80_PERCENT, OfInterval, Validation
-from ..recordings import shown_speeds
+from ..operating_points import shown_points
 from ..tables import Table
 from .orders import is_pressure, known_channels, loud_orders
 
@@ -39,20 +38,22 @@ class Levels(NamedTuple):
 
 
 def levels_tables(compared: Compared) -> list[Table]:
-    """A table for each microphone and speed at which both results have levels."""
-    channels = compared.orders["channel"].values[is_pressure(compared.orders)]
-    rows = product(map(str, channels), sorted(shown_speeds(compared.orders)))
+    """A table for each microphone and operating point at which both results have levels."""
+    sound = compared.orders.isel(channel=np.flatnonzero(is_pressure(compared.orders)))
+    rows = (
+        (at_channel.isel(channel=number), point)
+        for number in range(sound.sizes["channel"])
+        for at_channel, point in shown_points(sound)
+    )
     return [table for row in rows if (table := _table(compared, *row)) is not None]
 
 
-def levels_at(compared: Compared, channel: str, speed: float) -> tuple[Levels, Levels] | None:
-    """Levels of both at a microphone; none where one has none at such a speed."""
-    at_channel = compared.orders.sel(channel=channel, speed=speed)
-    other, other_speed = (
-        str(at_channel["compared_channel"].item()),
-        float(at_channel["compared_speed"]),
-    )
-    names = {"channel": (channel, speed), "compared_channel": (other, other_speed)}
+def levels_at(compared: Compared, at_point: xr.Dataset) -> tuple[Levels, Levels] | None:
+    """Levels of both at a channel and operating point; none where one has none there."""
+    names = {
+        name: (str(at_point[name].item()), float(at_point[speed]))
+        for name, speed in (("channel", "speed"), ("compared_channel", "compared_speed"))
+    }
     first, second = (
         _of_study(result, option, *names[key])
         if is_study(result)
@@ -90,8 +91,8 @@ def _of_recording(result: xr.Dataset, channel: str, _: float) -> Levels | None:
     )  # fmt: skip
 
 
-def _table(compared: Compared, channel: str, speed: float) -> Table | None:
-    pair = levels_at(compared, channel, speed)
+def _table(compared: Compared, at_point: xr.Dataset, point: str) -> Table | None:
+    pair = levels_at(compared, at_point)
     if pair is None:
         return None
     rows = [
@@ -113,8 +114,8 @@ def _table(compared: Compared, channel: str, speed: float) -> Table | None:
         return None
     head = ("Band", "A", "B", "B − A, dB", "u of the mean, dB")
     caption = (
-        f"{channel}, {speed:.0f} rpm: A-weighted level in all and third octaves, unweighted, dB re "
-        "20 µPa; third octaves of a study are those of the modelled sound"
+        f"{at_point['channel'].item()}, {point}: A-weighted level in all and third octaves, "
+        "unweighted, dB re 20 µPa; third octaves of a study are those of the modelled sound"
     )
     shown = len(head) if any(row[-1] != rounding.NOTHING for row in rows) else -1
     return Table(caption, head[:shown], tuple(row[:shown] for row in rows))
@@ -148,19 +149,19 @@ def validations_of(compared: Compared) -> list[Validation]:
     return [*_totals(compared, kinds[0]), *_orders(compared, kinds[0])]
 
 
-def _points(compared: Compared, study_first: bool) -> Iterator[tuple[xr.Dataset, str]]:
-    """Orders of each channel at each speed, with the name of the channel in the study."""
+def _points(compared: Compared, study_first: bool) -> Iterator[tuple[xr.Dataset, str, str]]:
+    """Orders of each channel at each point, its words, and the name of the channel in the study."""
     orders = compared.orders
     for channel in known_channels(orders):
         at_channel = orders.sel(channel=channel)
         named = channel if study_first else str(at_channel["compared_channel"].item())
-        for speed in sorted(shown_speeds(orders)):
-            yield at_channel.sel(speed=speed), named
+        for at_point, words in shown_points(at_channel):
+            yield at_point, words, named
 
 
 def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
     _, study, option, _ = list(compared.sides())[0 if study_first else 1]
-    for at_speed, named in _points(compared, study_first):
+    for at_speed, words, named in _points(compared, study_first):
         unit = str(at_speed["channel_unit"].item())
         for order in loud_orders(at_speed):
             at_order = at_speed.sel(order=order)
@@ -172,8 +173,7 @@ def _orders(compared: Compared, study_first: bool) -> Iterator[Validation]:
             variable, label = _sampled(study, named)
             point = {"option": option, "speed": _rpm(at_order, study_first), "order": order}
             yield OfInterval(
-                f"Order {order:g} of {at_order['channel'].item()}, "
-                f"{at_order['speed'].item():.0f} rpm",
+                f"Order {order:g} of {at_order['channel'].item()}, {words}",
                 "dB" if unit == "Pa" else f"dB re 1 {unit}",
                 simulation,
                 data,
@@ -191,10 +191,9 @@ def _rpm(at_speed: xr.Dataset, study_first: bool) -> float:
 
 def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
     _, study, option, _ = list(compared.sides())[0 if study_first else 1]
-    for at_point, named in _points(compared, study_first):
-        channel, speed = str(at_point["channel"].item()), float(at_point["speed"])
+    for at_point, words, named in _points(compared, study_first):
         is_sound = str(at_point["channel_unit"].item()) == "Pa"
-        pair = levels_at(compared, channel, speed) if is_sound else None
+        pair = levels_at(compared, at_point) if is_sound else None
         if pair is None:
             continue
         simulated, data = pair if study_first else pair[::-1]
@@ -202,7 +201,7 @@ def _totals(compared: Compared, study_first: bool) -> Iterator[Validation]:
         point = {"option": option, "speed": _rpm(at_point, study_first), "receiver": receiver}
         spread = data.total_uncertainty_db
         yield OfInterval(
-            f"Level in all at {channel}, {speed:.0f} rpm",
+            f"Level in all at {at_point['channel'].item()}, {words}",
             "dB(A)",
             simulated.total_dba,
             data.total_dba,

@@ -227,7 +227,8 @@ def _in_samples(results: xr.Dataset) -> str:
     share = source_share(results, first, speed).in_percent()
     return (
         " Shares and phases are those of the representative sample, levels are medians of all "
-        f"samples. Share of {source_name(results, first)} in all samples: {share}."
+        f"samples. The share of {source_name(results, first)} in the energy of the machine, "
+        f"unmodelled noise included, is {share} over all samples."
     )
 
 
