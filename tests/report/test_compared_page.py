@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from scipy.stats import norm
 from sources_study import sources_run
 from support import assert_refused, command_here, tiny_run
 
@@ -170,4 +171,4 @@ def test_orders_have_the_spread_of_the_samples():
     order = next(row for row in rows if row.quantity.startswith("Order 1 of"))
     at = {"speed": 2900.0, "option": "none", "receiver": "front_1m", "order": 1, "weighting": "Z"}
     high, value = (sampled[f"order_level{end}"].sel(at).item() for end in ("_90_percent", ""))
-    assert order.inputs == pytest.approx((high - value) / 1.2816, rel=1e-9)
+    assert order.inputs == pytest.approx((high - value) / norm.ppf(0.9), rel=1e-9)

@@ -36,6 +36,12 @@ def level_of_amplitude(ratio: Values) -> Values:
     return cast(Values, 20.0 * np.log10(np.maximum(cast(Any, ratio), least)))
 
 
+def level_shift(wanted_db: Values, current_db: Values) -> Values:
+    """Change that brings a level to another, dB; none where either is silence."""
+    wanted, current = cast(Any, wanted_db), cast(Any, current_db)
+    return cast(Values, (wanted - current) * ((wanted > SILENCE_DB) & (current > SILENCE_DB)))
+
+
 def power_of_level(level_db: Values) -> Values:
     """Ratio of powers or mean squares that a level stands for: 10^(L/10)."""
     return cast(Values, np.power(10.0, cast(Any, level_db) / 10.0))

@@ -7,6 +7,10 @@ import numpy as np
 
 from .arrays import Array
 
+INTERVAL: Final = (0.1, 0.5, 0.9)
+"""Probabilities of the ends of an 80 % interval and of its median."""
+NORMAL_90: Final = 1.2815515655446004
+"""Upper end of the 80 % interval of the standard normal distribution."""
 _ROUNDING: Final = 1e-9
 """Relative error of a sum of weights."""
 

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
-from ..base.decibel import SILENCE_DB, amplitude_of_level, sound_pressure_level
+from ..base.decibel import SILENCE_DB, amplitude_of_level, level_shift, sound_pressure_level
 from ..base.vocabulary import stamped
 from ..machine.source import CaseKey
 from ..mechanics.contributions import Contributions, PathName
@@ -174,14 +174,18 @@ def _at_medians(paths: xr.Dataset, total_db: Array, medians: xr.Dataset) -> xr.D
     median = median.rename(speed="path_speed")
     pressure = paths["path_pressure"].sum("path")
     order = median["order_level"].sel(weighting="Z", order=pressure["path_order"].values)
-    order_db = _shift(
+    order_db = level_shift(
         order.rename(order="path_order"), pressure.copy(data=sound_pressure_level(pressure.values))
     )
     bands = paths["modelled_band_level"]
-    band = median["sources_band_level"].rename(noise_band="band").reindex(band=bands["band"].values)
-    band_db = _shift(band, bands)
+    band = (
+        median["sources_band_level"]
+        .rename(noise_band="band")
+        .reindex(band=bands["band"].values, fill_value=SILENCE_DB)
+    )
+    band_db = level_shift(band, bands)
     total = xr.DataArray(total_db, dims=("path_speed", "option", "receiver"))
-    in_all_db = _shift(median["level_modelled"].sel(weighting="A", drop=True), total)
+    in_all_db = level_shift(median["level_modelled"].sel(weighting="A", drop=True), total)
     shifted = {
         "path_pressure": paths["path_pressure"] * amplitude_of_level(order_db),
         "path_level": paths["path_level"] + in_all_db,
@@ -195,9 +199,3 @@ def _at_medians(paths: xr.Dataset, total_db: Array, medians: xr.Dataset) -> xr.D
             for name, values in shifted.items()
         }
     )
-
-
-def _shift(median_db: xr.DataArray, own_db: xr.DataArray) -> xr.DataArray:
-    """Return what brings levels to the medians, dB; nothing where either is silent or unknown."""
-    sounds = (own_db > SILENCE_DB) & (median_db > SILENCE_DB)
-    return (median_db - own_db).where(sounds, 0.0)

@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import SILENCE_DB, power_of_level
+from ..base.decibel import level_shift, power_of_level
 from ..base.vocabulary import stamped
 from ..mechanics.received_sound import ReceivedSound
 from .axes import LevelAxes
@@ -110,5 +110,4 @@ def _to_medians(results: xr.Dataset) -> Array:
         results[name].transpose("option", "receiver", "noise_band").values
         for name in ("total_band_level", "representative_total_band_level")
     )
-    sounds = (sample_db > SILENCE_DB) & (median_db > SILENCE_DB)
-    return np.asarray(power_of_level(np.where(sounds, median_db - sample_db, 0.0)))
+    return np.asarray(power_of_level(level_shift(median_db, sample_db)))

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import IndexArray
-from ..base.decibel import SILENCE_DB, amplitude_of_level, sound_pressure_level
+from ..base.decibel import amplitude_of_level, level_shift, sound_pressure_level
 from ..base.vocabulary import stamped
 from ..machine.source import CaseKey
 from ..mechanics.received_sound import ReceivedSound
@@ -39,8 +39,7 @@ def with_order_levels(lines: xr.Dataset, order_level: xr.DataArray) -> xr.Datase
     orders = order_level.sizes["order"]
     wanted = order_level.sel(weighting="Z").transpose("speed", "option", "receiver", "order").values
     current = sound_pressure_level(pressure.values[..., :orders].sum(axis=2))
-    sounds = current > SILENCE_DB
-    factor = amplitude_of_level(np.where(sounds, wanted - current, 0.0))
+    factor = amplitude_of_level(level_shift(wanted, current))
     scaled = pressure.values.copy()
     scaled[..., :orders] *= factor[:, :, None]
     return lines.assign(pressure_line=pressure.copy(data=scaled))

@@ -6,11 +6,10 @@ from statistics import fmean
 from typing import Final, NamedTuple
 
 from ..base.decibel import level_of_power
+from ..base.quantiles import NORMAL_90
 
 ROUNDING_VARIANCE_DB2: Final = 2.0 / 12.0
 """Variance of a difference of two levels, each rounded to 1 dB."""
-QUANTILE_90: Final = 1.2815515655446004
-"""Upper end of the 80 % interval of the standard normal distribution."""
 EVENLY: Final = 0.8
 """Share of an evenly sampled range that its 80 % interval covers."""
 
@@ -43,13 +42,13 @@ class Growth(NamedTuple):
     def change_interval_db(self, pair: LevelPair) -> tuple[float, float]:
         """80 % interval of a printed change of level between the speeds of a pair, dB."""
         variance = (self.deviation_db * pair.decades) ** 2 + ROUNDING_VARIANCE_DB2
-        middle, half = self.mean_db * pair.decades, QUANTILE_90 * sqrt(variance)
+        middle, half = self.mean_db * pair.decades, NORMAL_90 * sqrt(variance)
         return middle - half, middle + half
 
     @property
     def range_db(self) -> tuple[float, float]:
         """Evenly sampled range with the same 80 % interval, dB; below zero a level falls."""
-        half = QUANTILE_90 * self.deviation_db / EVENLY
+        half = NORMAL_90 * self.deviation_db / EVENLY
         return self.mean_db - half, self.mean_db + half
 
 

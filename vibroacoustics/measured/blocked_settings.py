@@ -6,9 +6,8 @@ from pathlib import Path
 from pydantic import Field, model_validator
 
 from ..base.parameters import Parameters
-from ..study.reader import Reader
-from ..study.toml_files import leaves, read_toml
-from ..study.wording import validated
+from ..study.settings_file import settings_of
+from ..study.toml_files import read_toml
 from .settings import Measured, Point
 
 
@@ -104,5 +103,4 @@ def load_blocked_forces(path: Path) -> BlockedForces:
         Anything is missing, unknown, of the wrong type or outside its allowed range.
     """
     content = read_toml(path)
-    reader = Reader(path, dict.fromkeys(leaves(content), path))
-    return validated(BlockedForces, reader.to_si(content, ()), reader)
+    return settings_of(BlockedForces, path, content)

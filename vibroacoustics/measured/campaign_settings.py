@@ -25,9 +25,8 @@ from ..study.order_analysis import (
     SpeedSource,
     TacholessSpeed,
 )
-from ..study.reader import Reader
-from ..study.toml_files import beside, leaves, read_toml
-from ..study.wording import validated
+from ..study.settings_file import settings_of
+from ..study.toml_files import beside, read_toml
 from .machine_speed import speed_of_machine
 
 ONLY_MACHINE: Final = "1"
@@ -310,16 +309,15 @@ def load_campaign(path: str | Path) -> Campaign:
     """
     path = Path(path)
     content = read_toml(path)
-    name_calibrators_beside(path, content)
-    reader = Reader(path, dict.fromkeys(leaves(content), path))
-    return validated(Campaign, reader.to_si(content, ()), reader)
+    resolve_settings_files(path, content)
+    return settings_of(Campaign, path, content)
 
 
-def name_calibrators_beside(path: Path, content: dict[str, Any]) -> None:
+def resolve_settings_files(path: Path, content: dict[str, Any]) -> None:
     """Make names of files relative to the file that gives them, at any depth."""
     for key, value in content.items():
         if isinstance(value, dict):
-            name_calibrators_beside(path, value)
+            resolve_settings_files(path, value)
         elif key in ("calibrator_file", "machine_file") and isinstance(value, str):
             content[key] = str(beside(path, value))
 

@@ -10,9 +10,8 @@ from pydantic import Field, model_validator
 from ..base.arrays import Array, ComplexArray
 from ..base.parameters import Parameters
 from ..machine.mount_stiffness import MountStiffness
-from ..study.reader import Reader
-from ..study.toml_files import beside, leaves, read_toml
-from ..study.wording import validated
+from ..study.settings_file import settings_of
+from ..study.toml_files import beside, read_toml
 from .change import mount_stiffness
 
 
@@ -162,5 +161,4 @@ def load_prediction(path: Path) -> Prediction:
     """
     content = read_toml(path)
     name_files_beside(path, content)
-    reader = Reader(path, dict.fromkeys(leaves(content), path))
-    return validated(Prediction, reader.to_si(content, ()), reader)
+    return settings_of(Prediction, path, content)

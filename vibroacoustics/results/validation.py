@@ -13,10 +13,10 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ..base.quantiles import NORMAL_90
+
 COVERAGE: Final = 2.0
 """Factor of the standard uncertainty: about 95 % of a normal distribution."""
-WITHIN_80_PERCENT: Final = 1.2816
-"""80 % of a normal distribution lie within that many standard deviations."""
 ONE_SIDED: Final = 1.64
 """95 % of a normal distribution lie below it."""
 LEVEL_TOLERANCE_DB: Final = 5.0
@@ -79,7 +79,7 @@ class OfInterval(Validation):
     @property
     def verdict(self) -> str:
         """`AGREES` within the 80 % interval, else that of the tolerance."""
-        if self.inputs > 0.0 and abs(self.error) <= WITHIN_80_PERCENT * self.uncertainty:
+        if self.inputs > 0.0 and abs(self.error) <= NORMAL_90 * self.uncertainty:
             return AGREES
         return super().verdict
 

@@ -12,11 +12,10 @@ import xarray as xr
 from scipy.special import ndtr
 
 from ..base.arrays import Array
-from ..base.quantiles import weighted_quantiles
+from ..base.quantiles import INTERVAL, weighted_quantiles
 from ..base.vocabulary import stamped
 from ..levels.agreement import Datum
 
-QUANTILES: Final = (0.1, 0.5, 0.9)
 _MOST: Final = 1000
 """Number of samples of the prior predictive of all data together."""
 
@@ -41,13 +40,13 @@ def conflict_variables(
     labelled = {
         "datum_value": values,
         "datum_deviation": deviations,
-        "datum_expected": [weighted_quantiles(row, weight, QUANTILES) for row in expected],
+        "datum_expected": [weighted_quantiles(row, weight, INTERVAL) for row in expected],
         "datum_tail": np.minimum(below, 1.0 - below),
         "conflict_tail": _tail_of_all(
             expected / deviations[:, None], values / deviations, share, generator
         ),
     }
-    names = {"datum": [datum.name for datum in data], "datum_quantile": list(QUANTILES)}
+    names = {"datum": [datum.name for datum in data], "datum_quantile": list(INTERVAL)}
     return stamped(labelled, names)
 
 

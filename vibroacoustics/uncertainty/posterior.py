@@ -10,7 +10,7 @@ from scipy.special import logsumexp
 from ..base.arrays import Array, IndexArray
 from ..base.decibel import power_of_level
 from ..base.progress import Progress
-from ..base.quantiles import weighted_quantiles
+from ..base.quantiles import INTERVAL, weighted_quantiles
 from ..base.vocabulary import stamped
 from ..levels.agreement import LEVELS_DB
 from ..levels.labelled import level
@@ -18,7 +18,7 @@ from ..levels.nominal import Sound
 from ..levels.spectrum_data import SpectrumData
 from ..study.samples import batches_of_samples, with_sample
 from ..study.sampling import Sample
-from .conflict import QUANTILES, conflict_variables
+from .conflict import conflict_variables
 from .evidence import Evidence, with_gain
 from .hammer_test import HammerTest
 from .prior_ensemble import PriorEnsemble, Weighted, prior_ensemble_of
@@ -128,5 +128,5 @@ def _model_alone(
         ]
     )
     each = np.repeat(weight, square.shape[1])
-    quantiles = weighted_quantiles(level(square.ravel()), each, QUANTILES)
-    return stamped({"model_level": quantiles}, {"datum_quantile": list(QUANTILES)})
+    quantiles = weighted_quantiles(level(square.ravel()), each, INTERVAL)
+    return stamped({"model_level": quantiles}, {"datum_quantile": list(INTERVAL)})

@@ -6,12 +6,11 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import level_of_power
-from ..base.quantiles import weighted_quantiles
+from ..base.quantiles import INTERVAL, weighted_quantiles
 from ..base.vocabulary import stamped
 from ..levels.by_source import GAIN_BANDS
 from ..levels.remainder import in_gain_bands
 from ..levels.spectrum_data import SpectrumData
-from .conflict import QUANTILES
 from .evidence import PAIRS, Evidence, with_gain
 from .prior_ensemble import PriorEnsemble
 
@@ -47,12 +46,12 @@ def spectrum_variables(
         "spectrum_after": _quantiles(after[:, spectrum.column], by_pair),
     }
     band_hz = [GAIN_BANDS[number].nominal_hz for number in spectrum.column.tolist()]
-    return stamped(labelled, {"spectrum_band": band_hz, "datum_quantile": list(QUANTILES)})
+    return stamped(labelled, {"spectrum_band": band_hz, "datum_quantile": list(INTERVAL)})
 
 
 def _quantiles(bands: Array, weight: Array) -> Array:
     level = np.asarray(level_of_power(bands / REFERENCE_PRESSURE_PA**2))
-    return weighted_quantiles(level, weight, QUANTILES)
+    return weighted_quantiles(level, weight, INTERVAL)
 
 
 def _bands(

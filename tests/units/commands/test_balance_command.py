@@ -53,7 +53,7 @@ def test_the_bench_sheet_alone_names_hole_mass_and_reading(folder):
         assert f"{float(row['mass_g']):.3g} g in hole {float(row['hole']):.0f}" in text
     assert "all trial weights are out" in text
     assert "The shaft turns counterclockwise; angles of weights count against rotation" in text
-    assert "Expected, 80 %" in text
+    assert "Next reading, 80 % with its scatter" in text
     assert text.count("<img") == 2
 
 

@@ -1,5 +1,6 @@
 """Weights from files of runs: conventions, trial weights, holes, masses, remarks, grade."""
 
+import re
 from itertools import product
 
 import numpy as np
@@ -275,6 +276,7 @@ def test_bands_hold_the_readings_that_remain(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
+        ('"9.1@', '"9,1@', "must be an amplitude from 0 to 1e12 at an angle in degrees"),
         ('"9.1@', '"9.1', "must be an amplitude from 0 to 1e12 at an angle in degrees"),
         ('sensor_1 = "', 'sensor_1 = "-', "must be an amplitude from 0"),
         ('sensor_1 = "', 'sensor_9 = "', "no such sensor; known are sensor_1"),
@@ -324,7 +326,11 @@ def test_readings_of_zero_and_weights_without_effect_give_no_large_masses(readin
     runs["again"] = runs["run_0"]
     balanced = va.balance_runs(written(tmp_path, file_text(runs)))
     assert np.all(np.abs(balanced.moment_kg_m) < 5.0 * PER_GRAM)
-    assert all(remarks(balanced))
+    idle = ~np.abs(balanced.problem.influence).any(axis=0)
+    words = [f"plane plane_{number}: its weights change no reading" for number in (1, 2)]
+    said = " ".join(remarks(balanced))
+    assert [each in said for each in words] == idle.tolist()
+    assert "act alike" not in said or not idle.any()
 
 
 def test_runs_that_do_not_determine_the_planes_are_refused(tmp_path):
@@ -334,3 +340,81 @@ def test_runs_that_do_not_determine_the_planes_are_refused(tmp_path):
     }
     with pytest.raises(va.ParameterError, match="runs: do not determine 2 planes: add a run"):
         va.balance_runs(written(tmp_path, file_text(runs)))
+
+
+def test_a_limit_does_not_improve_the_grade(tmp_path):
+    """One plane whose weight may be 1 g of 4: the grade counts what cannot be placed."""
+    rng = np.random.default_rng(SEED)
+    runs, _ = linear_runs(rng, [[0], [2.0]], sensors=2)
+    runs["run_0"] = runs["run_0"][0], 4.0 * runs["run_0"][1]
+    rotor = "\n[rotor]\nmass_kg = 20\nservice_speed_rpm = 1500\n"
+    grades, wanted = [], None
+    for lines in ("", "maximum_mass_g = 1"):
+        balanced = va.balance_runs(written(tmp_path, file_text(runs, plane_lines=lines) + rotor))
+        grades.append(grade_of(balanced))
+        wanted = balanced if wanted is None else wanted
+    free, limited = grades
+    assert limited.before == pytest.approx(free.before, rel=1e-9)
+    unplaced = np.abs(wanted.moment_kg_m[0]) - PER_GRAM
+    expected = grade_mm_per_s(np.array(unplaced), 20.0, 1500.0)
+    assert limited.after == pytest.approx(float(expected), rel=1e-6)
+
+
+def test_the_other_reading_is_corrected_for_the_speed_once(tmp_path):
+    rng = np.random.default_rng(SEED)
+    runs, _ = linear_runs(rng, [[0, 0], [2.0, 0], [0, 1.5j]])
+    text = file_text(runs).replace("readings.1500", "readings.1530", 2)
+    text = text.replace("readings.1530", "readings.1500", 1)
+    balanced = va.balance_runs(written(tmp_path, text))
+    left_in = text.replace('trial_weights = "removed"', 'trial_weights = "left in"')
+    assert left_in != text
+    expected = va.balance_runs(written(tmp_path, left_in)).answers["least squares"]
+    np.testing.assert_allclose(other_reading(balanced), expected, rtol=1e-9)
+
+
+def test_a_run_without_a_reading_widens_no_band(tmp_path):
+    """The scatter that is stated is that of every reading that is there."""
+    rng = np.random.default_rng(SEED)
+    runs, _ = linear_runs(rng, [[0, 0], [2.0, 0], [0, 1.5j], [1.0, 1.0]])
+    text = file_text(runs).replace('unit = "mm/s"', 'unit = "mm/s"\nscatter = 0.05')
+    head, mark, last = text.partition("[runs.run_3]")
+    fewer = re.sub(r'sensor_1 = "[^"]*", ', "", last)
+    assert fewer != last
+    high = [
+        va.balance_runs(written(tmp_path, head + mark + part)).expected_band[2, 0]
+        for part in (last, fewer)
+    ]
+    assert high[1] < 1.3 * high[0]
+
+
+def test_no_piece_is_above_the_largest_mass(tmp_path):
+    """Two of three holes make a moment between them by a mass 15 % above its own at most."""
+    rng = np.random.default_rng(SEED)
+    most, masses, words = 0.25, [], ""
+    lines = f"holes = 3\nmaximum_mass_g = {most}"
+    for _ in range(6):
+        runs, _ = linear_runs(rng, [[0, 0], [2.0, 0], [0, 1.5j]])
+        balanced = va.balance_runs(written(tmp_path, file_text(runs, plane_lines=lines)))
+        masses += [1e3 * weight.mass_kg for weight in balanced.weights]
+        words += " ".join(remarks(balanced))
+    assert max(masses) == pytest.approx(most, rel=1e-9)
+    assert "its holes and masses make 0.2" in words
+
+
+def test_masses_above_the_largest_are_refused(tmp_path):
+    rng = np.random.default_rng(SEED)
+    runs, _ = linear_runs(rng, [[0, 0], [2.0, 0], [0, 1.5j]])
+    lines = "holes = 3\nmasses_g = [50]\nmaximum_mass_g = 20"
+    with pytest.raises(va.ParameterError, match="masses_g: one must be at most maximum_mass_g"):
+        va.balance_runs(written(tmp_path, file_text(runs, plane_lines=lines)))
+
+
+def test_a_limit_between_median_and_end_of_the_band_is_named(tmp_path):
+    rng = np.random.default_rng(SEED)
+    weights = [[0, 0], [0, 0], [2.0, 0], [0, 1.5j]]
+    runs, _ = linear_runs(rng, weights, scatter=0.05)
+    balanced = va.balance_runs(written(tmp_path, file_text(runs)))
+    limit = 0.5 * (balanced.after_band[1, 0] + balanced.after_band[2, 0])
+    text = file_text(runs).replace('unit = "mm/s"', f'unit = "mm/s"\nlimit = {limit}', 1)
+    words = remarks(va.balance_runs(written(tmp_path, text)))
+    assert any("may remain, above its limit" in each for each in words), words

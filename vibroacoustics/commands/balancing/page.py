@@ -9,6 +9,7 @@ import numpy as np
 from ...base import rounding
 from ...design.bench.balanced_runs import BalancedRuns, other_reading, shown_angle
 from ...design.bench.grade import grade_name, grade_of
+from ...mechanics.balancing.planes import DEPENDENT
 from ...report.analysis import Analysis
 from ...report.blocks import Bullets, Part, Pictures
 from ...report.charts.svg import Picture
@@ -19,7 +20,6 @@ from .tables import (
     band,
     data_tables,
     readings_table,
-    remaining,
     shown_reading,
     weights_table,
 )
@@ -92,15 +92,15 @@ def headlines(result: BalancedRuns) -> Iterator[str]:
     yield (
         f"{sensor} at {result.runs.speeds_rpm[row]:.0f} rpm: "
         f"{rounding.three_digits(abs(result.before[row]))} to "
-        f"{rounding.three_digits(remaining(result, row))} {unit} {result.settings.amplitudes} "
+        f"{rounding.three_digits(result.remaining(row))} {unit} {result.settings.amplitudes} "
         f"(80 %: {limits})."
     )
     grade = grade_of(result)
     if grade is not None:
         yield (
             f"Balance quality: {rounding.three_digits(grade.before)} to "
-            f"{rounding.three_digits(grade.after)} mm/s (80 %: {band(grade.low, grade.high)}), "
-            f"{grade_name(grade.after if np.isnan(grade.high) else grade.high)}."
+            f"{rounding.three_digits(grade.after)} mm/s (80 %: {band(grade.low, grade.high)})"
+            f"{'' if np.isnan(grade.high) else f', {grade_name(grade.high)}'}."
         )
 
 
@@ -128,11 +128,7 @@ def conventions(result: BalancedRuns) -> list[str]:
     zeros = ", ".join(
         f"{name} {np.rad2deg(plane.zero_rad):.0f}°" for name, plane in settings.planes.items()
     )
-    state = (
-        "weights of all runs stay in, add these to them"
-        if np.any(np.abs(result.runs.installed) > 0.0)
-        else "all trial weights are out"
-    )
+    state = _weights_in(result) or "all trial weights are out"
     return [
         f"The shaft turns {settings.rotation}; angles of weights count {settings.angles} from the "
         f"zero of their plane (from the mark: {zeros}).",
@@ -141,10 +137,22 @@ def conventions(result: BalancedRuns) -> list[str]:
     ]
 
 
+def _weights_in(result: BalancedRuns) -> str:
+    """Name the weights that stay in; empty where none does."""
+    planes = result.settings.planes
+    weights = [
+        f"{name} {rounding.three_digits(1e3 * abs(moment) / plane.radius_m)} g at "
+        f"{np.rad2deg(shown_angle(result.settings, plane, float(np.angle(moment)))):.0f}°"
+        for (name, plane), moment in zip(planes.items(), result.runs.installed, strict=True)
+        if abs(moment) > 0.0
+    ]
+    return f"in it are {', '.join(weights)}; add the weights of the table to these" * bool(weights)
+
+
 def _alternatives(result: BalancedRuns) -> Iterator[str]:
     """Condition of the planes, and weights for the other reading of the trial weights."""
     condition = result.dependence.condition
-    yield f"Condition number of the planes: {condition:.3g} (above 15 they act alike)."
+    yield f"Condition number of the planes: {condition:.3g} (above {DEPENDENT:g} they act alike)."
     other = other_reading(result)
     if other is None:
         return
@@ -176,7 +184,7 @@ def bench_sheet(result: BalancedRuns) -> Analysis:
         )
         for row, (sensor, speed) in enumerate(zip(runs.sensors, runs.speeds_rpm, strict=True))
     )
-    head = ("Sensor", "rpm", "Now", "Expected, 80 %", "Unit")
+    head = ("Sensor", "rpm", "Now", "Next reading, 80 % with its scatter", "Unit")
     steps = Bullets(
         (
             *conventions(result)[::-1],
@@ -203,4 +211,4 @@ def _expected(result: BalancedRuns, row: int) -> str:
     low, _, high = result.expected_band[:, row]
     if np.isfinite(low):
         return band(low, high)
-    return f"about {rounding.three_digits(remaining(result, row))}"
+    return f"about {rounding.three_digits(result.remaining(row))}"

@@ -37,21 +37,6 @@ def shown_reading(settings: TrialRuns, value: complex) -> str:
     return f"{_FEW(abs(value))}@{shown_phase_deg(settings, value):.0f}°"
 
 
-def remaining(result: BalancedRuns, row: int) -> float:
-    """Amplitude that remains: the median of its band, else its value; zero if rounding noise.
-
-    Parameters
-    ----------
-    result : answer for runs
-    row : number of the row
-    """
-    value = float(result.after_band[1, row])
-    if np.isfinite(value):
-        return value
-    size = abs(result.after[row])
-    return float(size if size > _NOISE * abs(result.before[row]) else 0.0)
-
-
 def band(low: float, high: float) -> str:
     """Write a band; `unknown` where it is.
 
@@ -88,11 +73,11 @@ def readings_table(result: BalancedRuns) -> Table:
     settings, runs = result.settings, result.runs
     rows = tuple(
         (sensor, f"{speed:.0f}", settings.sensors[sensor].unit,
-         shown_reading(settings, result.before[row]), _FEW(remaining(result, row)),
+         shown_reading(settings, result.before[row]), _FEW(result.remaining(row)),
          band(result.after_band[0, row], result.after_band[2, row]))
         for row, (sensor, speed) in enumerate(zip(runs.sensors, runs.speeds_rpm, strict=True))
     )  # fmt: skip
-    head = ("Sensor", "rpm", "Unit", "Before", "After", "80 %")
+    head = ("Sensor", "rpm", "Unit", "Before", "After", "After, 80 %")
     return Table(f"Readings, {settings.amplitudes}", head, rows)
 
 
@@ -158,7 +143,7 @@ def data_tables(result: BalancedRuns) -> dict[str, DataTable]:
         readings.append((
             sensor, float(speed), settings.sensors[sensor].unit,
             abs(before), shown_phase_deg(settings, before),
-            abs(after), shown_phase_deg(settings, after),
+            result.remaining(row), shown_phase_deg(settings, after),
             *(cell(float(each[row])) for each in bands),
         ))  # fmt: skip
         for plane, value in zip(settings.planes, result.problem.influence[row], strict=True):

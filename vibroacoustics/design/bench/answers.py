@@ -101,14 +101,14 @@ class BenchProblem(NamedTuple):
         """
         if not any(len(plane.moments) for plane in self.planes):
             return [
-                split_moment(complex(each), plane.angle_rad)
+                _split(complex(each), plane)
                 for each, plane in zip(moment, self.planes, strict=True)
             ]
         response, influence = self.weighted
         shape = (1, -1) if aim == "least squares" else (-1, 1)
         choices = [
             positions(plane.angle_rad, plane.moments[plane.moments <= plane.largest])
-            if len(plane.moments)
+            if len(plane.moments) and each  # a plane without a moment gets no weight
             else [_single(complex(each))]
             for each, plane in zip(moment, self.planes, strict=True)
         ]
@@ -118,9 +118,17 @@ class BenchProblem(NamedTuple):
         pieces = []
         for piece, plane in zip(chosen, self.planes, strict=True):
             any_mass = not len(plane.moments)
-            parts = split_moment(piece.vector, plane.angle_rad) if any_mass else [piece]
+            parts = _split(piece.vector, plane) if any_mass else [piece]
             pieces.append([part for part in parts if part.moment > 0.0])
         return pieces
+
+
+def _split(moment: complex, plane: PlaneLimits) -> list[Piece]:
+    """Pieces of a moment in holes, none above the largest of the plane."""
+    parts = split_moment(moment, plane.angle_rad)
+    top = max((part.moment for part in parts), default=0.0)
+    share = min(1.0, plane.largest / top) if top else 1.0
+    return [part._replace(moment=share * part.moment) for part in parts]
 
 
 def _single(moment: complex) -> Piece:

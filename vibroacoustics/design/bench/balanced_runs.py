@@ -8,6 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray
+from ...base.quantiles import INTERVAL
 from ...measured.files import naming_settings
 from ...measured.trial_runs.measured_runs import (
     MeasuredRuns,
@@ -25,7 +26,6 @@ from ...recordings.quantities import quantity
 from .answers import SOUND, BenchProblem, PlaneLimits, answers_of
 from .prior import ensemble_of
 
-QUANTILES: Final = (0.1, 0.5, 0.9)
 KINDS: Final = {"sound pressure": "microphones", "force": "feet"}
 _NO_EFFECT: Final = 1e-9
 VIBRATION: Final = "vibration"
@@ -63,19 +63,18 @@ class BalancedRuns:
     Attributes
     ----------
     settings : file of the runs
-    runs : readings and weights of the runs
+    measured : readings and weights of the runs, as given
+    runs : the same with the readings at the speeds of the first run
     coefficients : readings without weights and influence coefficients
     problem : readings with the weights that stay in, and influence
     answers : moments to add by aim, each of shape (plane,), kg m
     chosen : name of the recommended answer
     weights : weights to add
     moment_kg_m : moments of these weights, shape (plane,), kg m
-    before, after : readings with the weights that stay in, and with those to add, shape (row,)
     after_band : low end, median and high end of the amplitudes that remain, shape (3, row)
     expected_band : low end, median and high end of the next readings, which have a scatter of
         their own, shape (3, row)
     moment_samples : moments of least squares of samples of the coefficients, shape (sample, plane)
-    dependence : condition number, and planes that act alike
 
     Examples
     --------
@@ -87,6 +86,7 @@ class BalancedRuns:
     """
 
     settings: TrialRuns
+    measured: MeasuredRuns
     runs: MeasuredRuns
     coefficients: Coefficients
     problem: BenchProblem
@@ -94,12 +94,37 @@ class BalancedRuns:
     chosen: str
     weights: tuple[PlacedWeight, ...]
     moment_kg_m: ComplexArray
-    before: ComplexArray
-    after: ComplexArray
     after_band: Array
     expected_band: Array
     moment_samples: ComplexArray
-    dependence: Dependence
+
+    @property
+    def before(self) -> ComplexArray:
+        """Readings with the weights that stay in, shape (row,)."""
+        return self.problem.response
+
+    @property
+    def after(self) -> ComplexArray:
+        """Readings with the weights to add, too, shape (row,)."""
+        return self.problem.residual(self.moment_kg_m)
+
+    @property
+    def dependence(self) -> Dependence:
+        """Condition number, and planes that act alike."""
+        return self.problem.dependence()
+
+    def remaining(self, row: int) -> float:
+        """Amplitude that remains: the median of its band, else its value; zero if rounding noise.
+
+        Parameters
+        ----------
+        row : number of the row
+        """
+        value = float(self.after_band[1, row])
+        if np.isfinite(value):
+            return value
+        size = abs(self.after[row])
+        return float(size if size > _NO_EFFECT * abs(self.before[row]) else 0.0)
 
 
 def balance_runs(path: str | Path, radiation: Radiation | None = None) -> BalancedRuns:
@@ -145,7 +170,8 @@ def balanced(
     runs : readings and weights
     prior : influence coefficients before the runs
     """
-    runs, scatter, by_speed = _corrected(settings, runs)
+    measured = runs
+    runs, scatter, by_speed = _corrected(settings, measured)
     fitted = coefficients(
         runs.readings, runs.weights, scatter.deviation, scatter.freedom, prior, by_speed
     )
@@ -163,10 +189,12 @@ def balanced(
     moment = np.array([sum((piece.vector for piece in each), 0j) for each in pieces])
     samples = fitted.sampled()
     residual = residual_samples(fitted, runs.installed + moment)
-    noise = np.nanmean(scatter.deviation, axis=0)
+    is_read = np.isfinite(runs.readings)
+    noise = np.nanmean(np.where(is_read, scatter.deviation, np.nan), axis=0)
     expected = residual + noise * _noise(residual.shape)
     return BalancedRuns(
         settings,
+        measured,
         runs,
         fitted,
         problem,
@@ -175,22 +203,21 @@ def balanced(
         _placed(settings, [(name, *piece) for name, each in zip(names, pieces, strict=True)
                            for piece in each]),
         moment,
-        problem.response,
-        problem.residual(moment),
-        np.quantile(np.abs(residual), QUANTILES, axis=0),
-        np.quantile(np.abs(expected), QUANTILES, axis=0),
+        np.quantile(np.abs(residual), INTERVAL, axis=0),
+        np.quantile(np.abs(expected), INTERVAL, axis=0),
         _sampled_moments(problem.weight, samples, runs.installed),
-        problem.dependence(),
     )  # fmt: skip
 
 
 def _with_effect(fitted: Coefficients, runs: MeasuredRuns) -> Coefficients:
-    """Coefficients, zero in planes whose weights change the readings by rounding noise only."""
+    """Coefficients without rounding noise, in readings of zero and planes without effect."""
     largest = np.abs(runs.weights).max(axis=0)
     effect = np.abs(fitted.influence).max(axis=0) * largest
-    idle = (effect < _NO_EFFECT * np.nanmax(np.abs(runs.readings))) & (largest > 0.0)
+    scale = np.nanmax(np.abs(runs.readings))
+    idle = (effect < _NO_EFFECT * scale) & (largest > 0.0)
     mean = fitted.mean.copy()
     mean[:, 1:][:, idle] = 0.0
+    mean[np.abs(mean[:, 0]) < _NO_EFFECT * scale, 0] = 0.0
     return replace(fitted, mean=mean)
 
 
@@ -283,7 +310,7 @@ def other_reading(balanced_by: BalancedRuns) -> ComplexArray | None:
     ----------
     balanced_by : answer for the file
     """
-    settings, runs = balanced_by.settings, balanced_by.runs
+    settings, runs = balanced_by.settings, balanced_by.measured
     other = "removed" if settings.trial_weights == "left in" else "left in"
     changed = settings.model_copy(update={"trial_weights": other})
     moments, installed = moments_of_runs(changed)

@@ -5,7 +5,9 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ...base.arrays import Array
-from .balanced_runs import QUANTILES, BalancedRuns
+from ...base.quantiles import INTERVAL
+from ...mechanics.balancing.moments import least_squares_moments
+from .balanced_runs import BalancedRuns
 
 GRADES_MM_PER_S: Final = (0.4, 1.0, 2.5, 6.3, 16.0, 40.0, 100.0, 250.0, 630.0, 1600.0, 4000.0)
 
@@ -51,9 +53,10 @@ def grade_of(result: BalancedRuns) -> Grade | None:
     if rotor.mass_kg is None:
         return None
     speed = rotor.service_speed_rpm or float(result.runs.speeds_rpm.max())
-    free = result.answers["least squares"]
+    response, influence = result.problem.weighted
+    free = least_squares_moments(response[None], influence[None])  # whatever the planes hold
     sampled = np.abs(result.moment_samples - result.moment_kg_m).sum(axis=1)
-    low, median, high = np.quantile(sampled, QUANTILES)
+    low, median, high = np.quantile(sampled, INTERVAL)
     after = np.abs(free - result.moment_kg_m).sum() if np.isnan(median) else median
     moments = np.array([np.abs(free).sum(), after, low, high])
     return Grade(*grade_mm_per_s(moments, rotor.mass_kg, speed).tolist())

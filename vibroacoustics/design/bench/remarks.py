@@ -8,6 +8,7 @@ import numpy as np
 
 from ...base.arrays import Array, ComplexArray
 from ...measured.trial_runs.measured_runs import SAME_SPEED_RATIO
+from ...measured.trial_runs.settings import Plane
 from .answers import SOUND
 from .balanced_runs import BalancedRuns
 
@@ -18,6 +19,8 @@ SPEED_RATIO: Final = 0.01
 WRAP_DEG: Final = 120.0
 RESONANCE_DEG: Final = 60.0
 LINEAR_RATIO: Final = 0.2
+_UNMADE: Final = 0.1
+"""Part of a moment that holes and masses do not make, from which on it is said."""
 _SAME: Final = 1e-6
 
 
@@ -45,6 +48,7 @@ def remarks(result: BalancedRuns) -> list[str]:
     result : answer for runs
     """
     return [
+        *_idle(result),
         *_dependent(result),
         *_weak(result),
         *_wrapped(result),
@@ -82,9 +86,18 @@ def _turned_deg(ratio: ComplexArray) -> Array:
     return np.asarray(np.abs(np.angle(ratio, deg=True)))
 
 
+def _idle(result: BalancedRuns) -> Iterator[str]:
+    """Planes whose weights change no reading."""
+    effect = np.abs(result.problem.influence).max(axis=0)
+    for name, largest in zip(result.settings.planes, effect, strict=True):
+        if not largest:
+            yield f"plane {name}: its weights change no reading: measure where they do"
+
+
 def _dependent(result: BalancedRuns) -> Iterator[str]:
     names = list(result.settings.planes)
-    alike = [names[plane] for plane in result.dependence.planes]
+    effect = np.abs(result.problem.influence).max(axis=0)
+    alike = [names[plane] for plane in result.dependence.planes if effect[plane]]
     if not alike:
         return
     if len(result.runs.sensors) < len(names):
@@ -147,12 +160,12 @@ def _wrapped(result: BalancedRuns) -> Iterator[str]:
 def _nonlinear(result: BalancedRuns) -> Iterator[str]:
     """Planes whose trial weights give different coefficients."""
     runs, names = result.runs, list(result.settings.planes)
-    from_start = [pair for pair in pairs(runs.weights) if abs(pair.moment) > 0.0]
+    changed = pairs(runs.weights)
     size = np.nanmax(np.abs(runs.readings), axis=0)
-    for plane in sorted({pair.plane for pair in from_start}):
+    for plane in sorted({pair.plane for pair in changed}):
         several = [
             ((runs.readings[p.second] - runs.readings[p.first]) / p.moment, p)
-            for p in from_start if p.plane == plane
+            for p in changed if p.plane == plane
         ]  # fmt: skip
         worst, which = 0.0, ("", "")
         for number, (one_coefficient, one_pair) in enumerate(several):
@@ -211,17 +224,27 @@ def _resonances(result: BalancedRuns) -> Iterator[str]:
 
 def _limits(result: BalancedRuns) -> Iterator[str]:
     for row, sensor in enumerate(result.runs.sensors):
-        stated = result.settings.sensors[sensor]
-        if stated.limit is not None and abs(result.after[row]) > stated.limit:
+        stated, size = result.settings.sensors[sensor], result.remaining(row)
+        limit, highest = stated.limit or np.inf, result.after_band[2, row]
+        where = f"above its limit, {limit:g} {stated.unit}"
+        if size > limit:
+            yield f"{_row(result, row)}: {size:.3g} {stated.unit} remain, {where}"
+        elif highest > limit:
+            yield f"{_row(result, row)}: up to {highest:.3g} {stated.unit} may remain, {where}"
+    moments = zip(result.answers[result.chosen], result.moment_kg_m, strict=True)
+    for (name, plane), (moment, made) in zip(result.settings.planes.items(), moments, strict=True):
+        if abs(made - moment) > _UNMADE * abs(moment):
             yield (
-                f"{_row(result, row)}: {abs(result.after[row]):.3g} {stated.unit} remain, above "
-                f"its limit, {stated.limit:g} {stated.unit}"
+                f"plane {name}: its holes and masses make {_grams(made, plane)} for "
+                f"{_grams(moment, plane)} of the answer"
             )
-    moments = result.answers[result.chosen]
-    for (name, plane), moment in zip(result.settings.planes.items(), moments, strict=True):
         most = plane.maximum_mass_kg
         if most is not None and abs(moment) >= (1.0 - 1e-4) * most * plane.radius_m:
             yield f"plane {name}: the weight is at its limit, {1e3 * most:g} g"
+
+
+def _grams(moment: complex, plane: Plane) -> str:
+    return f"{1e3 * abs(moment) / plane.radius_m:.3g} g"
 
 
 def _scatter(result: BalancedRuns) -> Iterator[str]:

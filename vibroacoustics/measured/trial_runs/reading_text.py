@@ -49,7 +49,13 @@ def parsed(text: str) -> Reading:
         It is no amplitude at an angle, or the amplitude is below zero.
     """
     parts = _READING.fullmatch(text)
-    if parts is None or not 0.0 <= float(parts[1]) <= _LARGEST or abs(float(parts[3])) > _LARGEST:
+    is_cut = parts is not None and parts[2][:1] in (",", ".")  # a decimal comma
+    if (
+        parts is None
+        or is_cut
+        or not 0.0 <= float(parts[1]) <= _LARGEST
+        or abs(float(parts[3])) > _LARGEST
+    ):
         raise ParameterError(
             "must be an amplitude from 0 to 1e12 at an angle in degrees, such as 4.2@35"
         )

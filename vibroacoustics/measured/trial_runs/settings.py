@@ -4,22 +4,22 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal
 
+import numpy as np
 from pydantic import Field
 
 from ...base.errors import ParameterError
 from ...base.parameters import Contradictions, Parameters
 from ...base.units import split_key
 from ...recordings.quantities import QUANTITIES, find_quantity
-from ...study.reader import Reader
-from ...study.toml_files import beside, leaves, read_toml
-from ...study.wording import validated
+from ...study.settings_file import settings_of
+from ...study.toml_files import beside, read_toml
 from ..campaign_settings import (
     CalibratorSettings,
     Campaign,
     ChannelSettings,
     PartSettings,
     SpeedSettings,
-    name_calibrators_beside,
+    resolve_settings_files,
 )
 from .reading_text import Amplitudes, check_words, parsed
 
@@ -53,6 +53,8 @@ class Plane(Parameters):
             yield "masses_g: need holes or hole_angles_deg"
         if self.masses_kg and min(self.masses_kg) <= 0.0:
             yield "masses_g: must be above 0 g"
+        elif self.masses_kg and min(self.masses_kg) > (self.maximum_mass_kg or np.inf):
+            yield "masses_g: one must be at most maximum_mass_g"
 
 
 class Sensor(Parameters):
@@ -199,8 +201,8 @@ def hole_angles_rad(plane: Plane) -> tuple[float, ...]:
     """Angles of the holes of a plane from its zero; empty where any angle is possible."""
     if plane.hole_angles_rad is not None:
         return plane.hole_angles_rad
-    turn = 6.283185307179586
-    return tuple(turn * number / (plane.holes or 1) for number in range(plane.holes or 0))
+    holes = plane.holes or 0
+    return tuple((2.0 * np.pi * np.arange(holes) / max(holes, 1)).tolist())
 
 
 def load_trial_runs(path: Path) -> TrialRuns:
@@ -217,9 +219,8 @@ def load_trial_runs(path: Path) -> TrialRuns:
             f"{path}: has no runs: must have tables [runs.NAME], [planes.NAME] and [sensors.NAME]; "
             "`vibroacoustics new balance` writes a file to begin with"
         )
-    name_calibrators_beside(path, content)
+    resolve_settings_files(path, content)
     study = content.get("study")
     if isinstance(study, dict) and isinstance(study.get("file"), str):
         study["file"] = str(beside(path, study["file"]))
-    reader = Reader(path, dict.fromkeys(leaves(content), path))
-    return validated(TrialRuns, reader.to_si(content, ()), reader)
+    return settings_of(TrialRuns, path, content)

@@ -10,10 +10,11 @@ from ...base import rounding
 from ...base.arrays import Array
 from ...base.constants import REFERENCE_PRESSURE_PA
 from ...base.decibel import level_of_amplitude
+from ...base.quantiles import NORMAL_90
 from ...results.estimates import estimate, is_sampled
 from ...results.figure_limits import PRESSURE, Compared
 from ...results.grid_error import grid_error_db
-from ...results.validation import WITHIN_80_PERCENT, OfInterval, Validation
+from ...results.validation import OfInterval, Validation
 from ..operating_points import shown_points
 from ..tables import Table
 from .orders import is_pressure, known_channels, loud_orders
@@ -231,7 +232,7 @@ def _inputs(study: xr.Dataset, variable: str, data: float, point: Mapping[str, A
     if variable in _AMPLITUDES.values():
         values = level_of_amplitude(np.array(values) / np.sqrt(2.0)).tolist()
     low, value, high = values
-    return max(high - value if data > value else value - low, 0.0) / WITHIN_80_PERCENT
+    return max(high - value if data > value else value - low, 0.0) / NORMAL_90
 
 
 def _sampled(study: xr.Dataset, channel: str) -> tuple[str, dict[str, str]]:
