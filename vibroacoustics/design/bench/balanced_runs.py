@@ -63,8 +63,8 @@ class BalancedRuns:
     Attributes
     ----------
     settings : file of the runs
-    measured : readings and weights of the runs, as given
-    runs : the same with the readings at the speeds of the first run
+    measured : readings and weights of the runs at the speeds of the file
+    runs : readings and weights with all readings brought to the speeds of the first run
     coefficients : readings without weights and influence coefficients
     problem : readings with the weights that stay in, and influence
     answers : moments to add by aim, each of shape (plane,), kg m
