@@ -12,7 +12,7 @@ from vibroacoustics.machine.frame import Frame
 from vibroacoustics.mechanics.critical_speed import free_scroll_shaft
 from vibroacoustics.mechanics.scroll_shaft import ScrollShaft
 from vibroacoustics.study.samples import samples_of, with_sample
-from vibroacoustics.transfer.frame.bearings import Bearing, bearings_of
+from vibroacoustics.transfer.frame.inner import Bearing, bearings_of
 
 FREQUENCY_HZ = np.array([500.0, 700.0])
 NAMES = "pin", "main", "lower"

@@ -29,7 +29,7 @@ from vibroacoustics.stages.radiation import transfer_vectors
 from vibroacoustics.stages.sampled import sounds_of
 from vibroacoustics.stages.stage import advanced, applying
 from vibroacoustics.study.samples import batches_of_samples, with_sample
-from vibroacoustics.transfer.received import Transmission
+from vibroacoustics.transfer.contributions import Transmission
 from vibroacoustics.uncertainty.evidence import Evidence
 
 STUDY = ROOT / "pipelines" / "copeland_sources.toml"

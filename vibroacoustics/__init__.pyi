@@ -119,7 +119,7 @@ from .results.data_sheet import DataSheet as DataSheet
 from .results.estimates import Estimate as Estimate
 from .results.estimates import estimate as estimate
 from .results.figure_limit import FigureLimit as FigureLimit
-from .results.limit import Limit as Limit
+from .results.figure_limit import Limit as Limit
 from .results.limits_file import read_figure_limits as read_figure_limits
 from .results.limits_file import read_limits as read_limits
 from .results.mean_of_runs import mean_of_runs as mean_of_runs

@@ -6,7 +6,7 @@ import numpy as np
 
 from vibroacoustics.base.arrays import Array, ComplexArray
 from vibroacoustics.transfer.cavity.response import DrivenGas
-from vibroacoustics.transfer.shell_modes.mobility import velocity_per_force
+from vibroacoustics.transfer.shell_modes.projection import velocity_per_force
 
 
 @dataclass(frozen=True)

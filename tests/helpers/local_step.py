@@ -14,7 +14,7 @@ from vibroacoustics.base.constants import SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.base.progress import Progress, no_progress
 from vibroacoustics.base.threads import in_threads
 from vibroacoustics.radiation.arrays import Array, ComplexArray
-from vibroacoustics.radiation.pulse import RunningTransform, transform
+from vibroacoustics.radiation.near_step import RunningTransform, transform
 from vibroacoustics.radiation.rooms.box_step import fast_kernel
 from vibroacoustics.radiation.rooms.diffuse import reverberation_time_s
 from vibroacoustics.radiation.rooms.room import Room

@@ -12,7 +12,7 @@ from vibroacoustics.stages.radiation import transfer_vectors
 from vibroacoustics.stages.sampled import sounds_of
 from vibroacoustics.stages.stage import advanced, applying
 from vibroacoustics.study.samples import batches_of_samples
-from vibroacoustics.transfer.received import Transmission
+from vibroacoustics.transfer.contributions import Transmission
 
 
 @dataclass(frozen=True)

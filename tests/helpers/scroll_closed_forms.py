@@ -4,8 +4,13 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from vibroacoustics.sources.scroll_gas.chambers import contact_angle, pocket_volume, swept_volume_m3
-from vibroacoustics.sources.scroll_gas.parameters import ScrollGas, ScrollWraps
+from vibroacoustics.sources.scroll_gas.parameters import (
+    ScrollGas,
+    ScrollWraps,
+    contact_angle,
+    pocket_volume,
+    swept_volume_m3,
+)
 from vibroacoustics.sources.scroll_gas.suction import volume_and_swelling
 
 

@@ -11,7 +11,7 @@ from scipy.linalg import expm
 
 from vibroacoustics.machine.frame import BEARING_HOUSING, LOWER_BEARING, ORBITING_SCROLL, PARTS
 from vibroacoustics.mechanics.bushings import RigidBody, motion_at
-from vibroacoustics.transfer.frame.springs import springs_of
+from vibroacoustics.transfer.frame.inner import springs_of
 from vibroacoustics.transfer.isolation import Isolation
 
 CELLS = 88

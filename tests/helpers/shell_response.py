@@ -14,8 +14,8 @@ from vibroacoustics.transfer.shell_modes.elements import (
 from vibroacoustics.transfer.shell_modes.harmonic import Harmonic
 from vibroacoustics.transfer.shell_modes.loads import Load
 from vibroacoustics.transfer.shell_modes.meridian import Meridian
-from vibroacoustics.transfer.shell_modes.mobility import modal_forces, velocity_per_force
 from vibroacoustics.transfer.shell_modes.modes import Around, ElasticShell, ShellMode
+from vibroacoustics.transfer.shell_modes.projection import modal_forces, velocity_per_force
 
 
 @dataclass(frozen=True)

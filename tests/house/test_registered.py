@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from support import PIPELINES, ROOT, steady
 
-from vibroacoustics.base.hashing import canonical_json, sha256
 from vibroacoustics.base.parameters import split_kind
+from vibroacoustics.base.plain_bytes import canonical_json, sha256
 from vibroacoustics.machine.machine import MACHINES
 from vibroacoustics.machine.option import OPTIONS
 from vibroacoustics.study.criterion import CRITERIA

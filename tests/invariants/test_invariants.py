@@ -21,8 +21,8 @@ from support import (
 
 from vibroacoustics.base.constants import AIR_DENSITY_KG_PER_M3, SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.levels import energy_difference, energy_sum
+from vibroacoustics.machine.feet import Mounts
 from vibroacoustics.machine.housing import Housing
-from vibroacoustics.machine.mounts import Mounts
 from vibroacoustics.mechanics.moving_parts import MovingPart, path, wrench
 from vibroacoustics.mechanisms.oldham_scroll.revolution import (
     circling,

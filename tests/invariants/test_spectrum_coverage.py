@@ -25,7 +25,7 @@ from test_coverage import SPREAD_DB, made_up_sounds
 
 from vibroacoustics.levels.agreement import LEVELS_DB, Prior, log_likelihood, log_weights
 from vibroacoustics.levels.by_source import GAIN_BANDS
-from vibroacoustics.levels.published import published_of
+from vibroacoustics.levels.declared_level import published_of
 from vibroacoustics.levels.remainder import unmodelled_bands
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.samples import with_sample

@@ -39,10 +39,13 @@ from vibroacoustics.mechanics.beam_rotor import (
 from vibroacoustics.mechanics.moving_parts import derivative, wrench
 from vibroacoustics.mechanics.pendulum import Drive, multiplier, periodic_state
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
-from vibroacoustics.mechanisms.hermetic.cycle import mean_speed_rad_per_s, steady_cycle
+from vibroacoustics.mechanisms.hermetic.cycle import (
+    bearing_cycles,
+    mean_speed_rad_per_s,
+    steady_cycle,
+)
 from vibroacoustics.mechanisms.hermetic.gas import piston_area_m2
 from vibroacoustics.mechanisms.hermetic.journal_bearing import damped_modes, linear_film
-from vibroacoustics.mechanisms.hermetic.results import bearing_cycles
 from vibroacoustics.mechanisms.hermetic.shaft import rotor_matrices
 from vibroacoustics.mechanisms.minicrank.cycle import four_bar_motion
 from vibroacoustics.mechanisms.minicrank.links import Links

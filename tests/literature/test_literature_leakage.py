@@ -8,10 +8,9 @@ from scipy.integrate import solve_ivp
 from scroll_openings import GAS, OPENING, SPEED_RPM, WRAPS, gas_at
 from test_literature_opening import Masses
 
-from vibroacoustics.sources.scroll_gas.chambers import pocket_volume
 from vibroacoustics.sources.scroll_gas.opening import steady_opening
-from vibroacoustics.sources.scroll_gas.parameters import ScrollLeakage
-from vibroacoustics.sources.scroll_gas.pressures import pocket_pressure
+from vibroacoustics.sources.scroll_gas.parameters import ScrollLeakage, pocket_volume
+from vibroacoustics.sources.scroll_gas.suction import pocket_pressure
 
 HALF, TURN, CLOSES = np.pi, 2.0 * np.pi, 4.0 / 3.0 * np.pi
 LEAKAGE = ScrollLeakage(tip_gap_m=8e-6, flank_gap_m=12e-6, flow_ratio=0.6)

@@ -15,7 +15,7 @@ from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
 from vibroacoustics.sources.scroll_gas.opening import opening_constants, steady_opening
-from vibroacoustics.sources.scroll_gas.pressures import built_in_pressure_pa
+from vibroacoustics.sources.scroll_gas.suction import built_in_pressure_pa
 
 HALF, TURN = np.pi, 2.0 * np.pi
 

@@ -24,7 +24,7 @@ from vibroacoustics.orders import order_spectrum
 from vibroacoustics.sources.oldham_keys.rattle import contact_loss_speed_rpm, steady_key_forces
 from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
 from vibroacoustics.sources.scroll_gas.opening import steady_opening
-from vibroacoustics.sources.scroll_gas.pressures import built_in_pressure_pa
+from vibroacoustics.sources.scroll_gas.suction import built_in_pressure_pa
 
 ROOT = Path(__file__).resolve().parents[2]
 FILE = ROOT / "data" / "validation" / "trends.csv"

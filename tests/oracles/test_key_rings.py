@@ -7,9 +7,8 @@ from evidence import claim
 from key_oracle import FaceLaw, Ring
 
 from vibroacoustics.sources.oldham_keys import rattle
-from vibroacoustics.sources.oldham_keys.contact import key_face
+from vibroacoustics.sources.oldham_keys.contact import OldhamKeys, key_face
 from vibroacoustics.sources.oldham_keys.integration import integrate
-from vibroacoustics.sources.oldham_keys.parameters import OldhamKeys
 
 MASS_KG, STROKE_M, SPEED_RPM, SAMPLES = 0.0727, 3.461e-3, 2900.0, 2048
 PERIOD_S = 60.0 / SPEED_RPM

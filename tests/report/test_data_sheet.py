@@ -14,7 +14,7 @@ from support import assert_refused, command_here, tiny_run
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError, SchemaError
 from vibroacoustics.base.vocabulary import stamp
-from vibroacoustics.declaration.vibration import peak_to_peak, point_velocity
+from vibroacoustics.declaration.facts import peak_to_peak, point_velocity
 from vibroacoustics.report.data_sheet import analysis_of_data_sheet, headline
 from vibroacoustics.report.tables import records
 from vibroacoustics.results import storage

@@ -29,10 +29,15 @@ from vibroacoustics.results.over_speed.avoid import (
     recorded_speeds_to_avoid,
     speeds_to_avoid,
 )
-from vibroacoustics.results.over_speed.modes import crossing_speeds, crossings, modes_of
+from vibroacoustics.results.over_speed.modes import (
+    crossing_speeds,
+    crossings,
+    loudest_lines,
+    modes_of,
+    sound_lines,
+)
 from vibroacoustics.results.over_speed.order_cuts import order_cuts
 from vibroacoustics.results.over_speed.plane import MOST_COLUMNS, MOST_ROWS, plane_of
-from vibroacoustics.results.over_speed.sound_lines import loudest_lines, sound_lines
 
 TUNED_RPM = 3500.0
 SPRING_MASS = {

@@ -23,7 +23,7 @@ from test_design_kills import DESIGN
 
 from vibroacoustics import pipeline
 from vibroacoustics.base.errors import StorageError
-from vibroacoustics.base.hashing import sha256
+from vibroacoustics.base.plain_bytes import sha256
 from vibroacoustics.commands import messages, outputs
 from vibroacoustics.design.evaluation import Evaluation
 from vibroacoustics.design.store.pieces import opened_store

@@ -10,7 +10,7 @@ import pytest
 from support import MACHINE_FILE, PIPELINES, ROOT
 from thousandfold import Mistake, mistakes, outcome, written_files, wrong_file
 
-from vibroacoustics.mechanisms.tabulated.forces import Forces
+from vibroacoustics.mechanisms.tabulated.machine import Forces
 from vibroacoustics.study.loading import load_machine, load_study_or_machine
 
 LEAST_SEEN = 0.9

@@ -16,7 +16,7 @@ from support import TINY, append_hash, assert_refused, command_here, made_up_rad
 
 from vibroacoustics import pipeline, report
 from vibroacoustics.base.errors import SchemaError
-from vibroacoustics.base.hashing import sha256
+from vibroacoustics.base.plain_bytes import sha256
 from vibroacoustics.base.vocabulary import (
     COORDINATES,
     LOW,

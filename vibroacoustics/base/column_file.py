@@ -10,7 +10,7 @@ import numpy as np
 from .arrays import Array
 from .column_head import Column, Head, Layout, find_head, with_units
 from .csv_form import NumberForm, number_form, tidy
-from .csv_rows import MAXIMUM_BYTES, read_lines
+from .csv_text import MAXIMUM_BYTES, read_lines
 from .errors import ParameterError
 
 

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from .csv_form import split_head
-from .csv_rows import Lines
-from .csv_text import fused
+from .csv_text import Lines, fused
 from .errors import ParameterError
 from .unit_spelling import find_unit, plain_unit, symbols
 from .units import Unit, si_key, split_key

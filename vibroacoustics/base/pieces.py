@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any, Final, TypeAlias, TypeVar
 
 from .forms import has_form
-from .hashing import canonical_json, file_sha256, sha256
-from .plain_bytes import to_bytes
+from .plain_bytes import canonical_json, file_sha256, sha256, to_bytes
 from .registry import plugins
 
 Item = TypeVar("Item")

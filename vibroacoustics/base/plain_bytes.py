@@ -1,9 +1,6 @@
-"""Numbers, text, arrays and records of this package as bytes and back, equal in every bit.
+"""Numbers, text, arrays and records as bytes and back, equal in every bit; hashes of content."""
 
-Bytes are a line of JSON and the content of arrays. Reading them calls no code that they name: a
-record is a dataclass or named tuple of this package, whose fields are set without its constructor.
-"""
-
+import hashlib
 import json
 import math
 from collections.abc import Callable
@@ -11,9 +8,25 @@ from dataclasses import fields, is_dataclass
 from importlib import import_module
 from io import BytesIO
 from itertools import chain
-from typing import Any, Final
+from typing import Any, BinaryIO, Final
 
 import numpy as np
+
+
+def canonical_json(value: Any) -> str:
+    """ASCII JSON with sorted keys: the same text for the same content."""
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def sha256(content: bytes) -> str:
+    """SHA-256 of the content, in hexadecimal."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def file_sha256(file: BinaryIO) -> str:
+    """SHA-256 of the rest of an open file, in hexadecimal."""
+    return hashlib.file_digest(file, "sha256").hexdigest()  # type: ignore[arg-type]
+
 
 _OF_JSON: Final = (type(None), bool, int, float, str)
 _KINDS: Final[dict[str, Callable[[list[Any]], Any]]] = {

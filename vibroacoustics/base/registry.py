@@ -19,7 +19,7 @@ from typing import Any, Final, Generic, NamedTuple, TypeVar
 from .errors import ParameterError, PluginError
 from .fault import FaultError, Owner, leave_out
 from .fence import fence, fenced
-from .hashing import sha256
+from .plain_bytes import sha256
 
 Thing = TypeVar("Thing")
 

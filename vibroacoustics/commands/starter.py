@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from ..base.errors import ParameterError
-from ..base.hashing import canonical_json
+from ..base.plain_bytes import canonical_json
 from ..base.units import si_key
 from ..machine.machine import MACHINES, Machine
 from ..study.automatic import AUTO

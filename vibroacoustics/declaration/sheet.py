@@ -6,16 +6,95 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ..base.decibel import NO_TONE_DB
 from ..base.errors import ParameterError, SchemaError
-from ..base.hashing import sha256
-from ..results.data_sheet import DataSheet
+from ..base.plain_bytes import sha256
+from ..levels.hearing import hearing_threshold_db
+from ..results.data_sheet import DataSheet, RatedWindow, Tone
+from ..results.estimates import interval
+from ..results.prominent_tones import ProminentTone, listed_tones
 from ..results.stored_study import parameters, words
 from ..study.example import example_sentence
-from .facts import mounting, not_available, operating
-from .rated_windows import rated_windows
+from .facts import WORDS, mounting, not_available, offsets_m, operating, vibration
 from .sound import sound_power, surfaces_m2
-from .tones import not_judged, prominent_tones
-from .vibration import WORDS, offsets_m, vibration
+
+
+def prominent_tones(
+    results: xr.Dataset, option: str, speed_rpm: float, microphones: Sequence[str]
+) -> tuple[Tone, ...]:
+    """Return each prominent tone once, at the microphone with its largest excess.
+
+
+    Returns
+    -------
+    tones, rising in frequency
+    """
+    largest: dict[str, ProminentTone] = {}
+    for microphone in microphones:
+        for tone in listed_tones(results, option, microphone, speed_rpm):
+            before = largest.get(tone.name)
+            if before is None or tone.excess_db.value > before.excess_db.value:
+                largest[tone.name] = tone
+    rising = sorted(largest.values(), key=lambda tone: tone.frequency_hz)
+    return tuple(map(_stated, rising))
+
+
+def not_judged(
+    results: xr.Dataset, option: str, speed_rpm: float, microphones: Sequence[str]
+) -> int:
+    """Return the number of audible tones that are judged at no microphone.
+
+    A tone is not judged where there is no noise in its critical band.
+    """
+    case = results.sel(option=option, speed=speed_rpm, receiver=list(microphones))
+    hertz = case["judged_tone_frequency"].values
+    has_frequency = np.isfinite(hertz)
+    threshold = np.array([hearing_threshold_db(value) for value in hertz[has_frequency].tolist()])
+    level, excess = (
+        case[name].transpose("receiver", "judged_tone").values[:, has_frequency]
+        for name in ("tone_level", "tone_excess")
+    )
+    without = (level >= threshold) & (excess <= NO_TONE_DB)
+    return int((without.any(axis=0) & (excess <= NO_TONE_DB).all(axis=0)).sum())
+
+
+def _stated(tone: ProminentTone) -> Tone:
+    low = tone.excess_db.low
+    return Tone(
+        name=tone.name,
+        frequency_hz=tone.frequency_hz,
+        microphone=tone.microphone,
+        level_db=tone.level_db,
+        excess_db=tone.excess_db.value,
+        excess_low_db=low if low > NO_TONE_DB else None,
+        excess_high_db=tone.excess_db.high,
+        probability=tone.probability,
+    )
+
+
+def rated_windows(case: xr.Dataset) -> tuple[RatedWindow, ...]:
+    """Return the rating levels at all windows; empty without windows.
+
+    Parameters
+    ----------
+    case : results of an option at a speed
+    """
+    if "rating_level" not in case:
+        return ()
+    level = interval(case, "rating_level")
+    return tuple(
+        RatedWindow(
+            window=window,
+            rating_level_dba=float(level["value"].sel(rating_window=window)),
+            rating_level_low_dba=float(level["low"].sel(rating_window=window)),
+            rating_level_high_dba=float(level["high"].sel(rating_window=window)),
+            adjustment_db=float(case["rating_adjustment"].sel(rating_window=window)),
+            limit_dba=float(case["rating_limit"].sel(rating_window=window)),
+            limit_probability=float(case["limit_probability"].sel(rating_window=window)),
+        )
+        for window in map(str, case["rating_window"].values)
+    )
+
 
 Point = tuple[float, float, float]
 LARGEST_BATCH_DEVIATION_DB: Final = 10.0

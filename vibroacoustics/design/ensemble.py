@@ -15,7 +15,7 @@ from ..base.progress import no_progress
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.baseline import with_baseline
 from ..levels.by_source import SourceSound, gain_band_number
-from ..levels.continuous import unmodelled_in_bands
+from ..levels.lines import unmodelled_in_bands
 from ..levels.nominal import NominalSound, by_source
 from ..levels.remainder import remaining
 from ..machine.cases import Cases
@@ -25,7 +25,7 @@ from ..radiation.given import Radiation
 from ..sound.tone_spectra import band_square
 from ..stages.chain import Chain
 from ..study.study import Study
-from ..transfer.received import Transmission
+from ..transfer.contributions import Transmission
 from ..uncertainty.discrepancy import Discrepancy
 from ..uncertainty.evidence import Evidence
 from ..uncertainty.prior_ensemble import PriorEnsemble

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, IndexArray
-from ..base.hashing import canonical_json
+from ..base.plain_bytes import canonical_json
 from ..base.units import split_key
 from ..base.vocabulary import check, stamp
 from ..results.provenance import software_attributes

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array
+from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
 from ..base.vocabulary import REFERENCE_OPTION, stamped
@@ -16,7 +16,6 @@ from ..machine.source import CaseKey
 from ..study.study import Study
 from .axes import LevelAxes
 from .by_source import SourceSound
-from .measured_change import changed_orders, left_of_squares
 from .measured_points import (
     BASELINE_BANDS,
     MIDDLE_HZ,
@@ -26,6 +25,39 @@ from .measured_points import (
     holds,
     measured_points,
 )
+
+
+def left_of_squares(measured: Array, modelled: Array) -> Array:
+    """Mean square that a model leaves of a measured one, Pa²; nothing where it is louder.
+
+    Parameters
+    ----------
+    measured, modelled : mean squares, of any one shape
+    """
+    return np.maximum(measured - modelled, 0.0)
+
+
+def changed_orders(
+    measured: ComplexArray, before: ComplexArray, after: ComplexArray, factor: Array, phase: Array
+) -> Array:
+    """Mean squares of orders after a change, shape (option, order), Pa².
+
+    Where the phase was measured M - P0 + P1 as complex peaks, else as energies. What the model
+    leaves passes the option's insertion loss.
+
+    Parameters
+    ----------
+    measured : M, complex peaks; amplitudes where there is no phase, shape (order,)
+    before : P0, modelled without an option, shape (order,)
+    after : P1, modelled with each option, shape (option, order)
+    factor : amplitude with each option's insertion loss over that without, (option, order)
+    phase : whether the phase was measured, shape (order,)
+    """
+    by_phase = 0.5 * np.abs((measured - before) * factor + after) ** 2
+    unmodelled = left_of_squares(0.5 * np.abs(measured) ** 2, 0.5 * np.abs(before) ** 2)
+    by_energy = unmodelled * factor**2 + 0.5 * np.abs(after) ** 2
+    return np.where(phase, by_phase, by_energy)
+
 
 _UNMODELLED_COLUMNS: Final = [BASELINE_BANDS.index(band) for band in UNMODELLED_BANDS]
 """Columns of unmodelled noise among the bands of a baseline."""

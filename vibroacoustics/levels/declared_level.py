@@ -1,12 +1,41 @@
-"""Upper limit of a declared sound power level (ISO 4871) from weighted samples of it."""
+"""Published and measured levels of a machine, and the upper limit of a declared one (ISO 4871)."""
 
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.special import ndtr
 
 from ..base.arrays import Array
 from ..base.quantiles import weighted_quantiles
+from ..study.study import Study
+from .agreement import ALL_ALIKE, Datum, Prior, data_of, priors_of
+from .spectrum_data import SpectrumData, spectrum_data
+
+
+class Published(NamedTuple):
+    """Data of the machine, as they weigh samples.
+
+    Attributes
+    ----------
+    level_dba : zero without a published level, to which levels then are relative
+    data : empty without a published level
+    priors : priors of the unmodelled noise; the first one is that of all intervals
+    spectrum : measured third octaves; None without any
+    """
+
+    level_dba: float
+    data: tuple[Datum, ...]
+    priors: tuple[Prior, ...]
+    spectrum: SpectrumData | None = None
+
+
+def published_of(study: Study) -> Published:
+    """Return the published data of a study's machine."""
+    noise = study.machine.overall_noise
+    priors = priors_of(study.machine.remainder) if noise or study.baseline else (ALL_ALIKE,)
+    level_dba = 0.0 if noise is None else noise.level_dba
+    return Published(level_dba, data_of(noise), priors, spectrum_data(study))
+
 
 MEASUREMENT_DEVIATION_DB: Final = 1.5
 """Standard deviation of reproducibility of A-weighted levels by ISO 3744, grade 2."""

@@ -15,9 +15,8 @@ from .axes import LevelAxes
 from .baseline import baseline_variables, over_baseline, points_of, with_baseline
 from .by_source import Measured, SourceSound, sound_by_source
 from .changes import change_variables
-from .continuous import noise_levels
 from .labelled import level_variables
-from .lines import line_pressure
+from .lines import line_pressure, noise_levels
 from .measured_points import BASELINE_BANDS, MeasuredPoint, PointKey, evidence
 from .remainder import in_spectrum, remaining, unmodelled_square
 from .spectrum_data import spectrum_data

@@ -1,22 +1,62 @@
-"""Unmodelled noise: the machine's published level less the sources, by speed and option."""
+"""Unmodelled noise of the machine by speed and option, and insertion losses of options."""
 
 from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
+import xarray as xr
 
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level, power_of_level
 from ..base.errors import ParameterError
 from ..machine.machine import Machine
+from ..machine.option import Option
 from ..machine.source import CaseKey
 from ..study.study import Study
 from .axes import LevelAxes
 from .by_source import GAIN_BANDS, SourceSound, gain_band_number
-from .insertion_loss import remaining_factor
+from .declared_level import published_of
 from .measured_points import UNMODELLED_BANDS
-from .published import published_of
+
+
+def airborne_factor(options: Mapping[str, Option], order_frequency: xr.DataArray) -> xr.DataArray:
+    """Pressure with each option's insertion loss over that without it, (option, speed, order).
+
+    Parameters
+    ----------
+    options : by name
+    order_frequency : (speed, order), Hz
+    """
+    losses = [option.insertion_loss() for option in options.values()]
+    factor = [
+        np.ones(order_frequency.shape)
+        if loss is None
+        else loss.amplitude_factor(order_frequency.values)
+        for loss in losses
+    ]
+    coords = {"option": list(options), **{n: order_frequency[n] for n in order_frequency.dims}}
+    return xr.DataArray(factor, coords, ("option", *order_frequency.dims))
+
+
+def airborne(options: Mapping[str, Option], results: xr.Dataset) -> xr.Dataset:
+    """Return results whose velocities are less by each option's insertion loss."""
+    factor = airborne_factor(options, results["order_frequency"])
+    return results.assign(velocity_order=factor * results["velocity_order"])
+
+
+def remaining_factor(options: Mapping[str, Option], frequency_hz: Array) -> Array:
+    """Mean square of a sound with each option's insertion loss over that without, (option, band).
+
+    Parameters
+    ----------
+    options : by name
+    frequency_hz : midband frequency, Hz, shape (band,)
+    """
+    losses = [option.insertion_loss() for option in options.values()]
+    factors = [1.0 if loss is None else loss.power_factor(frequency_hz) for loss in losses]
+    return np.array([np.ones(len(frequency_hz)) * factor for factor in factors])
+
 
 UNMODELLED_MIDDLE_HZ: Final[Array] = np.array([band.middle_hz for band in UNMODELLED_BANDS])
 """Middle frequencies of the third octaves of unmodelled noise."""

@@ -16,9 +16,8 @@ from ..study.study import Study
 from .axes import LevelAxes
 from .baseline import baseline_orders, points_of, with_baseline
 from .by_source import SourceSound, gain_band_number, membership, weighting_power
-from .continuous import unmodelled_in_bands
 from .labelled import level, level_changes, source_levels, weighted, with_measured
-from .lines import order_columns
+from .lines import order_columns, unmodelled_in_bands
 from .measured_points import BASELINE_BANDS
 from .remainder import remaining
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..base.arrays import ComplexArray
 from ..base.vocabulary import REFERENCE_OPTION
-from ..levels.measured_change import left_of_squares
+from ..levels.baseline import left_of_squares
 from .lines import Lines
 from .mounts import is_over_frequency, stiffness_over_frequency
 from .moving import Moving

@@ -19,17 +19,14 @@ from ..mechanics.bushings import NO_BODIES, AttachedBodies, check_joined
 from ..mechanics.capabilities import UPRIGHT, Capability, CrankFrame
 from ..mechanics.moving_parts import MovingPart, Revolution
 from ..mechanics.ports import HOUSING, BodyPort
-from .balance_quality import BalanceQuality
 from .cavities import SPACES
 from .derived import INERTIAS, Derived
-from .feet import FOOT_NAMES, Feet, values_not_read
+from .feet import FOOT_NAMES, Feet, Mounts, MountStiffness, values_not_read
 from .floor import Floor, FloorMobility
 from .gas_in_shell import DischargeGas, ShellGas
 from .housing import Housing
-from .isolation import doubts_of_isolation, total_stiffness
+from .isolation import BalanceQuality, doubts_of_isolation, total_stiffness
 from .limits import OF_EVERY_MACHINE, Limit
-from .mount_stiffness import MountStiffness
-from .mounts import Mounts
 from .remainder import UNMODELLED_KEYS, OverallNoise, UnmodelledNoise
 from .shell import Shell
 from .shell_structure import ShellStructure

@@ -6,8 +6,8 @@ from pydantic import Field, WithJsonSchema
 
 from ..base.parameters import Contradictions, Parameters
 from ..mechanics.ports import BodyPort
+from .feet import Mounts
 from .housing import Housing
-from .mounts import Mounts
 
 BLOCK: Final = BodyPort("block")
 """The block on springs with the mechanism; the shell around it is the port `HOUSING`."""

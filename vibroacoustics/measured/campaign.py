@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..base.errors import ParameterError, VibroacousticsError
 from ..base.fault import omit
-from ..base.hashing import canonical_json
+from ..base.plain_bytes import canonical_json
 from ..base.processes import side_by_side
 from ..base.progress import Progress, no_progress
 from ..orders.analysed import analysed_channels

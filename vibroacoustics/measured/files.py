@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from ..base.errors import VibroacousticsError
-from ..base.hashing import canonical_json, sha256
 from ..base.parameters import Parameters
+from ..base.plain_bytes import canonical_json, sha256
 from ..results.provenance import software_attributes
 from .settings import Measured
 

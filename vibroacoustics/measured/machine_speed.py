@@ -10,7 +10,7 @@ from ..machine.machine import Machine
 from ..mechanisms.hermetic.parameters import InductionMotor
 from ..mechanisms.slider_link.parameters import Motor
 from ..sources.air_gap.parameters import AirGap
-from ..sources.induction_motor.parameters import CapacitorMotor
+from ..sources.induction_motor.revolving_fields import CapacitorMotor
 from ..sources.synchronous_motor.parameters import SynchronousMotor
 from ..study.order_analysis import DEFAULT_COMB, TacholessSpeed
 

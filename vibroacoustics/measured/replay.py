@@ -11,7 +11,7 @@ from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_BY_UNIT
 from ..base.decibel import SILENCE_DB, amplitude_of_level, level_of_power, power_of_level
 from ..base.errors import ParameterError
-from ..base.hashing import canonical_json
+from ..base.plain_bytes import canonical_json
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import WEIGHTINGS, check, label_coordinates, stamped
 from ..base.weighting import WEIGHTING

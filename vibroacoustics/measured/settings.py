@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from ..base.arrays import Array, ComplexArray
 from ..base.parameters import Parameters
-from ..machine.mount_stiffness import MountStiffness
+from ..machine.feet import MountStiffness
 from ..study.settings_file import settings_of
 from ..study.toml_files import beside, read_toml
 from .change import mount_stiffness

@@ -11,7 +11,7 @@ from ..stages.radiation import transfer_vectors
 from ..stages.representative import Representative
 from ..study.machine_studies import machine_studies
 from ..study.study import Study
-from ..transfer.received import Transmission
+from ..transfer.contributions import Transmission
 from .study import carried
 
 

@@ -5,8 +5,8 @@ from functools import partial
 import xarray as xr
 
 from ..base.fault import collected
-from ..base.hashing import canonical_json
 from ..base.linear_algebra import one_thread_of_linear_algebra
+from ..base.plain_bytes import canonical_json
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
 from ..machine.cases import Cases

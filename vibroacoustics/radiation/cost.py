@@ -12,8 +12,7 @@ from . import kwave, near_memory, room_green
 from .box import Box
 from .by_cut_cells import ByCutCells
 from .near_field import NearField
-from .near_step import Fields
-from .pulse import pulse_duration_s
+from .near_step import Fields, pulse_duration_s
 from .revolution.method import ByRevolution, join_box
 from .revolution.sampling import first_solved
 from .revolution.side import memory_bytes

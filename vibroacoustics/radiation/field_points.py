@@ -18,7 +18,7 @@ from .arrays import Array, ComplexArray
 from .interpolation import Interpolant
 from .patterns import SurfaceMotion
 from .revolution.method import by_revolution
-from .revolution.over_ground import over_ground
+from .revolution.sampling import over_ground
 from .sound_field import SoundField
 from .transfer_vectors import cache_key_material, labelled, task_of
 

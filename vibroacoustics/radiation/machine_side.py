@@ -17,8 +17,8 @@ from .box import BoxField
 from .exact import Mirror
 from .near_field import NearField
 from .near_memory import FIELDS_BYTES
+from .near_run import PartField, Recording
 from .patterns import Pattern
-from .recording import PartField, Recording
 from .scene import Scene
 from .task import Microphones
 

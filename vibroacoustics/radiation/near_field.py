@@ -26,15 +26,19 @@ from ..base.progress import Progress, no_progress
 from .arrays import Array, ComplexArray
 from .bodies import Body
 from .box import Box, closed_box
-from .cut_cells import GEOMETRY_BYTES_PER_CELL, CutCells, cut_cells
+from .cut_cells import (
+    GEOMETRY_BYTES_PER_CELL,
+    MOST_WATCHED,
+    CutCells,
+    cut_cells,
+    spread_points,
+    watched_frequencies,
+)
 from .exact import Mirror, green_rows
 from .near_grid import BOX_MARGIN_M, NearGrid, near_grid
-from .near_run import Run, Watch, advance_run
-from .near_step import BYTES_PER_CELL
+from .near_run import Parity, PartField, Recording, Run, Watch, advance_run, recording
+from .near_step import BYTES_PER_CELL, pulse_width_s, transform_bytes
 from .patterns import Pattern
-from .pulse import pulse_width_s, transform_bytes
-from .recording import Parity, PartField, Recording, recording
-from .settling import MOST_WATCHED, spread_points, watched_frequencies
 from .surface_points import surface_in_parts
 from .symmetry import images, signs
 from .wall_flux import wall_fluxes

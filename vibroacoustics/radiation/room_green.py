@@ -23,7 +23,7 @@ from .arrays import Array, ComplexArray
 from .band_limited import STENCIL_NODES, Interpolator
 from .box import Box, BoxField
 from .exact import Mirror, box_green
-from .pulse import RunningTransform, pulse, pulse_duration_s, pulse_width_s, transform
+from .near_step import RunningTransform, pulse, pulse_duration_s, pulse_width_s, transform
 from .room_grid import RoomGrid, room_grid
 from .spectral_step import step_bytes
 

@@ -24,8 +24,7 @@ from .arrays import Array, ComplexArray
 from .bodies import Body, block, join_bodies, read_mesh, sphere, turned
 from .cabinet import cabinet_panels, check_fits
 from .exact import Mirror, green_rows
-from .outdoors.green import Outdoors
-from .outdoors.of_study import check_barrier, outdoors_of
+from .outdoors.green import Outdoors, check_barrier, outdoors_of
 from .patterns import Pattern, sampled
 from .surface_points import SurfacePoints
 

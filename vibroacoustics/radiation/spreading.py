@@ -8,7 +8,7 @@ from ..base.arrays import Array
 from ..machine.shell import Shell
 from ..study.study import Study
 from .exact import green
-from .outdoors.of_study import outdoors_of
+from .outdoors.green import outdoors_of
 from .scene import position_m, room_walls
 
 _PER_BAND: Final = 16

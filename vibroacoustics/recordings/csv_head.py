@@ -17,8 +17,7 @@ from ..base.csv_form import (
     split_head,
     tidy,
 )
-from ..base.csv_rows import STATED
-from ..base.csv_text import fused
+from ..base.csv_text import STATED, fused
 from ..base.errors import ParameterError, StorageError
 from .quantities import find_quantity, find_time_factor
 from .recorded import listed

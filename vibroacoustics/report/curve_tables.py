@@ -4,7 +4,7 @@ from itertools import product
 
 import xarray as xr
 
-from ..base.curve_dataset import axis_words, is_words, shown, shown_label
+from ..base.curves import axis_words, is_words, shown, shown_label
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Pictures
 from .figures.curves import curve_charts

@@ -6,7 +6,7 @@ import xarray as xr
 
 from ..base.fault import collected
 from ..base.folder import Content
-from ..base.hashing import canonical_json
+from ..base.plain_bytes import canonical_json
 from ..base.registry import plugins
 from .columns import COLUMNS
 from .kept_columns import keep_columns

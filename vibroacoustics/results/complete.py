@@ -7,7 +7,7 @@ import xarray as xr
 from pydantic import TypeAdapter, ValidationError
 
 from ..base.errors import SchemaError
-from ..base.hashing import sha256
+from ..base.plain_bytes import sha256
 from ..base.vocabulary import PUBLISHED_SHARE
 from .estimates import has_samples
 from .run_attributes import JSON_ATTRIBUTES, Parameters, Words

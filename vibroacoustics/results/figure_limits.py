@@ -15,8 +15,7 @@ from ..recordings.quantities import quantity
 from ..study.criterion import CRITERIA, label_and_unit
 from .criterion_values import criterion_values
 from .estimates import in_samples, is_sampled, sample_weights
-from .figure_limit import HIGHEST, WEIGHTED, FigureLimit
-from .limit import EVERY_CHANNEL, PRESSURE_UNIT
+from .figure_limit import EVERY_CHANNEL, HIGHEST, PRESSURE_UNIT, WEIGHTED, FigureLimit
 from .order_comparison import ORDER_TOLERANCE, channel_units, listed
 
 PRESSURE: Final = "pressure "

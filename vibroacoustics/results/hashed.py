@@ -12,7 +12,7 @@ from typing import BinaryIO, Final, NamedTuple
 
 from ..base.errors import StorageError
 from ..base.folder import Folder
-from ..base.hashing import file_sha256, sha256
+from ..base.plain_bytes import file_sha256, sha256
 from ..base.regular_file import opened
 
 _LINE: Final = re.compile(rb"\nvibroacoustics sha256 ([0-9a-f]{64})\n")

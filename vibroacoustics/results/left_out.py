@@ -5,7 +5,7 @@ from typing import Final
 
 import xarray as xr
 
-from ..base.hashing import canonical_json
+from ..base.plain_bytes import canonical_json
 from .complete import read_attribute
 
 ATTRIBUTE: Final = "left_out"

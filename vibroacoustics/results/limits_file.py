@@ -7,8 +7,7 @@ from typing import Any, Final
 
 from ..base.column_file import read_layouts
 from ..base.column_head import Layout
-from .figure_limit import HIGHEST, FigureLimit
-from .limit import Limit
+from .figure_limit import HIGHEST, FigureLimit, Limit
 
 SPEEDS: Final = {"speed_from_rpm": 0.0, "speed_to_rpm": inf}
 """Columns that may be missing or empty, and what then holds."""

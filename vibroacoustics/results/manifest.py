@@ -13,7 +13,7 @@ from pydantic import AfterValidator, BaseModel, TypeAdapter
 
 from ..base.errors import StorageError
 from ..base.folder import Folder, leads_out, opened_folder
-from ..base.hashing import file_sha256
+from ..base.plain_bytes import file_sha256
 from . import hashed
 from .files import LOCK_NAME, Staging, only_writer, replace_all, write
 from .interruption import uninterrupted

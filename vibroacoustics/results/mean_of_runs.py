@@ -10,7 +10,7 @@ import xarray as xr
 from ..base.arrays import Array, ComplexArray
 from ..base.decibel import amplitude_of_level, level_of_amplitude
 from ..base.errors import ParameterError
-from ..base.hashing import canonical_json
+from ..base.plain_bytes import canonical_json
 from ..base.vocabulary import NO_ANGLE_ZERO, check, label_coordinates, stamp, stamped
 from .order_comparison import (
     ORDER_TOLERANCE,

@@ -11,7 +11,7 @@ from ..base.arrays import Array
 from ..base.decibel import level_of_amplitude
 from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION, check, label_coordinates, stamp
-from .limit import EVERY_CHANNEL, Limit
+from .figure_limit import EVERY_CHANNEL, Limit
 from .order_comparison import ORDER_TOLERANCE, channel_orders, channel_units, listed
 from .provenance import software_attributes
 

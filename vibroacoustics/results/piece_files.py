@@ -16,9 +16,8 @@ from typing import Any, Final
 
 from ..base.errors import StorageError
 from ..base.folder import Folder
-from ..base.hashing import sha256
 from ..base.pieces import Item, Result, Stream
-from ..base.plain_bytes import from_bytes, to_bytes
+from ..base.plain_bytes import from_bytes, sha256, to_bytes
 from .files import STAGING_NAME, replace_all, staging, write
 from .hashed import hash_line, read_checked
 

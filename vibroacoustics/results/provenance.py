@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import VibroacousticsError
-from ..base.hashing import canonical_json, sha256
+from ..base.plain_bytes import canonical_json, sha256
 from ..base.process_start import run_program
 from ..base.registry import plugins
 from ..recordings.reader import READERS

@@ -11,8 +11,8 @@ from typing import Any, Final, TypeVar
 
 from ..base.errors import SchemaError, StorageError, VibroacousticsError
 from ..base.folder import Folder
-from ..base.hashing import sha256
 from ..base.pieces import hash_of_inputs, storing
+from ..base.plain_bytes import sha256
 from . import cache
 from .files import naming
 from .lock import taken

@@ -15,8 +15,8 @@ import xarray as xr
 
 from ..base.errors import StorageError
 from ..base.folder import Folder
-from ..base.hashing import canonical_json, sha256
 from ..base.pieces import following_from
+from ..base.plain_bytes import canonical_json, sha256
 from . import cache, hashed
 from .files import Staging, naming, only_writer, replace_all, staging, write
 from .lock import locked

@@ -6,7 +6,7 @@ from typing import Any
 import xarray as xr
 
 from ..base.errors import ParameterError
-from ..base.hashing import canonical_json
+from ..base.plain_bytes import canonical_json
 from ..base.remembered import remembered
 
 

@@ -2,10 +2,7 @@
 
 from ..results.utility import utilities
 from .acceptability import any_weights, rank_acceptability
-from .given import given_values
-from .published import published_table
-from .ranking import METHODS, topsis, weighted_sum
-from .scores import score
+from .scores import METHODS, given_values, published_table, score, topsis, weighted_sum
 from .study_scores import study_scores
 from .text import ranking_text
 

@@ -5,7 +5,7 @@ import json
 import xarray as xr
 
 from ..base.fault import collected
-from ..base.hashing import canonical_json, sha256
+from ..base.plain_bytes import canonical_json, sha256
 from ..results.left_out import keep_lines, lines_of
 from ..study.criterion import CRITERIA
 from ..study.scoring import Scoring

@@ -1,8 +1,9 @@
-"""Scores and ranks of the options."""
+"""Criteria of the options: values, scores and ranks, beside published scores."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import repeat
+from typing import Final, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -11,13 +12,128 @@ from pydantic import ValidationError
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..base.vocabulary import check, stamp
+from ..results.criterion_values import criterion_values, options_without
 from ..results.estimates import has_samples, sample_weights
 from ..results.run_variables import ANY_WEIGHTS, OF_THE_STUDY
 from ..results.utility import utilities
-from ..study.scoring import Scoring
+from ..study.criterion import CRITERIA, label_and_unit
+from ..study.scoring import CriterionScale, Given, PublishedTable, Scoring
 from .acceptability import any_weights, rank_acceptability
-from .ranking import METHODS
-from .values import Scored, scored_criteria
+
+
+class Scored(NamedTuple):
+    """One criterion of a scoring.
+
+    Attributes
+    ----------
+    name, label, unit : key in study files, plain words, symbol
+    values : values of the options, shape (option,), in that unit; medians of the weighted samples
+        where there are some
+    by_sample : (sample, option), in that unit; none where no sample changes it
+    """
+
+    name: str
+    label: str
+    unit: str
+    values: Array
+    by_sample: Array | None = None
+
+
+def scored_criteria(results: xr.Dataset, settings: Scoring) -> list[Scored]:
+    """Criteria of the settings: first those computed, as registered, then those given, by name.
+
+    Their order does not depend on the file: a seed then means the same weightings from any.
+
+    Raises
+    ------
+    ParameterError
+        A criterion is neither registered nor given, or has no value for an option.
+    """
+    given_names = _given_names(results)
+    computed = [name for name in CRITERIA if name in settings.criteria and name not in given_names]
+    not_computed = sorted(set(settings.criteria) - set(computed))
+    every = []
+    for name in computed:
+        with CRITERIA.spared(), CRITERIA.fenced(name):
+            every.append(_computed(name, results))
+    every += [_given(name, settings.criteria[name], results) for name in not_computed]
+    if not sum(settings.criteria[value.name].weight for value in every) > 0.0:
+        raise ParameterError("scoring.criteria: none with a weight above 0 has values")
+    return [
+        value._replace(label=settings.criteria[value.name].title or value.label) for value in every
+    ]
+
+
+def _computed(name: str, results: xr.Dataset) -> Scored:
+    criterion, computed = CRITERIA[name], criterion_values(results, name)
+    return Scored(name, *label_and_unit(name, criterion.label, criterion.unit), *computed)
+
+
+def _given(name: str, scale: CriterionScale, results: xr.Dataset) -> Scored:
+    given_names = _given_names(results)
+    if name not in given_names:
+        raise ParameterError(f"criterion {name}: {CRITERIA.unknown(name, given_names)}")
+    values = results["given_value"].sel(given_criterion=name)
+    for option in options_without(values):
+        raise ParameterError(f"options.{option}.given.{name}: is missing in the results")
+    return Scored(name, *label_and_unit(name, scale.label, scale.unit), values.values)
+
+
+def _given_names(results: xr.Dataset) -> list[str]:
+    if "given_value" not in results:
+        return []
+    return [str(name) for name in results["given_criterion"].values]
+
+
+def weighted_sum(utility: Array, shares: Array) -> Array:
+    """Sum of the utilities times their weights."""
+    return utility @ shares
+
+
+def topsis(utility: Array, shares: Array) -> Array:
+    """Closeness to the ideal option (Hwang & Yoon 1981): d⁻ / (d⁺ + d⁻)."""
+    to_ideal = np.linalg.norm((1.0 - utility) * shares, axis=1)
+    to_worst = np.linalg.norm(utility * shares, axis=1)
+    total = to_ideal + to_worst
+    return np.where(total > 0.0, to_worst / np.where(total > 0.0, total, 1.0), 1.0)
+
+
+METHODS: Final[dict[str, Callable[[Array, Array], Array]]] = {
+    "weighted_sum": weighted_sum,
+    "topsis": topsis,
+}
+
+
+def published_table(table: PublishedTable) -> xr.Dataset:
+    """A published table of scores as printed, with its sums added up again."""
+    options = {"published_option": list(table.options)}
+    scores = np.array(table.scores, dtype=float)
+    return check(
+        xr.Dataset(
+            {
+                "published_score": stamp(
+                    "published_score",
+                    scores,
+                    {**options, "published_criterion": list(table.criteria)},
+                    source=table.source,
+                ),
+                "published_sum": stamp("published_sum", table.sums, options, source=table.source),
+                "recomputed_sum": stamp("recomputed_sum", scores.sum(axis=1), options),
+            }
+        )
+    )
+
+
+def given_values(values_of_option: Given, options: Sequence[str]) -> xr.Dataset:
+    """Dataset with given_value, not a number where an option gives none; empty if none does."""
+    names = sorted({name for values in values_of_option.values() for name in values})
+    if not names:
+        return xr.Dataset()
+    values = [
+        [values_of_option.get(option, {}).get(name, np.nan) for name in names] for option in options
+    ]
+    coords = {"option": list(options), "given_criterion": names}
+    return check(xr.Dataset({"given_value": stamp("given_value", values, coords)}))
 
 
 def score(results: xr.Dataset, settings: Scoring | None = None) -> xr.Dataset:

@@ -3,9 +3,7 @@
 import xarray as xr
 
 from ..study.study import Study
-from .given import given_values
-from .published import published_table
-from .scores import score
+from .scores import given_values, published_table, score
 
 
 def study_scores(study: Study, results: xr.Dataset) -> xr.Dataset:

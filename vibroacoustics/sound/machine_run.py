@@ -11,8 +11,8 @@ from ..machine.machine import Machine
 from ..machine.source import CaseKey
 from ..mechanics.loads import Lines
 from ..mechanics.received_sound import ReceivedSound
+from ..transfer.contributions import Transmission
 from ..transfer.machine import MachineOnMounts, on_mounts
-from ..transfer.received import Transmission
 from .ingredients import Ingredients, ingredients
 
 

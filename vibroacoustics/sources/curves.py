@@ -5,8 +5,7 @@ from itertools import chain
 
 import xarray as xr
 
-from ..base.curve_dataset import curves_dataset
-from ..base.curves import Curve
+from ..base.curves import Curve, curves_dataset
 from ..base.errors import ParameterError
 from ..base.vocabulary import REFERENCE_OPTION
 from ..machine.machine import Machine

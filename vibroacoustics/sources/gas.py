@@ -29,8 +29,7 @@ from .scroll_gas.parameters import (
     ScrollWraps,
     SuctionPockets,
 )
-from .scroll_gas.pressures import OpenedGas
-from .scroll_gas.suction import SuctionFlow, suction_flow
+from .scroll_gas.suction import OpenedGas, SuctionFlow, suction_flow
 
 GAS_SAMPLES: Final = 8192
 """Crank angles a revolution: the step of the force where a pocket opens makes an error of the

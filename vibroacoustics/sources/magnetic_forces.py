@@ -26,8 +26,8 @@ from .air_gap.waves import (
     product,
     stress_pa,
 )
-from .induction_motor.parameters import CapacitorMotor
 from .induction_motor.revolving_fields import (
+    CapacitorMotor,
     air_gap_voltages,
     on_supply,
     point_at_torque,

@@ -12,8 +12,12 @@ from ..base.registry import register
 from ..machine.source import Case, Source
 from ..mechanics.loads import Loads, Tone, total_torque_n_m
 from ..mechanics.ports import Port
-from .induction_motor.parameters import CapacitorMotor, TurningRotor
-from .induction_motor.revolving_fields import on_supply, supply_frequency_hz
+from .induction_motor.revolving_fields import (
+    CapacitorMotor,
+    TurningRotor,
+    on_supply,
+    supply_frequency_hz,
+)
 from .induction_motor.torque_lines import TorqueLine, TorqueLines, rotor_in_motor, torque_lines
 from .part_loads import motor_lines
 

@@ -5,7 +5,7 @@ from typing import ClassVar, Final
 
 from ..base.parameters import Parameters
 from ..base.registry import register
-from ..machine.balance_quality import BalanceQuality
+from ..machine.isolation import BalanceQuality
 from ..machine.source import Case, Source
 from ..mechanics.loads import Loads
 from ..mechanics.moving_parts import circling, wrench

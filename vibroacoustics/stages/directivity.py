@@ -17,9 +17,9 @@ from ..radiation.scene import position_m
 from ..radiation.transfer_vectors import pressure_per_velocity
 from ..results.storage import cached
 from ..study.study import Study
+from ..transfer.contributions import Transmission
 from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
-from ..transfer.received import Transmission
 from .chain import Chain
 from .radiation import modes_of
 from .shown import SHOWN, Shown

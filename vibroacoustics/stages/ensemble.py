@@ -7,8 +7,8 @@ from ..levels.nominal import NominalSound, Sound
 from ..machine.cases import Cases
 from ..study.sampling import Sample
 from ..study.study import Study
+from ..transfer.contributions import Transmission
 from ..transfer.path import ShellPath
-from ..transfer.received import Transmission
 from ..transfer.study_path import projection_errors
 from ..uncertainty.cost import ensemble_cost
 from ..uncertainty.every_sample import errors_of_projection

@@ -12,8 +12,8 @@ from ..sound.of_results import hearing_variables
 from ..sound.tone_spectra import tone_variables
 from ..sources.cases import sources_of
 from ..study.study import Study
+from ..transfer.contributions import Transmission
 from ..transfer.plate.under_feet import plate_sound
-from ..transfer.received import Transmission
 from .chain import Chain
 from .forces import PublishedCases, with_published
 from .stage import Given, Stage, Trial, timed

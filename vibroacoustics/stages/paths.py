@@ -9,10 +9,10 @@ from ..measured.sound_functions import force_sound_of
 from ..radiation.pressure import pressure_per_shell_velocity
 from ..radiation.transfer_vectors import pressure_per_velocity
 from ..study.study import Study
+from ..transfer.contributions import Transmission
 from ..transfer.force_sound import ForceSound
 from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
-from ..transfer.received import Transmission
 from .chain import Chain
 from .representative import Representative
 from .stage import Given, Stage

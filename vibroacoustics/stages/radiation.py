@@ -8,7 +8,7 @@ from typing import Final
 import xarray as xr
 
 from .. import radiation
-from ..base.hashing import canonical_json
+from ..base.plain_bytes import canonical_json
 from ..base.progress import Progress
 from ..base.registry import register
 from ..radiation import SurfaceMotion

@@ -8,8 +8,7 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.progress import no_progress
 from ..base.registry import register
-from ..levels.continuous import noise_levels
-from ..levels.lines import line_pressure, with_order_levels
+from ..levels.lines import line_pressure, noise_levels, with_order_levels
 from ..levels.nominal import NominalSound
 from ..levels.remainder import remaining
 from ..levels.sample_levels import Deviating, with_discrepancy
@@ -18,8 +17,8 @@ from ..machine.machine import Machine
 from ..machine.source import CaseKey
 from ..study.sampling import Sample
 from ..study.study import Study
+from ..transfer.contributions import Transmission
 from ..transfer.labelled import housing_variables
-from ..transfer.received import Transmission
 from ..uncertainty.alternative_sounds import ComputedSamples
 from ..uncertainty.evidence import PAIRS, Evidence
 from ..uncertainty.prior_ensemble import PriorEnsemble

@@ -9,22 +9,21 @@ from ..base.progress import Progress
 from ..base.registry import register
 from ..levels.in_room import blended_gains, room_sound
 from ..levels.nominal import NominalSound
-from ..levels.room_crossover import crossover_variables
+from ..levels.room_crossover import crossover_variables, map_bands_hz, map_level
 from ..levels.room_levels import AirInRoom, room_variables
-from ..levels.room_map import map_bands_hz, map_level
 from ..machine.cases import Cases
 from ..radiation.patterns import SurfaceMotion
 from ..radiation.rooms import of_study as rooms
 from ..radiation.rooms.cost import room_cost
-from ..radiation.rooms.wall_absorption import warn_of_absorption
+from ..radiation.rooms.impedance import warn_of_absorption
 from ..results import storage
 from ..results.estimates import nominal_values
 from ..sound.room_paths import paths_of
 from ..study.room import StudyRoom
 from ..study.study import Study
+from ..transfer.contributions import Transmission
 from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
-from ..transfer.received import Transmission
 from ..uncertainty.sampled_room import sampled_room_level
 from .chain import Chain
 from .radiation import modes_of

@@ -13,7 +13,7 @@ from ..machine.cases import Cases
 from ..sources.cases import cases_of, loaded_cases, wrench_lines
 from ..study.selection import running_up
 from ..study.study import Study
-from ..transfer.received import Transmission
+from ..transfer.contributions import Transmission
 from .chain import Chain
 from .shown import SHOWN, Shown
 from .stage import Given, Stage

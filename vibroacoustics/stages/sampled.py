@@ -10,7 +10,7 @@ from ..machine.cases import Cases
 from ..study.samples import batches_of_samples
 from ..study.sampling import Sample
 from ..study.study import Study
-from ..transfer.received import Transmission
+from ..transfer.contributions import Transmission
 from ..uncertainty.every_sample import in_every_sample
 from ..uncertainty.evidence import Evidence, Pairs
 from ..uncertainty.prior_ensemble import PriorEnsemble

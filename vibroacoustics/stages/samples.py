@@ -7,7 +7,7 @@ from ..base.registry import register
 from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
 from ..study.study import Study
-from ..transfer.received import Transmission
+from ..transfer.contributions import Transmission
 from ..uncertainty.alternative_sounds import ComputedSamples
 from ..uncertainty.cost import samples_cost
 from ..uncertainty.evidence import Evidence

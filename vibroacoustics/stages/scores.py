@@ -1,6 +1,6 @@
 """Criteria, scores and ranks of the options, and results beside published values."""
 
-from ..base.hashing import canonical_json
+from ..base.plain_bytes import canonical_json
 from ..base.registry import register
 from ..scoring import study_scores
 from ..uncertainty.validation import validation_variables

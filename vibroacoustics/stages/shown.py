@@ -18,9 +18,8 @@ from ..machine.machine import Machine
 from ..machine.source import CaseKey, Shared
 from ..mechanics.received_sound import ReceivedSound
 from ..study.study import Study
-from ..transfer.deflection import MovingCase, deflection_variables
-from ..transfer.received import Transmission
-from ..transfer.section import section_variables
+from ..transfer.contributions import Transmission
+from ..transfer.deflection import MovingCase, deflection_variables, section_variables
 from .chain import Chain
 from .representative import Representative
 from .stage import Given, Stage

@@ -15,7 +15,7 @@ from ..machine.cases import Cases
 from ..study.sampling import Sample
 from ..study.selection import at_speeds
 from ..study.study import Study
-from ..transfer.received import Transmission
+from ..transfer.contributions import Transmission
 from ..uncertainty.cost import sliders_cost
 from ..uncertainty.every_sample import in_every_sample
 from ..uncertainty.evidence import Evidence

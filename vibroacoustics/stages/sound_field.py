@@ -4,7 +4,7 @@ import xarray as xr
 
 from ..base.registry import register
 from ..levels import sound_field as levels
-from ..levels.insertion_loss import airborne
+from ..levels.remainder import airborne
 from ..radiation.pressure import pressure_on_map, pressure_on_surface, wrench_pressure
 from .chain import Chain
 from .stage import Given, Stage

@@ -11,8 +11,7 @@ from ..base.errors import ParameterError
 from ..machine.stopping import CheckValve, Stopping, TurningBack
 from ..mechanics.moving_parts import MovingPart
 from .equation import Coasting, Shift, wrench_along
-from .history import TimeHistory, history_of
-from .integration import coast
+from .history import TimeHistory, coast, history_of
 from .reversal import Reversal, TrappedGas, turn_back
 
 LONGEST_S: Final = 60.0

@@ -13,8 +13,7 @@ from ..machine.stopping import CheckValve, Stopping, TurningBack
 from ..mechanics.moving_parts import MovingPart
 from ..mechanics.rotation import uniform_crank_angle
 from ..sources.gas import gas_cycle
-from ..sources.scroll_gas.chambers import pair_volume_m3
-from ..sources.scroll_gas.parameters import ScrollGas, ScrollWraps
+from ..sources.scroll_gas.parameters import ScrollGas, ScrollWraps, pair_volume_m3
 from .coasting import AfterStop, RunDown, run_down
 from .reversal import TrappedGas
 

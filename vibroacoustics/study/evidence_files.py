@@ -7,7 +7,7 @@ from typing import Any, Final
 from ..base.column_file import read_layouts
 from ..base.column_head import Layout
 from ..base.csv_form import number_form
-from ..base.csv_rows import read_lines
+from ..base.csv_text import read_lines
 from ..base.errors import ParameterError
 from .evidence import Evidence
 from .file_names import resolve_file_names

@@ -8,9 +8,8 @@ from pydantic import Field
 
 from ..base.parameters import Parameters
 from ..base.vocabulary import COORDINATES, REFERENCE_OPTION, VARIABLES
-from ..machine.feet import Feet
+from ..machine.feet import Feet, Mounts
 from ..machine.housing import Housing
-from ..machine.mounts import Mounts
 
 _Metres = Annotated[float, Field(ge=-20.0, le=20.0)]
 

@@ -11,8 +11,7 @@ from pydantic import Field, field_validator
 from ..base.arrays import Array
 from ..base.column_file import read_layouts
 from ..base.column_head import Layout
-from ..base.csv_rows import read_lines
-from ..base.csv_text import fused
+from ..base.csv_text import fused, read_lines
 from ..base.decibel import power_of_level
 from ..base.errors import ParameterError
 from ..base.file_table import FileTable

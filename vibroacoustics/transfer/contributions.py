@@ -1,20 +1,29 @@
 """The loads of one case, path by path, to sound at the receivers; nothing is summed."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.decibel import amplitude_of_level
 from ..base.vocabulary import RIGID_BODY_DOFS
+from ..machine.cases import Cases
 from ..machine.frame import PARTS, Part
+from ..machine.machine import Machine
+from ..machine.source import CaseKey, Shared
 from ..mechanics.contributions import Contributions, NoiseContribution, PathName
-from ..mechanics.loads import Lines, Loads, Noise, PortLoads, in_shell
+from ..mechanics.loads import Lines, Loads, Noise, PortLoads, in_shell, lines_of
 from ..mechanics.ports import HOUSING, WRENCH, BodyPort, Port
-from .bending import BendingShell, rows_of
+from ..mechanics.received_sound import NoisePower, ReceivedSound
+from ..study.study import Study
+from .bending import BendingShell, bending_shell, rows_of
 from .load_path import LoadPath
+from .machine import on_mounts
 from .observers import Observers
-from .shell_modes.mobility import velocity_per_force
+from .path import ShellPath
+from .shell_modes.projection import velocity_per_force
 
 
 def by_motion(
@@ -199,3 +208,77 @@ def _of_noise(per_force: Paths, noise: Noise, names: tuple[PathName, ...]) -> No
         np.array([energy(pressure, drives(pressure)) for pressure in per_force.values()]),
         np.array([energy(pressure, together) for pressure in per_force.values()]),
     )
+
+
+@dataclass(frozen=True)
+class Transmission:
+    """Transmission of loads to sound, whatever values are sampled.
+
+    Attributes
+    ----------
+    study : options, highest frequency and order
+    microphones : pressure per velocity of the rigid motions and, where a source drives it, of the
+        shell's modes
+    shell : its modes and joints; none where no source drives it
+    """
+
+    study: Study
+    microphones: Observers
+    shell: ShellPath | None
+
+    def to(self, receivers: Sequence[int]) -> "Transmission":
+        """Return the transmission to some of the receivers alone, the dimension kept."""
+        return replace(self, microphones=self.microphones.to(list(receivers)))
+
+    def received(self, cases: Cases) -> dict[CaseKey, ReceivedSound]:
+        """Compute the sound of every case behind its option's insertion loss."""
+        shared, sound = Shared(), {}
+        for key, case in cases.cases.items():
+            path = self.path(shared, case.machine, cases.loads[key])
+            received = self._of_case(self.lines(key, cases), cases.loads[key], path)
+            sound[key] = received.behind(self.study.option_of(key).insertion_loss())
+        return sound
+
+    def contributions(self, cases: Cases) -> Iterator[tuple[CaseKey, Contributions]]:
+        """Compute the sound by path behind the option's insertion loss, one case at a time."""
+        shared = Shared()
+        for key, case in cases.cases.items():
+            path = self.path(shared, case.machine, cases.loads[key])
+            lines = self.lines(key, cases)
+            split = contributions(path, self.microphones, lines, cases.loads[key])
+            yield key, split.behind(self.study.option_of(key).insertion_loss())
+
+    def path(self, shared: Shared, machine: Machine, loads: Mapping[str, Loads]) -> LoadPath:
+        """Return the path of a machine, shared by those that differ in no table its ports read."""
+        read = dict.fromkeys(
+            table for load in loads.values() for port in load.ports for table in port.tables
+        )
+        tables = tuple(machine.table(each) for each in read if machine.has_table(each))
+        body = on_mounts(machine)
+        shell = None
+        if self.shell is not None:
+            shell = shared(tables, partial(bending_shell, machine, self.shell))
+        return shared((body, tables), lambda: LoadPath(body, shell))
+
+    def _of_case(self, lines: Lines, loads: Mapping[str, Loads], path: LoadPath) -> ReceivedSound:
+        receivers = len(self.microphones.rigid(lines.frequency_hz[:1]))
+        pressure = np.zeros((len(loads), receivers, lines.frequency_hz.size), dtype=complex)
+        for number, load in enumerate(lines.loads.values()):
+            pressure[number] += path.observed(self.microphones, load, lines.frequency_hz)
+        noise = [
+            NoisePower(number, part.frequency_hz, path.noise_power(self.microphones, part))
+            for number, load in enumerate(loads.values())
+            for part in load.noise
+        ]
+        return ReceivedSound(lines, pressure, tuple(noise))
+
+    def lines(self, key: CaseKey, cases: Cases) -> Lines:
+        """Lay the loads of a case on lines: as many orders as the wrenches have, more on a shell.
+
+        On an elastic shell the orders reach up to the highest frequency.
+        """
+        case = cases.cases[key]
+        highest = self.study.highest_order(case.speed_rpm)
+        if self.study.drives_shell:
+            highest = max(highest, case.maximum_order)
+        return lines_of(cases.loads[key], case.shaft_frequency_hz, highest, cases.wrenches[key])

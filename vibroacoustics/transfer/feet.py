@@ -6,10 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.arrays import Array, ComplexArray
-from ..machine.feet import FOOT_NAMES, Feet, Foot
+from ..machine.feet import FOOT_NAMES, Feet, Foot, Mounts, MountStiffness
 from ..machine.floor import Floor, FloorMobility
-from ..machine.mount_stiffness import MountStiffness
-from ..machine.mounts import Mounts
 from ..mechanics.bushings import Bushing
 
 

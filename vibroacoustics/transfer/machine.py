@@ -11,12 +11,10 @@ from scipy.optimize import brentq
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
-from ..machine.feet import FOOT_NAMES, Feet
+from ..machine.feet import FOOT_NAMES, Feet, Mounts, MountStiffness
 from ..machine.floor import Floor, FloorMobility
 from ..machine.housing import Housing
 from ..machine.machine import Machine
-from ..machine.mount_stiffness import MountStiffness
-from ..machine.mounts import Mounts
 from ..machine.suspension import BLOCK, DischargeTube, Suspension
 from ..mechanics.bushings import NO_BODIES, AttachedBodies, Bushing, RigidBody
 from ..mechanics.ports import HOUSING, BodyPort

@@ -15,9 +15,13 @@ from ..machine.shell_structure import JOINTS, ShellStructure, ShellVariation
 from ..mechanics.ports import WRENCH
 from .cavity.in_shell import GasInShell
 from .shell_modes.loads import JOINT_LOADS, JointLoads
-from .shell_modes.mobility import modal_forces, velocity_per_force
 from .shell_modes.modes import ShellMode, elastic_shell
-from .shell_modes.projection import ProjectedModes, least_frequency_factor
+from .shell_modes.projection import (
+    ProjectedModes,
+    least_frequency_factor,
+    modal_forces,
+    velocity_per_force,
+)
 from .shell_modes.sampled import SampledMode
 
 MODES_BEYOND: Final = 1.1

@@ -12,9 +12,8 @@ from ..machine.shell_structure import ShellVariation
 from ..machine.stator_yoke import STATOR_YOKE, YOKE_ORDERS, StatorYoke
 from .path import ShellPath
 from .shell_modes.loads import mean_over_band
-from .shell_modes.mobility import velocity_per_force
 from .shell_modes.modes import ShellMode
-from .shell_modes.projection import ProjectedModes
+from .shell_modes.projection import ProjectedModes, velocity_per_force
 from .shell_modes.statics import local_flexibility_factor
 
 

@@ -12,8 +12,8 @@ from ..base.decibel import level_of_power
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.agreement import Datum, with_noise
 from ..levels.changes import FORCES, TOTAL, change_db
+from ..levels.declared_level import Published
 from ..levels.nominal import Sound
-from ..levels.published import Published
 from ..levels.remainder import remaining
 from ..levels.spectrum_data import SpectrumData
 from ..machine.machine import Machine

@@ -8,7 +8,7 @@ its prior density and likelihood with this input, relative to those with which i
 from collections.abc import Iterator
 from typing import Any, Final, NamedTuple
 
-from ..levels.published import Published, published_of
+from ..levels.declared_level import Published, published_of
 from ..study.regimes import regimes_of
 from ..study.study import Study
 

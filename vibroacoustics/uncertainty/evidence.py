@@ -13,8 +13,8 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import power_of_level
 from ..levels.agreement import LEVELS_DB, log_likelihood, log_weight_of_points, log_weights
 from ..levels.by_source import gain_band_number
+from ..levels.declared_level import Published, published_of
 from ..levels.nominal import NominalSound, Sound
-from ..levels.published import Published, published_of
 from ..levels.remainder import (
     UNMODELLED_MIDDLE_HZ,
     in_spectrum,

@@ -11,8 +11,7 @@ from ..base.decibel import power_of_level
 from ..base.quantiles import weighted_quantiles
 from ..base.vocabulary import HIGH, LOW, NOMINAL, SUFFIXES, stamped
 from ..levels.labelled import level
-from ..levels.room_levels import AirInRoom
-from ..levels.room_rest import beside_model
+from ..levels.room_levels import AirInRoom, beside_model
 from ..results.estimates import QUANTILES, has_samples, in_samples
 
 _SHARES: Final = {SUFFIXES[LOW]: QUANTILES[0], "": 0.5, SUFFIXES[HIGH]: QUANTILES[1]}

@@ -9,8 +9,8 @@ from scipy.stats import chi2, norm
 
 from ..base.arrays import Array
 from ..base.vocabulary import REFERENCE_OPTION, stamped
-from ..levels.added_changes import change_at, total_change
 from ..levels.by_source import GAIN_BANDS
+from ..levels.changes import change_at, total_change
 from ..study.sampling import Sample, sample_at
 from .sliders import NODES, Compute, Slider, band_levels
 

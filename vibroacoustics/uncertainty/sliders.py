@@ -8,7 +8,7 @@ import numpy as np
 from scipy.stats import rankdata
 
 from ..base.arrays import Array
-from ..levels.added_changes import change_at, total_change
+from ..levels.changes import change_at, total_change
 from ..levels.labelled import level
 from ..study.sampling import Sample, sample_at
 from ..study.uncertainty import Range

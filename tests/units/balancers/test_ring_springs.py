@@ -8,7 +8,7 @@ from vibroacoustics.balancers.bias_spring import BiasSpring
 from vibroacoustics.balancers.torsion_spring import TorsionSpring
 from vibroacoustics.balancers.twin_oldham import TwinOldham, TwinRing
 from vibroacoustics.mechanics.capabilities import OldhamRing
-from vibroacoustics.sources.oldham_keys.parameters import OldhamKeys
+from vibroacoustics.sources.oldham_keys.contact import OldhamKeys
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
 from vibroacoustics.study.loading import load_machine
 

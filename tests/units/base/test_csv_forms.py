@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import vibroacoustics as va
 from vibroacoustics.base.column_file import read_columns
 from vibroacoustics.base.csv_form import decoded
-from vibroacoustics.machine.mount_stiffness import MountStiffness
+from vibroacoustics.machine.feet import MountStiffness
 from vibroacoustics.measured.baselines import tables
 from vibroacoustics.mechanisms.tabulated.csv_layout import read_csv
 from vibroacoustics.mechanisms.tabulated.spectra import COMPONENTS

@@ -3,8 +3,15 @@
 import numpy as np
 import pytest
 
-from vibroacoustics.base.curve_dataset import axis_words, curves_dataset, shown, shown_label
-from vibroacoustics.base.curves import Curve, CurveAxis, angle_axis
+from vibroacoustics.base.curves import (
+    Curve,
+    CurveAxis,
+    angle_axis,
+    axis_words,
+    curves_dataset,
+    shown,
+    shown_label,
+)
 from vibroacoustics.base.errors import ParameterError
 
 ANGLE = angle_axis(np.array([0.0, 1.0, 2.0]))

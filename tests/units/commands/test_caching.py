@@ -10,7 +10,7 @@ import xarray as xr
 from support import ROOT, TINY, assert_refused, command_here, tiny_run
 
 from vibroacoustics import open_results, report, write_report
-from vibroacoustics.base.hashing import sha256
+from vibroacoustics.base.plain_bytes import sha256
 from vibroacoustics.commands import messages
 from vibroacoustics.results import cache, storage
 

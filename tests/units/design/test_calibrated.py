@@ -23,7 +23,7 @@ from vibroacoustics.machine.cases import Cases
 from vibroacoustics.pipeline import run
 from vibroacoustics.pipeline.study import chain_with
 from vibroacoustics.results.estimates import QUANTILES, estimate
-from vibroacoustics.transfer.received import Transmission
+from vibroacoustics.transfer.contributions import Transmission
 from vibroacoustics.uncertainty.discrepancy import Discrepancy
 from vibroacoustics.uncertainty.sampled_cases import sampled_cases
 

@@ -128,7 +128,7 @@ def test_fifty_random_designs_are_those_of_runs():
 
 def test_a_memo_computes_once_per_values_read_and_keeps_errors(monkeypatch):
     from vibroacoustics.base.field_reads import watched
-    from vibroacoustics.machine.mounts import Mounts
+    from vibroacoustics.machine.feet import Mounts
 
     names = ["pitch", "stiffness", "loss"]
     fields = ("pitch_m", "vertical_stiffness_n_per_m", "loss_factor_ratio")

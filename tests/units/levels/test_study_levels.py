@@ -9,12 +9,13 @@ import xarray as xr
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.levels.axes import LevelAxes
 from vibroacoustics.levels.by_source import SourceSound, gain_band_number
-from vibroacoustics.levels.insertion_loss import airborne_factor, remaining_factor
 from vibroacoustics.levels.lines import line_pressure
 from vibroacoustics.levels.remainder import (
+    airborne_factor,
     in_spectrum,
     over_published,
     remaining,
+    remaining_factor,
     unmodelled_bands,
     unmodelled_square,
 )

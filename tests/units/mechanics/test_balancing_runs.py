@@ -9,7 +9,7 @@ from vibroacoustics.mechanics.balancing.coefficients import (
     coefficients,
     scatter_of_runs,
 )
-from vibroacoustics.mechanics.balancing.holes import chosen_pieces, positions, split_moment
+from vibroacoustics.mechanics.balancing.planes import chosen_pieces, positions, split_moment
 
 SEED = 1911
 ROWS, PLANES = 6, 2

@@ -20,10 +20,14 @@ from vibroacoustics.mechanics.capabilities import Slider
 from vibroacoustics.mechanics.moving_parts import wrench
 from vibroacoustics.mechanics.rotation import constant_rotation
 from vibroacoustics.mechanisms.hermetic.cycle import (
+    bearing_cycles,
     cycle_at_speed,
     mean_speed_rad_per_s,
+    motion_of,
     steady_cycle,
+    support_reaction,
     uniform_samples,
+    works_per_cycle_j,
 )
 from vibroacoustics.mechanisms.hermetic.gas import (
     dead_centres,
@@ -35,12 +39,6 @@ from vibroacoustics.mechanisms.hermetic.gas import (
 )
 from vibroacoustics.mechanisms.hermetic.journal_bearing import film_coordinates, short_bearing_force
 from vibroacoustics.mechanisms.hermetic.pin import crank_point, mechanism_motion, rod_motion
-from vibroacoustics.mechanisms.hermetic.results import (
-    bearing_cycles,
-    motion_of,
-    support_reaction,
-    works_per_cycle_j,
-)
 from vibroacoustics.mechanisms.hermetic.revolution import hermetic_revolution, housing_wrenches
 from vibroacoustics.study.loading import load_machine, load_study
 

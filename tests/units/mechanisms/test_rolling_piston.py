@@ -12,9 +12,12 @@ from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.mechanics.rolling_piston import RollingPiston
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.mechanics.torque_control import TorqueControl
-from vibroacoustics.mechanisms.rolling_piston.bearings import bearing_forces_n
 from vibroacoustics.mechanisms.rolling_piston.contact import contact_turn, first_contact
-from vibroacoustics.mechanisms.rolling_piston.cycle import RollingPistonCycle, steady_cycle
+from vibroacoustics.mechanisms.rolling_piston.cycle import (
+    RollingPistonCycle,
+    bearing_forces_n,
+    steady_cycle,
+)
 from vibroacoustics.mechanisms.rolling_piston.gas import gas_of
 from vibroacoustics.mechanisms.rolling_piston.geometry import (
     compression_volume,

@@ -26,7 +26,7 @@ from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.cavity.of_machine import gas_of
 from vibroacoustics.transfer.frame.of_machine import frame_on_shell
 from vibroacoustics.transfer.natural_frequencies import gas_frequencies
-from vibroacoustics.transfer.shell_modes.mobility import velocity_per_force
+from vibroacoustics.transfer.shell_modes.projection import velocity_per_force
 
 DISCHARGE_DOME, SUCTION_ANNULUS = SPACES
 WITHOUT = 'without = ["frame"]\n'

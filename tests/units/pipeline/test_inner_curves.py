@@ -11,7 +11,7 @@ from machine_files import machine_file
 from support import PIPELINES, ROOT, assert_refused, command_here
 
 import vibroacoustics as va
-from vibroacoustics.base.curve_dataset import shown
+from vibroacoustics.base.curves import shown
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.machine.machine import MACHINES, Machine
 from vibroacoustics.report.charts.marks import Bars, Line

@@ -43,12 +43,14 @@ from vibroacoustics.radiation.scene import machine_body
 from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity
 from vibroacoustics.results.estimates import nominal
 from vibroacoustics.sources.cases import cases_of, loaded_cases, loads_of
-from vibroacoustics.sources.induction_motor.parameters import CapacitorMotor
-from vibroacoustics.sources.induction_motor.revolving_fields import on_supply, point_at_torque
-from vibroacoustics.sources.keys import OldhamKeyForces
+from vibroacoustics.sources.induction_motor.revolving_fields import (
+    CapacitorMotor,
+    on_supply,
+    point_at_torque,
+)
+from vibroacoustics.sources.keys import OldhamKeyForces, spectral_density
 from vibroacoustics.sources.oldham_keys.contact import contact_stiffness_n_per_m1p5
 from vibroacoustics.sources.oldham_keys.rattle import steady_key_forces
-from vibroacoustics.sources.oldham_keys.spectra import spectral_density
 from vibroacoustics.sources.part_loads import key_torque_n_m
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.samples import with_sample

@@ -21,8 +21,8 @@ from vibroacoustics.radiation.outdoors.green import (
     reflection_coefficient,
 )
 from vibroacoustics.radiation.revolution.mesh import mesh
-from vibroacoustics.radiation.revolution.over_ground import over_ground
 from vibroacoustics.radiation.revolution.radiator import WallPressure
+from vibroacoustics.radiation.revolution.sampling import over_ground
 from vibroacoustics.radiation.transfer_vectors import transfer_vectors
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.receivers import Receiver

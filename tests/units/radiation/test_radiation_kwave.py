@@ -15,7 +15,7 @@ from support import PEAK_MEMORY, cube_box, in_child
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.radiation import device, kwave, room_green, room_grid
 from vibroacoustics.radiation.exact import Mirror, box_green
-from vibroacoustics.radiation.pulse import pulse, pulse_duration_s
+from vibroacoustics.radiation.near_step import pulse, pulse_duration_s
 from vibroacoustics.radiation.room_grid import RoomGrid
 
 FLOOR = floor(-0.1)

@@ -17,12 +17,12 @@ from vibroacoustics.radiation.exact import Mirror, box_green
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_memory import check_memory, memory_bytes
+from vibroacoustics.radiation.near_step import RunningTransform, transform_bytes
 from vibroacoustics.radiation.patterns import (
     Pattern,
     rigid_body,
     rigid_body_velocity,
 )
-from vibroacoustics.radiation.pulse import RunningTransform, transform_bytes
 from vibroacoustics.radiation.scene import Scene
 from vibroacoustics.radiation.task import Microphones
 

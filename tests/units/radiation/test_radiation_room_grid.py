@@ -12,7 +12,7 @@ from vibroacoustics.radiation.band_limited import (
     interpolation_weights,
 )
 from vibroacoustics.radiation.exact import Mirror, images
-from vibroacoustics.radiation.pulse import pulse, pulse_duration_s, pulse_width_s, transform
+from vibroacoustics.radiation.near_step import pulse, pulse_duration_s, pulse_width_s, transform
 from vibroacoustics.radiation.room_green import steps_per_sample
 
 FLOOR = floor(-0.1)

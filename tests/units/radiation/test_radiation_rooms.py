@@ -27,18 +27,16 @@ from vibroacoustics.radiation.rooms.diffuse import (
     volume_m3,
 )
 from vibroacoustics.radiation.rooms.impedance import (
+    AbsorptionWarning,
     Branches,
     fitted_absorption,
     fitted_branches,
     random_absorption,
     random_absorption_slopes,
-)
-from vibroacoustics.radiation.rooms.room import MOST_ABSORPTION, OCTAVES_HZ, SIDES, material
-from vibroacoustics.radiation.rooms.wall_absorption import (
-    AbsorptionWarning,
     wall_absorption,
     warn_of_absorption,
 )
+from vibroacoustics.radiation.rooms.room import MOST_ABSORPTION, OCTAVES_HZ, SIDES, material
 from vibroacoustics.radiation.rooms.wall_step import (
     WallPatch,
     Walls,

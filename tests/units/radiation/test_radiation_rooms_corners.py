@@ -8,7 +8,7 @@ from corner_elements import squared_wavenumbers
 
 from vibroacoustics.base.constants import SPEED_OF_SOUND_M_PER_S
 from vibroacoustics.radiation.rooms import Block, Room, RoomSettings
-from vibroacoustics.radiation.rooms import edges as edges_module
+from vibroacoustics.radiation.rooms import wall_step as edges_module
 from vibroacoustics.radiation.rooms.air import stable_air
 from vibroacoustics.radiation.rooms.cutting import cut, faces
 

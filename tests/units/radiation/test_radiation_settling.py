@@ -8,12 +8,12 @@ from vibroacoustics.base.errors import SolverError
 from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.radiation import near_run
 from vibroacoustics.radiation.bodies import turned
+from vibroacoustics.radiation.cut_cells import Settling, spread_points, watched_frequencies
 from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.machine_side import MachineSide, near_fields
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import Scene
-from vibroacoustics.radiation.settling import Settling, spread_points, watched_frequencies
 from vibroacoustics.radiation.task import Microphones
 
 FREQUENCY_HZ = np.array([50.0, 117.0, 500.0, 1000.0])

@@ -12,8 +12,8 @@ from vibroacoustics.radiation.bodies import Body, block, join_bodies, sphere, tu
 from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_grid import near_grid
+from vibroacoustics.radiation.near_run import Recording
 from vibroacoustics.radiation.patterns import Pattern, rigid_body
-from vibroacoustics.radiation.recording import Recording
 from vibroacoustics.radiation.symmetry import symmetric_axes
 
 CAN = turned(capped_cylinder(0.083, -0.11, 0.14, 0.03))

@@ -9,14 +9,13 @@ from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.radiation import near_grid as near_grid_module
 from vibroacoustics.radiation.bodies import block, join_bodies, sphere, turned
-from vibroacoustics.radiation.by_cut_cells import check_grids_agree
+from vibroacoustics.radiation.by_cut_cells import check_grids_agree, check_walls, solid_parts
 from vibroacoustics.radiation.exact import Mirror
 from vibroacoustics.radiation.machine_side import Radiated, near_fields
 from vibroacoustics.radiation.near_field import NearField
 from vibroacoustics.radiation.near_grid import COURANT_NUMBER, near_grid
 from vibroacoustics.radiation.patterns import rigid_body
 from vibroacoustics.radiation.scene import Scene
-from vibroacoustics.radiation.thin_walls import check_walls, solid_parts
 
 MACHINE = turned(capped_cylinder(0.0825, -0.19, 0.1))
 

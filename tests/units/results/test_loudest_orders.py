@@ -5,7 +5,7 @@ import pytest
 
 from vibroacoustics import OrderAnalysis, SpeedChannel, analyse_orders, label_recording
 from vibroacoustics.levels import a_weighting
-from vibroacoustics.levels.tick_levels import windowed_mean_square
+from vibroacoustics.levels.recorded import windowed_mean_square
 from vibroacoustics.orders import block_orders
 from vibroacoustics.orders.loud_lines import a_weighted_power, band_power, standing_out
 from vibroacoustics.report.recordings import analysis_of_orders

@@ -11,7 +11,7 @@ from support import tiny_run
 from vibroacoustics import analyse_orders, compare, label_recording
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
-from vibroacoustics.declaration.vibration import vibration
+from vibroacoustics.declaration.facts import vibration
 from vibroacoustics.report.compared.orders import (
     compared_data,
     compared_facts,

@@ -22,9 +22,8 @@ from vibroacoustics.base.arrays import Array
 from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.base.folder import opened_folder
 from vibroacoustics.base.forms import has_form, returned
-from vibroacoustics.base.hashing import sha256
 from vibroacoustics.base.pieces import following_from, stored
-from vibroacoustics.base.plain_bytes import from_bytes, to_bytes
+from vibroacoustics.base.plain_bytes import from_bytes, sha256, to_bytes
 from vibroacoustics.base.registry import Origin
 from vibroacoustics.design.evaluation import Evaluation
 from vibroacoustics.levels.by_source import SourceSound
@@ -125,7 +124,7 @@ def test_value_of_another_type_is_refused(value: Any) -> None:
         '["os:system","true"]', '["subprocess:Popen","true"]',
         '["vibroacoustics.base.folder:os.system","true"]',
         '["vibroacoustics.base.folder:os","true"]',
-        '["vibroacoustics.base.hashing:sha256","true"]',
+        '["vibroacoustics.base.plain_bytes:sha256","true"]',
         '["vibroacoustics.results.run_pieces:RunPieces","true"]',
         '["array",true,"|O","C",1]', '["nothing",1]',
     ],

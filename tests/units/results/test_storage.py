@@ -14,7 +14,7 @@ from support import append_hash, in_child
 
 import vibroacoustics as va
 from vibroacoustics.base.errors import StorageError
-from vibroacoustics.base.hashing import sha256
+from vibroacoustics.base.plain_bytes import sha256
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.results import hashed, netcdf, storage
 

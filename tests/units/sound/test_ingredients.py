@@ -10,7 +10,7 @@ from sources_study import sources_run
 from vibroacoustics.base.errors import ParameterError, SchemaError
 from vibroacoustics.levels.axes import LevelAxes
 from vibroacoustics.levels.bands import bands_between
-from vibroacoustics.levels.continuous import noise_levels
+from vibroacoustics.levels.lines import noise_levels
 from vibroacoustics.mechanics.loads import Lines
 from vibroacoustics.mechanics.received_sound import NoisePower, ReceivedSound
 from vibroacoustics.sound.ingredients import ingredients

@@ -21,7 +21,7 @@ from vibroacoustics.sound.prominence import judged_tones
 from vibroacoustics.sound.tonality import tones
 from vibroacoustics.sound.tone_spectra import ToneSpectra, nominal_spectra, tone_levels
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.transfer.received import Transmission
+from vibroacoustics.transfer.contributions import Transmission
 
 CENTRE_HZ = np.array([band.middle_hz for band in bands_between(3, 20.0, 16000.0)])
 REFERENCE = 4e-10

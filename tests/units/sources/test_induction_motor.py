@@ -19,8 +19,8 @@ from vibroacoustics.mechanics.crankshaft import steady_rotation
 from vibroacoustics.mechanics.ports import HOUSING
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.sources import motor as motor_source
-from vibroacoustics.sources.induction_motor.parameters import CapacitorMotor
 from vibroacoustics.sources.induction_motor.revolving_fields import (
+    CapacitorMotor,
     breakdown_slip,
     field_impedance,
     on_supply,

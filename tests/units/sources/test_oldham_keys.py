@@ -18,17 +18,16 @@ from support import ROOT
 
 from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.base.units import shaft_frequency_hz
-from vibroacoustics.sources.keys import resolved_orders
-from vibroacoustics.sources.oldham_keys import rattle
-from vibroacoustics.sources.oldham_keys.contact import Face, key_face
-from vibroacoustics.sources.oldham_keys.equations import NORMAL, Coupling, Drive, accelerations
-from vibroacoustics.sources.oldham_keys.integration import integrate
-from vibroacoustics.sources.oldham_keys.parameters import OldhamKeys
-from vibroacoustics.sources.oldham_keys.rattle import contact_loss_speed_rpm, steady_key_forces
-from vibroacoustics.sources.oldham_keys.spectra import (
+from vibroacoustics.sources.keys import (
+    resolved_orders,
     spectral_density,
     split_periodic,
 )
+from vibroacoustics.sources.oldham_keys import rattle
+from vibroacoustics.sources.oldham_keys.contact import Face, OldhamKeys, key_face
+from vibroacoustics.sources.oldham_keys.equations import NORMAL, Coupling, Drive, accelerations
+from vibroacoustics.sources.oldham_keys.integration import integrate
+from vibroacoustics.sources.oldham_keys.rattle import contact_loss_speed_rpm, steady_key_forces
 
 # Keys as the machine file has them.
 KEYS_TOML = """

@@ -10,7 +10,7 @@ from test_scroll_gas import CASES, GAS, OTHER_WRAPS, WRAPS, gas_of
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.orders import order_spectrum
 from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
-from vibroacoustics.sources.scroll_gas.pressures import (
+from vibroacoustics.sources.scroll_gas.suction import (
     pocket_pressure,
 )
 

@@ -33,14 +33,15 @@ from support import ROOT
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.orders import order_spectrum
-from vibroacoustics.sources.scroll_gas.chambers import (
+from vibroacoustics.sources.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
+from vibroacoustics.sources.scroll_gas.parameters import (
+    ScrollGas,
+    ScrollWraps,
     area_inside,
     contact_angle,
     pocket_volume,
 )
-from vibroacoustics.sources.scroll_gas.cycle import ScrollGasCycle, scroll_gas_cycle
-from vibroacoustics.sources.scroll_gas.parameters import ScrollGas, ScrollWraps
-from vibroacoustics.sources.scroll_gas.pressures import (
+from vibroacoustics.sources.scroll_gas.suction import (
     pocket_pressure,
 )
 

@@ -10,19 +10,18 @@ from test_scroll_gas import OTHER_WRAPS
 from vibroacoustics.mechanics.nozzle import nozzle_flow
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.sources.scroll_gas import leakage as leakage_module
-from vibroacoustics.sources.scroll_gas.chambers import (
+from vibroacoustics.sources.scroll_gas.cycle import _of_suction_pockets, scroll_gas_cycle
+from vibroacoustics.sources.scroll_gas.leakage import gap_area_m2
+from vibroacoustics.sources.scroll_gas.opening import opening_constants, steady_opening
+from vibroacoustics.sources.scroll_gas.opening_equations import density
+from vibroacoustics.sources.scroll_gas.parameters import (
+    ScrollLeakage,
     chamber_volume_m3,
     contact_angle,
     pair_volume_m3,
     pocket_volume,
 )
-from vibroacoustics.sources.scroll_gas.cycle import _of_suction_pockets, scroll_gas_cycle
-from vibroacoustics.sources.scroll_gas.leakage import gap_area_m2
-from vibroacoustics.sources.scroll_gas.opening import opening_constants, steady_opening
-from vibroacoustics.sources.scroll_gas.opening_equations import density
-from vibroacoustics.sources.scroll_gas.parameters import ScrollLeakage
-from vibroacoustics.sources.scroll_gas.pressures import pocket_pressure
-from vibroacoustics.sources.scroll_gas.suction import suction_flow
+from vibroacoustics.sources.scroll_gas.suction import pocket_pressure, suction_flow
 
 ANGLE = uniform_crank_angle(8192)
 TURN = 2.0 * np.pi

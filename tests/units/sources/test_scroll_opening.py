@@ -10,14 +10,6 @@ from test_scroll_gas import OTHER_WRAPS
 
 from vibroacoustics.base.errors import ParameterError, SolverError
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
-from vibroacoustics.sources.scroll_gas.chambers import (
-    chamber_volume_m3,
-    contacts_at_opening,
-    least_chamber_volume_m3,
-    pair_volume_m3,
-    pocket_volume,
-    swept_volume_m3,
-)
 from vibroacoustics.sources.scroll_gas.cycle import scroll_gas_cycle
 from vibroacoustics.sources.scroll_gas.opening import (
     REPEATED,
@@ -27,7 +19,15 @@ from vibroacoustics.sources.scroll_gas.opening import (
     steady_opening,
 )
 from vibroacoustics.sources.scroll_gas.opening_equations import density
-from vibroacoustics.sources.scroll_gas.pressures import built_in_pressure_pa, pocket_pressure
+from vibroacoustics.sources.scroll_gas.parameters import (
+    chamber_volume_m3,
+    contacts_at_opening,
+    least_chamber_volume_m3,
+    pair_volume_m3,
+    pocket_volume,
+    swept_volume_m3,
+)
+from vibroacoustics.sources.scroll_gas.suction import built_in_pressure_pa, pocket_pressure
 
 ANGLE = uniform_crank_angle(8192)
 HALF, TURN = np.pi, 2.0 * np.pi

@@ -8,7 +8,11 @@ from scroll_flanks import INNER, OUTER, area, fixed_flank, moved
 from scroll_openings import SPEED_RPM, WRAPS
 from test_scroll_gas import OTHER_WRAPS
 
-from vibroacoustics.sources.scroll_gas.chambers import contact_angle, pocket_volume, swept_volume_m3
+from vibroacoustics.sources.scroll_gas.parameters import (
+    contact_angle,
+    pocket_volume,
+    swept_volume_m3,
+)
 from vibroacoustics.sources.scroll_gas.suction import suction_flow
 
 TURN = 2.0 * np.pi

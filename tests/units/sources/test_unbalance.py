@@ -7,7 +7,7 @@ from support import PIPELINES
 
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.machine.balance_quality import BalanceQuality
+from vibroacoustics.machine.isolation import BalanceQuality
 from vibroacoustics.sources.unbalance import WRENCH, ResidualUnbalance
 
 ROUNDING = 3.0 * 128**2 * np.finfo(float).eps

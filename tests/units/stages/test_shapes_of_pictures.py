@@ -24,8 +24,7 @@ from vibroacoustics.stages.samples import Samples
 from vibroacoustics.stages.shown import Deflection, Energies
 from vibroacoustics.stages.stage import Given, advanced, applying
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.transfer.contributions import velocities
-from vibroacoustics.transfer.received import Transmission
+from vibroacoustics.transfer.contributions import Transmission, velocities
 
 
 @pytest.fixture(scope="module")

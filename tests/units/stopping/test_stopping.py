@@ -12,16 +12,15 @@ from support import ROOT, TINY, made_up_transfer_vectors
 from vibroacoustics import levels, pipeline
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import check, stamp
+from vibroacoustics.machine.feet import Mounts
 from vibroacoustics.machine.housing import Housing
-from vibroacoustics.machine.mounts import Mounts
 from vibroacoustics.mechanics.rotation import uniform_crank_angle
 from vibroacoustics.mechanisms.oldham_scroll.revolution import scroll_parts
 from vibroacoustics.report import render
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.sections.stopping import forces_table, sentences
 from vibroacoustics.stopping.equation import inertia_over_angle
-from vibroacoustics.stopping.labelled import stopping_variables
-from vibroacoustics.stopping.orders import MAP_REVOLUTIONS
+from vibroacoustics.stopping.labelled import MAP_REVOLUTIONS, stopping_variables
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.study import Study
 from vibroacoustics.transfer import MachineOnMounts

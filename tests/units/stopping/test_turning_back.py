@@ -20,9 +20,9 @@ from vibroacoustics.stopping.coasting import (
     run_down,
 )
 from vibroacoustics.stopping.equation import Coasting, path_derivatives
+from vibroacoustics.stopping.event import _height_of_brake, brake_on_parts
 from vibroacoustics.stopping.labelled import stopping_variables
 from vibroacoustics.stopping.reversal import STUCK_RATIO, TrappedGas
-from vibroacoustics.stopping.through_shell import _height_of_brake, brake_on_parts
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer import on_mounts
 

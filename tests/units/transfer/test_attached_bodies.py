@@ -13,7 +13,7 @@ from support import MACHINE_FILE, ROOT, TINY
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.machine.cases import Cases
-from vibroacoustics.machine.mount_stiffness import MountStiffness
+from vibroacoustics.machine.feet import MountStiffness
 from vibroacoustics.machine.option import Option
 from vibroacoustics.machine.suspension import BLOCK
 from vibroacoustics.mechanics.bushings import AttachedBodies, Bushing, RigidBody

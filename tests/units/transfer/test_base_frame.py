@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from vibroacoustics.machine.feet import Mounts
 from vibroacoustics.machine.housing import Housing
-from vibroacoustics.machine.mounts import Mounts
 from vibroacoustics.machine.suspension import BLOCK, Suspension
 from vibroacoustics.mechanics.bushings import RigidBody
 from vibroacoustics.mechanics.ports import HOUSING

@@ -11,11 +11,14 @@ from support import ROOT
 
 from vibroacoustics.machine.cavities import DischargeDome
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.transfer.cavity.elements import interpolation, matrices
-from vibroacoustics.transfer.cavity.in_shell import GasInShell, Mouth
-from vibroacoustics.transfer.cavity.modes import GasOrder
+from vibroacoustics.transfer.cavity.elements import (
+    annulus_profile,
+    disc_profile,
+    interpolation,
+    matrices,
+)
+from vibroacoustics.transfer.cavity.in_shell import GasInShell, GasOrder, Mouth
 from vibroacoustics.transfer.cavity.of_machine import spaces_of
-from vibroacoustics.transfer.cavity.profile import annulus_profile, disc_profile
 from vibroacoustics.transfer.cavity.response import DrivenGas
 from vibroacoustics.transfer.cavity.wall import WallPressure
 from vibroacoustics.transfer.path import computed_path

@@ -8,11 +8,9 @@ from support import ROOT, made_up_radiation
 
 from vibroacoustics import pipeline
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.machine.feet import Feet
+from vibroacoustics.machine.feet import Feet, Mounts, MountStiffness
 from vibroacoustics.machine.floor import Floor
 from vibroacoustics.machine.housing import Housing
-from vibroacoustics.machine.mount_stiffness import MountStiffness
-from vibroacoustics.machine.mounts import Mounts
 from vibroacoustics.report.sections.assumptions import not_modelled
 from vibroacoustics.study.loading import load_machine, load_study
 from vibroacoustics.transfer import MachineOnMounts, on_mounts

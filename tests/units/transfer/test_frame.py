@@ -9,9 +9,8 @@ from support import ROOT
 from vibroacoustics.machine.frame import PARTS
 from vibroacoustics.mechanics.critical_speed import free_scroll_shaft
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.transfer.frame.bearings import bearings_of
 from vibroacoustics.transfer.frame.contacts import contacts_of
-from vibroacoustics.transfer.frame.inner import inner_set
+from vibroacoustics.transfer.frame.inner import bearings_of, inner_set
 from vibroacoustics.transfer.frame.of_machine import SHAFT_ELEMENT_M
 from vibroacoustics.transfer.frame.on_shell import FrameOnShell
 

@@ -14,14 +14,13 @@ from vibroacoustics.machine.shell_structure import Joint
 from vibroacoustics.mechanics.journal_film import JournalFilm
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.frame.contacts import rigid_rows
-from vibroacoustics.transfer.frame.natural import answers
 from vibroacoustics.transfer.frame.of_machine import frame_on_shell
-from vibroacoustics.transfer.frame.symmetric import solve_symmetric, upper_pairs
+from vibroacoustics.transfer.frame.symmetric import answers, solve_symmetric, upper_pairs
 from vibroacoustics.transfer.natural_frequencies import framed_hz
 from vibroacoustics.transfer.path import computed_path
 from vibroacoustics.transfer.shell_modes.harmonic import Harmonic
-from vibroacoustics.transfer.shell_modes.mobility import velocity_per_force
 from vibroacoustics.transfer.shell_modes.modes import elastic_shell
+from vibroacoustics.transfer.shell_modes.projection import velocity_per_force
 from vibroacoustics.transfer.shell_modes.statics import WallFlexibility, local_flexibility_factor
 
 MACHINE = load_study(ROOT / "tests" / "studies" / "sources_made_up.toml").machine

@@ -17,9 +17,9 @@ from vibroacoustics.transfer.plate.driven import (
     input_power,
     likeness,
     near_power,
+    radiation_efficiency,
     wave_power,
 )
-from vibroacoustics.transfer.plate.radiation_efficiency import radiation_efficiency
 from vibroacoustics.transfer.plate.under_feet import modal_overlap, relative_variance
 
 STEEL = StructureBorne(

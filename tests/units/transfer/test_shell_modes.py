@@ -38,12 +38,12 @@ from vibroacoustics.transfer.shell_modes.elements import (
 from vibroacoustics.transfer.shell_modes.harmonic import Harmonic
 from vibroacoustics.transfer.shell_modes.loads import JointLoads, joint_forces
 from vibroacoustics.transfer.shell_modes.meridian import Meridian, bending_wavelength_m
-from vibroacoustics.transfer.shell_modes.mobility import modal_forces, patch_forces
 from vibroacoustics.transfer.shell_modes.modes import (
     ElasticShell,
     _largest_displacement,
     elastic_shell,
 )
+from vibroacoustics.transfer.shell_modes.projection import modal_forces, patch_forces
 from vibroacoustics.transfer.shell_modes.sampled import SampledMode
 
 PRINTED = ROOT / "data" / "validation" / "shell_modes.csv"

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from vibroacoustics.machine.feet import FOOT_NAMES
+from vibroacoustics.machine.feet import FOOT_NAMES, Mounts
 from vibroacoustics.machine.housing import Housing
-from vibroacoustics.machine.mounts import Mounts
 from vibroacoustics.transfer import MachineOnMounts
 
 

@@ -8,8 +8,8 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from vibroacoustics.base.errors import ParameterError, SolverError
+from vibroacoustics.machine.feet import Mounts
 from vibroacoustics.machine.housing import Housing
-from vibroacoustics.machine.mounts import Mounts
 from vibroacoustics.mechanics.bushings import Bushing, RigidBody
 from vibroacoustics.transfer import MachineOnMounts
 from vibroacoustics.transfer.isolation import Isolation

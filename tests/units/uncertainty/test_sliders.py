@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from sources_study import SOURCES_STUDY, made_up_modes
 
-from vibroacoustics.levels.added_changes import change_at, total_change
+from vibroacoustics.levels.changes import change_at, total_change
 from vibroacoustics.levels.nominal import NominalSound, by_source
 from vibroacoustics.levels.remainder import remaining
 from vibroacoustics.levels.sample_levels import lines_of
@@ -17,7 +17,7 @@ from vibroacoustics.study.loading import load_study
 from vibroacoustics.study.samples import with_sample
 from vibroacoustics.study.sampling import sample_at
 from vibroacoustics.study.uncertainty import Range
-from vibroacoustics.transfer.received import Transmission
+from vibroacoustics.transfer.contributions import Transmission
 from vibroacoustics.uncertainty.evidence import Evidence
 from vibroacoustics.uncertainty.prior_ensemble import PriorEnsemble
 from vibroacoustics.uncertainty.representative import nearest_row

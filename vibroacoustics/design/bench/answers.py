@@ -6,13 +6,16 @@ from typing import Final, Literal, NamedTuple
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray
-from ...mechanics.balancing.holes import Piece, chosen_pieces, positions, split_moment
 from ...mechanics.balancing.moments import worst_speed_moments
 from ...mechanics.balancing.planes import (
     Dependence,
+    Piece,
+    chosen_pieces,
     dependence,
     least_norm_moments,
+    positions,
     sound_moments,
+    split_moment,
     without_plane,
 )
 

@@ -10,7 +10,7 @@ from typing import Any, Final
 import xarray as xr
 
 from ...base.arrays import Array
-from ...base.hashing import canonical_json, sha256
+from ...base.plain_bytes import canonical_json, sha256
 from ...base.progress import no_progress
 from ...base.registry import plugins
 from ...pipeline.study import run

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray
-from ...base.hashing import canonical_json, sha256
+from ...base.plain_bytes import canonical_json, sha256
 from ...base.progress import no_progress
 from ...levels.by_source import GAIN_BANDS, a_weight_by_band, membership
 from ...machine.machine import Machine
@@ -20,10 +20,10 @@ from ...radiation.transfer_vectors import pressure_per_velocity
 from ...stages.shell import shell_path
 from ...study.study import Study
 from ...transfer.bending import BendingShell, bending_shell
+from ...transfer.contributions import Transmission
 from ...transfer.load_path import LoadPath
 from ...transfer.machine import on_mounts
 from ...transfer.observers import Observers
-from ...transfer.received import Transmission
 from .layout import Layout, RandomLoad
 from .memo import Budget
 

@@ -10,7 +10,7 @@ from ...base.arrays import Array
 from ...base.errors import StorageError
 from ...base.folder import Folder, make_folder, opened_folder
 from ...base.forms import has_form
-from ...base.hashing import canonical_json, sha256
+from ...base.plain_bytes import canonical_json, sha256
 from ...results.files import LOCK_NAME, STAGING_NAME, naming, replace_all, staging, write
 from ...results.lock import locked
 from ...results.piece_files import PieceFiles

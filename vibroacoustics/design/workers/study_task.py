@@ -11,7 +11,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from ...base.errors import ParameterError
-from ...base.hashing import canonical_json, sha256
+from ...base.plain_bytes import canonical_json, sha256
 from ...base.plugin_file import load_plugin
 from ...base.regular_file import read_bytes
 from ...radiation.given import Radiation

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.column_head import HEAD_LINES
-from ...base.csv_rows import read_lines
+from ...base.csv_text import read_lines
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ...recordings.functions import read_functions

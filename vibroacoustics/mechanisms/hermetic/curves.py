@@ -10,11 +10,17 @@ from ...base.curves import ORBIT_AXES, Curve, CurveAxis, angle_axis
 from ...base.units import shaft_frequency_hz
 from ...mechanics.beam_rotor import with_disc
 from ...mechanics.whirl_curves import campbell_curve
-from .cycle import cycle_at_speed, uniform_samples
+from .cycle import (
+    BearingCycle,
+    bearing_cycles,
+    cycle_at_speed,
+    motion_of,
+    support_reaction,
+    uniform_samples,
+)
 from .gas import gas_force_n, piston_area_m2
 from .journal_bearing import damped_modes, linear_film
 from .parameters import Case, HermeticTables
-from .results import BearingCycle, bearing_cycles, motion_of, support_reaction
 from .shaft import ShaftEquations, crankshaft, rotor_matrices
 
 SOURCE: Final = "Estupiñan & Santos 2009, "

@@ -10,10 +10,17 @@ from ...mechanics.beam_rotor import NODE_DOFS
 from ...mechanics.crankshaft import every
 from ...mechanics.moving_parts import Revolution, Wrench, path
 from ...mechanics.rotation import Rotation
-from .cycle import cycle_at_speed, mean_speed_rad_per_s, uniform_samples
+from .cycle import (
+    bearing_cycles,
+    cycle_at_speed,
+    mean_speed_rad_per_s,
+    motion_of,
+    support_reaction,
+    uniform_samples,
+    works_per_cycle_j,
+)
 from .parameters import HermeticTables
 from .periodic_collocation import PeriodicSolution
-from .results import bearing_cycles, motion_of, support_reaction, works_per_cycle_j
 from .shaft import ShaftEquations, node_positions_m
 
 LEAST_STEPS: Final = 144

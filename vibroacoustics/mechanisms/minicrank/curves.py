@@ -18,8 +18,7 @@ from .cycle import (
     scroll_load,
     steady_minicrank_cycle,
 )
-from .links import Links, why_open
-from .parameters import MiniCrankTables
+from .links import Links, MiniCrankTables, why_open
 
 SOURCE: Final = "Zhao et al. 2013, "
 CRANK_ANGLES: Final = 3600

@@ -17,8 +17,7 @@ from ...mechanics.crankshaft import (
     steady_rotation,
 )
 from ...mechanics.rotation import Rotation, uniform_crank_angle
-from .links import FourBar, Links, why_open
-from .parameters import Masses, MiniCrankTables, ScrollLoads
+from .links import FourBar, Links, Masses, MiniCrankTables, ScrollLoads, why_open
 
 SAMPLES: Final = 14400
 """Crank angles a revolution. Errors of 10 µm make a torque peak some 1° wide: 40 samples."""

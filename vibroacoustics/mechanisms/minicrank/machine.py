@@ -9,8 +9,7 @@ from ...machine.limits import Limit
 from ...machine.machine import Machine
 from ...machine.speed_growth import SCROLL_OR_SCREW, Growth
 from ...mechanics.moving_parts import Revolution
-from .links import CLOSING
-from .parameters import MiniCrankTables
+from .links import CLOSING, MiniCrankTables
 
 
 @register

@@ -14,7 +14,7 @@ from .cycle import (
     steady_minicrank_cycle,
     turning_force,
 )
-from .parameters import MiniCrankTables
+from .links import MiniCrankTables
 
 
 def minicrank_revolution(machine: MiniCrankTables, speed_rpm: float, samples: int) -> Revolution:

@@ -14,8 +14,8 @@ from ...machine.stopping import CheckValve, Stopping, TurningBack
 from ...mechanics.capabilities import HEIGHT, BalancePlanes
 from ...mechanics.scroll_shaft import ScrollShaft
 from ...sources.air_gap.parameters import AirGap
-from ...sources.induction_motor.parameters import CapacitorMotor, TurningRotor
-from ...sources.oldham_keys.parameters import OldhamKeys
+from ...sources.induction_motor.revolving_fields import CapacitorMotor, TurningRotor
+from ...sources.oldham_keys.contact import OldhamKeys
 from ...sources.scroll_gas.parameters import (
     ScrollGas,
     ScrollLeakage,

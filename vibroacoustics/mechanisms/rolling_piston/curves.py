@@ -6,8 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...base.curves import CRANK_ANGLES, Curve, CurveAxis, angle_axis
-from .bearings import bearing_forces_n
-from .cycle import RollingPistonCycle
+from .cycle import RollingPistonCycle, bearing_forces_n
 from .geometry import compression_volume, suction_volume
 from .parameters import RollingPistonTables
 from .revolution import cycle_for

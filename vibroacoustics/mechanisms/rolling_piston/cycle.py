@@ -1,4 +1,4 @@
-"""Steady turn of the machine: gas, vane and roller of each cylinder, speed of the shaft."""
+"""Steady turn of the machine: gas, vane, roller, motor, speed of the shaft, bearing loads."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -7,16 +7,64 @@ from typing import Final
 import numpy as np
 
 from ...base.arrays import Array
-from ...base.errors import SolverError
+from ...base.errors import ParameterError, SolverError
 from ...base.units import shaft_frequency_hz
 from ...mechanics.crankshaft import DrivenRotation, steady_rotation
+from ...mechanics.moving_parts import MovingPart, circling, wrenches_of_parts
 from ...mechanics.rotation import Rotation
-from ..oldham_scroll.revolution import two_plane_balance
+from ...orders.spectrum import order_spectrum
+from ..oldham_scroll.revolution import counterweight, two_plane_balance
 from .contact import Contact, contact_turn, first_contact
-from .drive import control_torque_n_m
 from .gas import GasTurn, gas_of
-from .parameters import RollingPistonTables
+from .parameters import Drive, RollingPistonTables
 from .roller import journal_drag_n_m_s
+
+
+def control_torque_n_m(drive: Drive, load_n_m: Array) -> Array:
+    """Alternating torque with which an inverter follows the load's first orders, N m.
+
+    Orders 1 to n of the load; all smaller by one factor where mean and control together would take
+    more current than the drive has. Zero without a control.
+
+    Parameters
+    ----------
+    drive : with its control
+    load_n_m : torque against the rotation over uniform crank angles, shape (samples,)
+
+    Raises
+    ------
+    ParameterError
+        The current does not carry the mean load.
+    """
+    control = drive.control
+    if control is None:
+        return np.zeros_like(load_n_m)
+    spectrum = np.fft.rfft(load_n_m)
+    spectrum[0] = 0.0
+    spectrum[control.highest_order + 1 :] = 0.0
+    wave = np.asarray(np.fft.irfft(spectrum, n=load_n_m.size))
+    if control.current_limit_a is None:
+        return wave
+    room = drive.torque_per_current_nm_per_a * control.current_limit_a - float(np.mean(load_n_m))
+    if room < 0.0:
+        needed = float(np.mean(load_n_m)) / drive.torque_per_current_nm_per_a
+        raise ParameterError(
+            f"current_limit_a = {control.current_limit_a:g} A: must be at least {needed:.4g} A, "
+            "the current of the mean load"
+        )
+    return np.asarray(wave * min(1.0, room / max(float(np.max(wave)), np.finfo(float).tiny)))
+
+
+def torque_orders_n_m(torque_n_m: Array, highest: int) -> Array:
+    """Amplitudes of the orders 1 to `highest` over the crank angle, shape (highest,), N m.
+
+    Parameters
+    ----------
+    torque_n_m : over uniform crank angles, shape (samples,)
+    highest : order
+    """
+    return np.abs(order_spectrum(torque_n_m, highest)[1:])
+
 
 SAMPLES: Final = 1440
 """Crank angles a turn: a quarter of a degree."""
@@ -141,3 +189,55 @@ def _of_cylinder(rotation: Rotation, number: int) -> Rotation:
     return Rotation(
         np.roll(rotation.speed_rad_per_s, shift), np.roll(rotation.acceleration_rad_per_s2, shift)
     )
+
+
+def turning_parts(machine: RollingPistonTables, crank_angle: Array) -> list[MovingPart]:
+    """Eccentrics, rollers as masses on their centres, and counterweights on their circles.
+
+    Parameters
+    ----------
+    machine : masses in kg, lengths in m
+    crank_angle : shape (samples,), rad
+    """
+    radius, roller = machine.cylinder.eccentricity_m, machine.roller
+    parts = [
+        circling(name, mass, radius, height, crank_angle + lead)
+        for lead, height in machine.cylinder.stations
+        for name, mass in (("eccentric", roller.eccentric_mass_kg), ("roller", roller.mass_kg))
+    ]
+    planes = machine.counterweights
+    ends = {"upper_counterweight": planes.upper_height_m,
+            "lower_counterweight": planes.lower_height_m}  # fmt: skip
+    for (name, height), moment in zip(ends.items(), counterweight_moments(machine), strict=True):
+        parts.append(counterweight(name, moment, planes.radius_m, height, crank_angle))
+    return parts
+
+
+def bearing_forces_n(machine: RollingPistonTables, cycle: RollingPistonCycle) -> Array:
+    """Forces of the shaft on main and sub bearing, along and across the vane.
+
+    Gas and vane on the rollers less the inertia of all that circles, by the lever of two supports;
+    the rotor is balanced about its axis and the shaft rigid.
+
+    Parameters
+    ----------
+    machine : masses in kg, lengths in m
+    cycle : cycle of the machine
+
+    Returns
+    -------
+    shape (2, 2, samples), N: bearing, axis, crank angle
+    """
+    turning = wrenches_of_parts(turning_parts(machine, cycle.rotation.crank_angle), cycle.rotation)
+    force = sum(wrench.force_n[:2] for wrench in turning.values())
+    # a force f at height z has the moment (-z f_y, z f_x)
+    lever = sum(np.stack([each.moment_n_m[1], -each.moment_n_m[0]]) for each in turning.values())
+    for number, (_, height) in enumerate(machine.cylinder.stations):
+        on_roller = cycle.over_shaft(cycle.contacts[number].on_roller_n, number)
+        force, lever = force + on_roller, lever + height * on_roller
+    main, sub = (
+        machine.rotary_shaft.main_bearing_height_m,
+        machine.rotary_shaft.sub_bearing_height_m,
+    )
+    on_main = (lever - sub * force) / (main - sub)
+    return np.stack([on_main, force - on_main])

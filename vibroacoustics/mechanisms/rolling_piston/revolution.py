@@ -8,9 +8,14 @@ from ...base.units import shaft_frequency_hz
 from ...mechanics.crankshaft import every
 from ...mechanics.moving_parts import Revolution, Wrench, path, wrenches_of_parts
 from ...mechanics.rolling_piston import RollingHistories
-from .bearings import bearing_forces_n, turning_parts
-from .cycle import SAMPLES, RollingPistonCycle, steady_cycle
-from .drive import torque_orders_n_m
+from .cycle import (
+    SAMPLES,
+    RollingPistonCycle,
+    bearing_forces_n,
+    steady_cycle,
+    torque_orders_n_m,
+    turning_parts,
+)
 from .geometry import displaced_m3
 from .parameters import RollingPistonTables
 from .roller import (

@@ -10,13 +10,19 @@ from ...base.errors import ParameterError
 from ...base.progress import Progress
 from ...machine.shell import Shell
 from ..arrays import Array, ComplexArray
-from ..at_kwave import Vectors, closed_greens, differences_db, solver, with_kwave
 from ..box import Box, BoxField, closed_box
-from ..room_greens import check_receivers, room_greens
+from ..room_greens import (
+    Vectors,
+    check_receivers,
+    closed_greens,
+    differences_db,
+    room_greens,
+    solver,
+    with_kwave,
+)
 from ..task import Microphones, Task
-from .over_ground import over_ground
 from .profile import body_profile
-from .sampling import Sampled
+from .sampling import Sampled, over_ground
 from .side import Addition, RevolutionSide
 
 _NAME: Final = "boundary elements"

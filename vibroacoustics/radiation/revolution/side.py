@@ -20,10 +20,9 @@ from ...base.threads import in_threads, mapped_in_threads, processors
 from ..arrays import Array, ComplexArray, IndexArray
 from ..patterns import Pattern
 from .mesh import mesh
-from .over_ground import AtFrequency
 from .profile import above_floor, with_fewer_points
 from .radiator import Radiator, WallPressure
-from .sampling import Sampled, first_solved, interpolated, sample
+from .sampling import AtFrequency, Sampled, first_solved, interpolated, sample
 
 _ELEMENTS: Final = 20
 """Least number of elements on the meridian."""

@@ -10,7 +10,6 @@ from ...base.errors import SolverError
 from ..arrays import Array, IndexArray
 from .box_step import pass_seams, step_series, sum_on_sides, to_nodes, to_sides
 from .cutting import AirBox, End, Face
-from .edges import interface_air_m
 from .layout import (
     Layout,
     angular_frequencies,
@@ -21,7 +20,7 @@ from .layout import (
     left_out,
     series_mass_m,
 )
-from .wall_step import WallPatch, Walls, pass_walls
+from .wall_step import WallPatch, Walls, interface_air_m, pass_walls
 
 _LARGEST_PHASE: Final = 2.8
 """Phase of the highest term in a step, rad, where the search for the time step begins."""

@@ -30,10 +30,10 @@ from .diffuse import (
     line_of_sight,
     mean_square_per_power,
 )
+from .impedance import wall_absorption
 from .machine_in_room import green_of_foot, room_pressure_per_velocity, room_vectors
 from .plane import plane_gains
 from .room import OCTAVES_HZ, Block, Material, Patch, Room
-from .wall_absorption import wall_absorption
 
 _KEPT: Final = 8
 """Sets of frequencies whose values are kept: rigid motions and modes ask for the same."""

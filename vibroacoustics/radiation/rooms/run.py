@@ -20,8 +20,8 @@ from .air import Air, stable_air
 from .cutting import AirBox, Face, cut, faces
 from .diffuse import reverberation_time_s
 from .lattice import Lattice, holding, pieces_of
+from .machine_field import Pulse, Record
 from .reading import Readings
-from .record import Pulse, Record
 from .room import Room
 from .settings import RoomSettings
 

@@ -9,8 +9,15 @@ import xarray as xr
 from ...base.arrays import Array, IndexArray
 from ...base.vocabulary import REFERENCE_OPTION
 from ...results.over_speed.avoid import LEVEL, speeds_to_avoid
-from ...results.over_speed.modes import KINDS, Crossing, Mode, crossings, modes_of
-from ...results.over_speed.sound_lines import SoundLine, loudest_lines
+from ...results.over_speed.modes import (
+    KINDS,
+    Crossing,
+    Mode,
+    SoundLine,
+    crossings,
+    loudest_lines,
+    modes_of,
+)
 from ...results.stored_study import catalogue_receiver
 from ...results.titles import chosen
 from ..charts.axes import stacked

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array
-from ...base.curve_dataset import axis_words, is_words, shown, shown_label
+from ...base.curves import axis_words, is_words, shown, shown_label
 from ...base.errors import ParameterError
 from ...base.units import shaft_frequency_hz
 from ..charts.axes import stacked, ticks_at

@@ -12,8 +12,7 @@ from ...base.decibel import level_of_amplitude, level_of_power, power_of_level
 from ...base.rounding import FORCE_FLOOR, LEVEL_FLOOR_DB
 from ...base.vocabulary import REFERENCE_OPTION
 from ..stored_study import catalogue_receiver, options
-from .modes import Mode, modes_of
-from .sound_lines import sound_lines
+from .modes import Mode, modes_of, sound_lines
 
 STANDS_OUT_DB: Final = 3.0
 """Prominence of a maximum over the higher of the two valleys beside it: twice the power."""

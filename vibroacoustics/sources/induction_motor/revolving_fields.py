@@ -1,20 +1,56 @@
-"""Capacitor motor at steady speed by its forward and its backward revolving field.
+"""Capacitor motor at steady speed by its circuit and its two revolving fields."""
 
-Morrill 1929 ("The revolving-field theory of the capacitor motor", Trans. AIEE 48); for the
-impedances Fitzgerald, Kingsley & Umans, Electric Machinery, 6th ed., 9.3. Phasors are complex
-peaks; at time zero the line voltage has its maximum.
-"""
-
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from pydantic import Field
 from scipy.optimize import brentq, minimize_scalar
 
 from ...base.errors import ParameterError
+from ...base.parameters import Parameters
 from ...base.units import shaft_frequency_hz
-from .parameters import CapacitorMotor
+
+OHM = Field(gt=0.0, le=1e5)
+
+
+class CapacitorMotor(Parameters):
+    """A single-phase motor with a capacitor before its auxiliary winding.
+
+    Resistances and reactances are per phase at line frequency, those of the rotor and of
+    magnetising referred to the main winding; core loss is neglected.
+    """
+
+    line_voltage_v: float = Field(gt=0.0, le=1e5)
+    """Root mean square."""
+    line_frequency_hz: float = Field(ge=1.0, le=1e3)
+    pole_pairs: int = Field(ge=1, le=50)
+    main_resistance_ohm: float = OHM
+    main_leakage_ohm: float = OHM
+    auxiliary_resistance_ohm: float = OHM
+    auxiliary_leakage_ohm: float = OHM
+    magnetising_ohm: float = OHM
+    rotor_resistance_ohm: float = OHM
+    rotor_leakage_ohm: float = OHM
+    turns_ratio: float = Field(gt=0.0, le=10.0)
+    """Effective turns of the auxiliary winding over those of the main winding."""
+    capacitance_f: float = Field(gt=0.0, le=1.0)
+
+    @property
+    def line_rad_per_s(self) -> float:
+        return 2.0 * math.pi * self.line_frequency_hz
+
+    @property
+    def synchronous_speed_rad_per_s(self) -> float:
+        return self.line_rad_per_s / self.pole_pairs
+
+
+class TurningRotor(Parameters):
+    inertia_kg_m2: float = Field(gt=0.0, le=1e3)
+    """Inertia about the shaft's axis, of all that turns with it."""
+
 
 LARGEST_RUNNING_SLIP: Final = 0.5
 """The breakdown torque of a running compressor motor lies below this slip."""

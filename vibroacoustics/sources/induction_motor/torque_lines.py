@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base.arrays import Array, ComplexArray
-from .parameters import CapacitorMotor
-from .revolving_fields import OperatingPoint, point_at_torque
+from .revolving_fields import CapacitorMotor, OperatingPoint, point_at_torque
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,9 @@ from ...base.curves import Curve, CurveAxis, angle_axis
 from ...base.errors import ParameterError, SolverError
 from ...base.units import shaft_frequency_hz
 from ...mechanics.rotation import uniform_crank_angle
-from .contact import contact_mass_kg, key_face
+from .contact import OldhamKeys, contact_mass_kg, key_face
 from .equations import COORDINATES, KEYS, Coupling
 from .integration import SPEED, integrate
-from .parameters import OldhamKeys
 
 SETTLING_REVOLUTIONS: Final = 4
 """Revolutions omitted after the start, which has the keys midway in the slots. At rated load, at

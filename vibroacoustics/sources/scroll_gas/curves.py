@@ -12,11 +12,9 @@ from ...machine.cavities import DischargeMuffler
 from ...mechanics.rotation import uniform_crank_angle
 from ...orders import order_spectrum
 from ...transfer.four_poles import pipe, pressure_ratio, transmission_loss_db
-from .chambers import pocket_volume
 from .cycle import ScrollGasCycle, scroll_gas_cycle
-from .parameters import ScrollGas, ScrollWraps
-from .pressures import OpenedGas, TrappedGas, pocket_pressure
-from .suction import SuctionFlow
+from .parameters import ScrollGas, ScrollWraps, pocket_volume
+from .suction import OpenedGas, SuctionFlow, TrappedGas, pocket_pressure
 
 AFTER_OPENING: Final = np.pi / 3.0
 """Angle to which the pressure of a pocket is shown beyond its opening, rad."""

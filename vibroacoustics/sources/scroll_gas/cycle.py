@@ -6,9 +6,8 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...mechanics.moving_parts import path
-from .chambers import area_inside, contact_angle, contact_count
-from .parameters import ScrollGas, ScrollWraps
-from .pressures import OpenedGas, pocket_pressure
+from .parameters import ScrollGas, ScrollWraps, area_inside, contact_angle, contact_count
+from .suction import OpenedGas, pocket_pressure
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,6 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.errors import ParameterError, SolverError
 from ...base.units import shaft_frequency_hz
-from .chambers import (
-    contacts_at_opening,
-    full_gap_area_m2,
-    least_chamber_volume_m3,
-    pair_volume_m3,
-    swept_volume_m3,
-)
 from .leakage import LeakingPockets, TightPockets
 from .opening_equations import (
     CHAMBER,
@@ -27,9 +20,18 @@ from .opening_equations import (
     density,
     one_turn,
 )
-from .parameters import ScrollGas, ScrollLeakage, ScrollOpening, ScrollWraps
-from .pressures import OpenedGas, built_in_pressure_pa
-from .suction import SuctionFlow
+from .parameters import (
+    ScrollGas,
+    ScrollLeakage,
+    ScrollOpening,
+    ScrollWraps,
+    contacts_at_opening,
+    full_gap_area_m2,
+    least_chamber_volume_m3,
+    pair_volume_m3,
+    swept_volume_m3,
+)
+from .suction import OpenedGas, SuctionFlow, built_in_pressure_pa
 
 STEPS: Final = 2048
 """A turn at least; 200 000 change no pressure by more than 1e-5 of the discharge pressure, no flow

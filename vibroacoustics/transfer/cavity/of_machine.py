@@ -10,8 +10,8 @@ from ...machine.machine import Machine
 from ...machine.shell import Shell
 from ..path import ShellPath
 from ..shell_modes.modes import ShellMode
+from .elements import Profile, annulus_profile, disc_profile
 from .in_shell import GasInShell, Mouth
-from .profile import Profile, annulus_profile, disc_profile
 from .response import DrivenGas
 
 _DOME, _ANNULUS = SPACES

@@ -9,8 +9,7 @@ from ..shell_modes.elements import freedom_count
 from ..shell_modes.loads import interpolation
 from ..shell_modes.meridian import Meridian
 from ..shell_modes.modes import Around
-from .elements import quadratic, quadratic_slope, squared_around
-from .profile import Profile
+from .elements import Profile, quadratic, quadratic_slope, squared_around
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 

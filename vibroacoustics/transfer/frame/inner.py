@@ -1,21 +1,140 @@
 """The parts in the shell with what holds them together: mass, stiffness, loads, contacts."""
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from scipy.linalg import block_diag
 
 from ...base.arrays import Array, ComplexArray
-from ...machine.frame import PARTS, Frame, RoundPart
+from ...base.units import shaft_frequency_hz
+from ...machine.frame import (
+    BEARING_HOUSING,
+    LOWER_BEARING,
+    ORBITING_SCROLL,
+    PARTS,
+    Face,
+    Frame,
+    Part,
+    PlainBearing,
+    RoundPart,
+)
 from ...mechanics.beam_rotor import NODE_DOFS
-from ...mechanics.bushings import RigidBody, motion_at
+from ...mechanics.bushings import Bushing, RigidBody, motion_at
 from ...mechanics.critical_speed import FreeShaft
+from ...mechanics.journal_film import JournalFilm, short_bearing
 from ...mechanics.ports import WRENCH
 from ..isolation import Isolation
-from .bearings import Bearing, bearings_of
 from .contacts import Contacts
-from .natural import Elastic
-from .springs import springs_of
+from .symmetric import Elastic
+
+FACE_SPRINGS: Final = 8
+"""Points that stand for an annular face; its tilting stiffness is exact from three on."""
+
+
+def springs_of(frame: Frame) -> tuple[Bushing, ...]:
+    """Bolts, thrust face, tips where they close, and the keys."""
+    springs = [*_bolts(frame), *_face(frame, "thrust", frame.thrust_face, "bearing_housing")]
+    if frame.axially_compliant:
+        springs += _face(frame, "tip", frame.tips, "fixed_scroll")
+    return (*springs, _keys(frame))
+
+
+def _bolts(frame: Frame) -> list[Bushing]:
+    bolts = frame.bolts
+    lateral, axial = bolts.lateral_stiffness_n_per_m, bolts.axial_stiffness_n_per_m
+    if frame.axially_compliant:
+        axial = bolts.guide_stiffness_n_per_m
+    stiffness = np.diag([lateral, lateral, axial, 0.0, 0.0, 0.0])
+    points = _ring(bolts.number, bolts.radius_m, bolts.height_m, bolts.first_angle_rad)
+    loss = frame.joint_loss_factor_ratio
+    return [
+        Bushing(
+            f"bolt_{n}", "fixed_scroll", "bearing_housing", point, stiffness, loss_factor_ratio=loss
+        )
+        for n, point in enumerate(points, 1)
+    ]
+
+
+def _face(frame: Frame, name: str, face: Face, other: str) -> list[Bushing]:
+    """Springs along z between the orbiting scroll and another body."""
+    stiffness = np.zeros((6, 6))
+    stiffness[2, 2] = face.stiffness_n_per_m / FACE_SPRINGS
+    points = _ring(FACE_SPRINGS, face.radius_m, face.height_m, 0.0)
+    loss = frame.joint_loss_factor_ratio
+    return [
+        Bushing(f"{name}_{n}", "orbiting_scroll", other, point, stiffness, loss_factor_ratio=loss)
+        for n, point in enumerate(points, 1)
+    ]
+
+
+def _keys(frame: Frame) -> Bushing:
+    """Keys that keep the orbiting scroll from turning: four in two parts of slots in series."""
+    stiffness = np.zeros((6, 6))
+    stiffness[5, 5] = frame.keys_stiffness_n_per_m * frame.keys_radius_m**2
+    point = np.array([0.0, 0.0, frame.orbiting_scroll.height_m])
+    standing = frame.keys_on.replace("-", "_")
+    loss = frame.joint_loss_factor_ratio
+    return Bushing("keys", "orbiting_scroll", standing, point, stiffness, loss_factor_ratio=loss)
+
+
+def _ring(number: int, radius_m: float, height_m: float, first_angle: float) -> Array:
+    """Points spread evenly around the axis, shape (number, 3)."""
+    angle = first_angle + 2.0 * np.pi * np.arange(number) / number
+    height = np.full(number, height_m)
+    return np.stack([radius_m * np.cos(angle), radius_m * np.sin(angle), height], axis=1)
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """A bearing of the shaft.
+
+    Attributes
+    ----------
+    part : that carries the shaft here or that the shaft carries
+    node : node of the shaft
+    film : film of oil
+    metal_stiffness : in series, with loss, N/m
+    """
+
+    part: Part
+    node: int
+    film: JournalFilm
+    metal_stiffness: complex
+
+    def flexibility(self, omega: Array) -> ComplexArray:
+        """Flexibility along x and along y, shape (frequency,), m/N.
+
+        Parameters
+        ----------
+        omega : shape (frequency,), rad/s
+        """
+        return self.film.flexibility(self.metal_stiffness, omega)
+
+
+def bearings_of(frame: Frame, shaft: FreeShaft) -> tuple[Bearing, ...]:
+    """Pin, main and lower bearing; the pin's load on two journals by the lever."""
+    speed = 2.0 * np.pi * shaft_frequency_hz(frame.film_speed_rpm)
+    pin_height, main_height = shaft.heights_m[[shaft.pin_node, shaft.main_node]]
+    lever = float(pin_height / main_height)
+    lossy = 1.0 + 1j * frame.metal_loss_factor_ratio
+
+    def bearing(
+        part: Part, node: int, size: PlainBearing, share: float, stiffness_n_per_m: float
+    ) -> Bearing:
+        film = short_bearing(
+            size.diameter_m, size.length_m, size.radial_clearance_m,
+            frame.oil_viscosity_pa_s, speed, share * frame.pin_load_n,
+        )  # fmt: skip
+        return Bearing(part, node, film, stiffness_n_per_m * lossy)
+
+    journals = shaft.bearing_stiffness_n_per_m
+    return (
+        bearing(ORBITING_SCROLL, shaft.pin_node, frame.pin_film, 1.0, frame.pin_stiffness_n_per_m),
+        bearing(BEARING_HOUSING, shaft.main_node, frame.main_film, lever, journals),
+        bearing(LOWER_BEARING, 0, frame.lower_film, lever - 1.0, journals),
+    )
+
 
 BODY_DOFS = len(WRENCH) * len(PARTS)
 

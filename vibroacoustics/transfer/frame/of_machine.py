@@ -13,8 +13,7 @@ from ...machine.shell_structure import ShellVariation
 from ...mechanics.critical_speed import free_scroll_shaft
 from ...mechanics.scroll_shaft import ScrollShaft
 from ..path import ShellPath
-from ..shell_modes.mobility import patch_forces
-from ..shell_modes.projection import ProjectedModes
+from ..shell_modes.projection import ProjectedModes, patch_forces
 from ..shell_modes.statics import local_flexibility_factor
 from .contacts import Contacts, contacts_of
 from .inner import inner_set

@@ -14,8 +14,15 @@ import numpy as np
 from ...base.arrays import Array, ComplexArray, IndexArray
 from .contacts import Contacts
 from .inner import InnerSet
-from .natural import NaturalMotions, answers, natural_motions, times
-from .symmetric import AT_A_TIME, solve_symmetric, upper_pairs
+from .symmetric import (
+    AT_A_TIME,
+    NaturalMotions,
+    answers,
+    natural_motions,
+    solve_symmetric,
+    times,
+    upper_pairs,
+)
 
 
 class SoundPerForce(NamedTuple):
