@@ -45,13 +45,7 @@ class HorizontalPendulum(Option):
     """Damping of the bearing, over twice the bob's inertia and the shaft's angular frequency."""
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
-        """Bobs in the periodic state that they settle in.
-
-        Raises
-        ------
-        SolverError
-            No periodic state was found.
-        """
+        """Bobs in the periodic state that they settle in."""
         ring, rotation = machine.require(OldhamRing), revolution.rotation
         mass = pendulum_mass(ring.stroke_m, ring.mass_kg, self.horizontal_reach_m)
         frequency = shaft_frequency_hz(revolution.speed_rpm)

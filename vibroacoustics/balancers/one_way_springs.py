@@ -53,11 +53,6 @@ class OneWaySprings(Option):
         """The planks as the ring moves them at the revolution's speed.
 
         The one on the left does half a turn later what that on the right does, mirrored.
-
-        Raises
-        ------
-        SolverError
-            No motion repeats every revolution.
         """
         ring, rotation = machine.require(OldhamRing), revolution.rotation
         oscillator, samples = self.oscillator(revolution.speed_rpm), rotation.crank_angle.size

@@ -45,11 +45,6 @@ class Pendulum(Option):
         Both bobs are taken on the same side, so that their vertical forces add. Their arms to
         either side of the ring are equal: one bob of the total mass in the middle makes the same
         force and moment.
-
-        Raises
-        ------
-        SolverError
-            No periodic state was found.
         """
         ring, rotation = machine.require(OldhamRing), revolution.rotation
         stroke = ring.stroke_m

@@ -48,11 +48,6 @@ class TwinRing(Parameters):
         revolution : revolution of the machine
         moment_n_m : moment of a spring on the driven piece
         on_ring : force of a spring on the twin
-
-        Raises
-        ------
-        ParameterError
-            Neither the option nor the machine gives its height.
         """
         ring = machine.require(OldhamRing)
         mass_kg = ring.mass_kg if self.mass_kg is None else self.mass_kg

@@ -68,11 +68,6 @@ def cells_of(line: str, separator: str, strict: bool = True) -> list[str]:
     line : without its end
     separator : character between cells
     strict : whether text behind a quote is refused
-
-    Raises
-    ------
-    csv.Error
-        A quote is not closed, or text follows one.
     """
     if '"' not in line:
         return [cell.strip() for cell in line.split(separator)]
@@ -134,13 +129,7 @@ class NumberForm:
         return self.plain(text)
 
     def numbers(self, cells: Sequence[str]) -> Array:
-        """Numbers of cells without blanks around them, shape (cell,).
-
-        Raises
-        ------
-        ValueError
-            A cell is no finite number in this form.
-        """
+        """Numbers of cells without blanks around them, shape (cell,)."""
         text = "\n".join(cells)
         if not self.grouped and not re.search(r"[_.]" if self.decimal == "," else r"[_,]", text):
             try:

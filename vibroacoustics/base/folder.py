@@ -86,13 +86,6 @@ class Folder:
         ----------
         name : name of the file
         content : all of it, or parts that are written one after another
-
-        Raises
-        ------
-        StorageError
-            A folder on the way to it is none.
-        OSError
-            It cannot be written.
         """
         with self._holding(name, make=True) as (folder, last):
             folder.remove(last)
@@ -126,26 +119,14 @@ class Folder:
         return status is not None and stat.S_ISREG(status.st_mode)
 
     def check_file(self, name: str) -> None:
-        """Refuse a name that is taken by anything but a regular file.
-
-        Raises
-        ------
-        StorageError
-            It is, or a folder on the way to it is none.
-        """
+        """Refuse a name that is taken by anything but a regular file."""
         path = _inner(name)
         for folder in [*reversed(path.parents)][1:]:
             self.check_folder(str(folder))
         self._check(name, stat.S_ISREG)
 
     def check_folder(self, name: str) -> None:
-        """Refuse a name that is taken by anything but a folder.
-
-        Raises
-        ------
-        StorageError
-            It is.
-        """
+        """Refuse a name that is taken by anything but a folder."""
         self._check(name, stat.S_ISDIR)
 
     def files(self) -> list[str]:
@@ -181,16 +162,7 @@ class Folder:
 
     @contextmanager
     def below(self, name: str | PurePosixPath, make: bool = False) -> Iterator["Folder"]:
-        """Open a folder at any depth below; `.` is this one.
-
-
-        Raises
-        ------
-        StorageError
-            A part of the name is that of something else.
-        OSError
-            It is missing, or cannot be made or opened.
-        """
+        """Open a folder at any depth below; `.` is this one."""
         folder = self
         with ExitStack() as stack:
             for part in () if str(name) == "." else _inner(str(name)).parts:
@@ -224,13 +196,7 @@ class Folder:
 
 @contextmanager
 def opened_folder(path: Path) -> Iterator[Folder]:
-    """Open a folder that exists.
-
-    Raises
-    ------
-    OSError
-        It is missing, no folder, or cannot be read.
-    """
+    """Open a folder that exists."""
     descriptor = os.open(path, _FOLDER)
     try:
         yield Folder(path, descriptor)

@@ -45,11 +45,6 @@ def to_bytes(value: Any) -> bytes:
     Parameters
     ----------
     value : numbers, text, arrays, None, and lists, tuples, dicts and records of them
-
-    Raises
-    ------
-    TypeError
-        Something in it is of another type.
     """
     arrays: list[bytes] = []
     text = json.dumps(_plain(value, arrays), separators=(",", ":"))
@@ -57,13 +52,7 @@ def to_bytes(value: Any) -> bytes:
 
 
 def from_bytes(content: bytes) -> Any:
-    """Return the value of `to_bytes`.
-
-    Raises
-    ------
-    TypeError, ValueError
-        The bytes are no such value.
-    """
+    """Return the value of `to_bytes`."""
     stream = BytesIO(content)
     return _value(json.loads(stream.readline()), stream)
 

@@ -75,13 +75,6 @@ def run_program(
     command : program and its arguments
     folder : working folder of the program
     timeout_s : time until it is killed, s
-
-    Raises
-    ------
-    OSError
-        It cannot be started.
-    subprocess.TimeoutExpired
-        It takes longer.
     """
     return subprocess.run(  # noqa: S603 - fixed commands
         command,

@@ -77,13 +77,6 @@ class ProcessPool:
         items : anything that pickle takes
         on_loss : result of an item that ended two workers, from the item and how the second one
             ended; an error by default
-
-        Raises
-        ------
-        SolverError
-            An item ended two workers, or workers end without an item.
-        Exception
-            The first error of the function; items in work are ended.
         """
         results: dict[int, Result] = {}
         due = 0

@@ -49,11 +49,5 @@ def read_bytes(path: Path, maximum_bytes: int) -> bytes:
 
 
 def read_text(path: Path, maximum_bytes: int) -> str:
-    """Text of a regular file in UTF-8, with or without a byte-order mark; errors as of `opened`.
-
-    Raises
-    ------
-    UnicodeDecodeError
-        It is no UTF-8.
-    """
+    """Text of a regular file in UTF-8, with or without a byte-order mark; errors as of `opened`."""
     return read_bytes(path, maximum_bytes).decode("utf-8-sig")

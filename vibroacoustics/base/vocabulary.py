@@ -217,14 +217,7 @@ def stamp(
 
 
 def stamped(values: Mapping[str, Any], coords: Mapping[str, Any]) -> xr.Dataset:
-    """Label arrays as variables of the vocabulary, each with the coordinates of its dimensions.
-
-
-    Raises
-    ------
-    SchemaError
-        A name is unknown, or an array does not fit its variable.
-    """
+    """Label arrays as variables of the vocabulary, each with the coordinates of its dimensions."""
     arrays = {}
     for name, array in values.items():
         dims = _look_up(VARIABLES, name).dims

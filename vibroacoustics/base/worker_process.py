@@ -71,13 +71,7 @@ class WorkerProcess:
             self.connection.send_bytes(content)
 
     def receive(self) -> tuple[int, Any]:
-        """Receive a message and note what it says about the worker.
-
-        Raises
-        ------
-        EOFError, OSError
-            The worker is dead.
-        """
+        """Receive a message and note what it says about the worker."""
         kind, content = self.connection.recv()
         self.ready, self.begun = True, kind == BEGUN
         if kind in (DONE, FAILED):

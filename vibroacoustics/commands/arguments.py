@@ -23,13 +23,7 @@ def chosen(option: str, text: str, choices: Sequence[Choice]) -> Choice:
 
 
 def order_numbers(text: str, option: str = "--orders") -> tuple[float, ...]:
-    """Orders, rising, from a text with commas.
-
-    Raises
-    ------
-    ParameterError
-        One of them is no number.
-    """
+    """Orders, rising, from a text with commas."""
     return tuple(sorted(_number(option, part) for part in text.split(",")))
 
 
@@ -68,13 +62,7 @@ def assignments(option: str, texts: Sequence[str] | None) -> dict[str, str]:
 
 
 def numbers(option: str, texts: Sequence[str] | None) -> dict[str, float]:
-    """`NAME=NUMBER` of every text.
-
-    Raises
-    ------
-    ParameterError
-        See `assignments`; or a value is no number.
-    """
+    """`NAME=NUMBER` of every text."""
     return {name: _number(option, value) for name, value in assignments(option, texts).items()}
 
 

@@ -135,11 +135,6 @@ def impulse_analysis(
     responses : responses of `impulse_responses`
     listeners : names; all where nothing is given
     full_scale : value at full scale; none for the next of 1, 2, 5, 10, … of all listeners
-
-    Raises
-    ------
-    ParameterError
-        A name is unknown, or a response exceeds full scale.
     """
     room_names = [str(name) for name in responses["listener"].values]
     check_asked(room_names, listeners, full_scale)

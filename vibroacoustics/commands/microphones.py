@@ -26,11 +26,6 @@ def read_files(
     """Recordings, each with the assignments that are its own.
 
     `CHANNEL=…` holds in every file, `FILE:CHANNEL=…` in that file alone, named without its ending.
-
-    Raises
-    ------
-    ParameterError, StorageError
-        A line for every file that cannot be read: without a position the surface is another one.
     """
     stems = [file.stem for file in files]
 

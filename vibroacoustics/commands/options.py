@@ -49,27 +49,13 @@ class Printing:
     brief: Annotated[bool, "Omit what is folded from the PDF."] = False
 
     def printer(self) -> "Printer | None":
-        """Find what prints; None where no PDF is wanted.
-
-        Raises
-        ------
-        ParameterError
-            There is no such paper, or no browser that prints.
-        """
+        """Find what prints; None where no PDF is wanted."""
         from .printing import printer
 
         return printer(self.pdf, self.paper, self.brief)
 
     def target(self, folder: Path) -> "Target":
-        """Return the folder of the results, which can be written, with what prints.
-
-        Raises
-        ------
-        StorageError
-            The folder cannot be written.
-        ParameterError
-            See `printer`.
-        """
+        """Return the folder of the results, which can be written, with what prints."""
         from . import outputs
 
         outputs.check_folder(folder)

@@ -100,13 +100,7 @@ def naming(path: Path) -> Iterator[None]:
 
 
 def open_orders(path: str | Path) -> xr.Dataset:
-    """Results of a run or of the analysis of a recording, of this version of the vocabulary.
-
-    Raises
-    ------
-    StorageError
-        The file cannot be read, or holds another version of the vocabulary or an incomplete run.
-    """
+    """Results of a run or of the analysis of a recording, of this version of the vocabulary."""
     results, _ = _open_of_this_version(path)
     return results if "channel_order" in results else open_run(path)[0]
 
@@ -256,11 +250,6 @@ def write_analysis(
     Returns
     -------
     paths of dataset, page and PDF, by what they are
-
-    Raises
-    ------
-    StorageError
-        The folder cannot be written; what was there before then stays.
     """
     folder = Path(folder)
     paths = written_files(analysis, folder, dataset_name, printer)

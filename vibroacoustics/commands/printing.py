@@ -34,13 +34,7 @@ class Printer(NamedTuple):
     brief: bool = False
 
     def pages(self, files: Mapping[str, Content]) -> dict[str, bytes]:
-        """A PDF for each HTML page among files, named like it.
-
-        Raises
-        ------
-        StorageError
-            The browser gives none.
-        """
+        """A PDF for each HTML page among files, named like it."""
         return {
             f"{name.removesuffix('.html')}.pdf": self.printed(content)
             for name, content in files.items()

@@ -115,26 +115,14 @@ class Reading:
             raise
 
     def at_once(self, file: Path, plugins: list[Path] | None) -> "xr.Dataset":
-        """Read all that is asked for of a file, by built-in readers and those of plug-ins.
-
-        Raises
-        ------
-        ParameterError, StorageError
-            It cannot be read, or is larger than the cap.
-        """
+        """Read all that is asked for of a file, by built-in readers and those of plug-ins."""
         from ..recordings import read_recording
 
         load_plugins(plugins)
         return read_recording(file, **self.arguments(file))
 
     def in_blocks(self, file: Path, plugins: list[Path] | None) -> "RecordingBlocks":
-        """Hold the same in memory as the file stores it; what is too large stays in the file.
-
-        Raises
-        ------
-        ParameterError, StorageError
-            It cannot be read.
-        """
+        """Hold the same in memory as the file stores it; what is too large stays in the file."""
         from ..recordings.blocks import recording_blocks
 
         load_plugins(plugins)
@@ -156,13 +144,7 @@ class Reading:
         return CampaignRun(file, *self.campaign.labels_of(file), self.arguments(file), analysis)
 
     def arguments(self, file: Path) -> dict[str, Any]:
-        """Return the arguments of `read_recording`: those of options override the settings.
-
-        Raises
-        ------
-        ParameterError, StorageError
-            An option or the settings cannot be used for the file.
-        """
+        """Return the arguments of `read_recording`: those of options override the settings."""
         from . import arguments as words
 
         units = words.assignments("--unit", self.unit)
@@ -228,13 +210,7 @@ class OrderOptions:
     ] = None
 
     def analysis(self, source: "SpeedSource", settings: dict[str, Any]) -> "OrderAnalysis":
-        """Return the settings of the analysis; options override what a file states.
-
-        Raises
-        ------
-        ParameterError
-            A number is out of range, or the method of the bands is unknown.
-        """
+        """Return the settings of the analysis; options override what a file states."""
         from ..study.order_analysis import BAND_METHODS, OrderAnalysis
         from . import arguments
 

@@ -59,11 +59,6 @@ def starting_files(
     kind : kind of machine
     with_sources : whether the study has the sources of sound of the kind
     level_dba : level of the user's machine at 1 m, dB(A); none where it is not known
-
-    Raises
-    ------
-    ParameterError
-        There is no such kind, it has no sources, or the level is no level of a machine.
     """
     path = shipped_folder() / "pipelines" / study_for(kind, with_sources)
     shipped = load_study(path)

@@ -33,13 +33,6 @@ def actively_searched(problem: Problem, evaluate: Evaluate, progress: Progress) 
     problem : problem with one objective
     evaluate : function that takes designs in SI with a further column, the number of the run
     progress : function called with the runs done
-
-    Raises
-    ------
-    ParameterError
-        A statistic over samples is wanted of a nominal machine.
-    SolverError
-        Fewer than two designs have a solution, or none is expected to meet the constraints.
     """
     settings = problem.design.search
     _check_statistics(problem)

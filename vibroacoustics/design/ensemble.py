@@ -61,13 +61,7 @@ class ComparedMachine:
 def compared_machines(
     study: Study, pieces: Pieces, needs: Sequence[Need], radiation: Radiation
 ) -> list[ComparedMachine]:
-    """Return the samples of a study that have a solution; without uncertainty the nominal machine.
-
-    Raises
-    ------
-    ParameterError, SolverError
-        The study cannot be run.
-    """
+    """Samples of a study that have a solution; without uncertainty the nominal machine."""
     paths, machines = SoundPaths(radiation), _machines(study, pieces.wide.study, radiation)
     compared: list[ComparedMachine] = []
     for machine in machines:
@@ -168,11 +162,6 @@ def unmodelled_of(study: Study, radiation: Radiation) -> Callable[[str], Unmodel
     """Return what gives the noise beside the modelled sound of an option of the nominal machine.
 
     It has one pair. The study is run at the first call.
-
-    Raises
-    ------
-    ParameterError
-        The nominal model is louder than the published level.
     """
 
     @cache

@@ -113,11 +113,6 @@ def planned(study: Study, radiation: Radiation = transfer_vectors) -> Plan:
     ----------
     study : study from `load_study` or `coarse`
     radiation : function that gives the transfer vectors
-
-    Raises
-    ------
-    ParameterError, SolverError, StorageError
-        The study cannot run.
     """
     moves = tuple(move for record in examples(study) for move in moves_of(record))
     published, options = study.catalogue_speed_rpm, tuple(study.options)

@@ -33,11 +33,6 @@ def explained(
     searched : designs with their evaluation
     evaluate : function that takes further designs
     attributes : attributes of the dataset, in place of those of a search
-
-    Raises
-    ------
-    SolverError
-        No design meets the constraints.
     """
     _ = searched.best
     settings = problem.design.search

@@ -84,13 +84,7 @@ class _Written(NamedTuple):
 
 
 def check_size(problem: Problem, count: int) -> None:
-    """Refuse a sweep that takes more memory than a result may, or than is available.
-
-    Raises
-    ------
-    ParameterError
-        Its result takes more than 2 GiB, or all copies more than the available memory.
-    """
+    """Refuse a sweep that takes more memory than a result may, or than is available."""
     needed = memory_bytes(problem, count) - process_bytes()
     available = psutil.virtual_memory().available
     _refuse_above(problem, count, "result", _result_bytes(problem, count), MOST_BYTES)

@@ -110,23 +110,11 @@ class Space:
         }
 
     def study_of(self, design: Array) -> Study:
-        """The study of a design, validated as a file is, with its option and `none`.
-
-        Raises
-        ------
-        ParameterError
-            The design is refused.
-        """
+        """The study of a design, validated as a file is, with its option and `none`."""
         return self._with_its_option(self.study.replace(self.written(design)), design)
 
     def quick_study_of(self, design: Array) -> Study:
-        """Return the study of a design, without reading files where values are plain numbers.
-
-        Raises
-        ------
-        ParameterError
-            The design is refused.
-        """
+        """Return the study of a design, without reading files where values are plain numbers."""
         if not self._is_plain:
             return self.study_of(design)
         try:
@@ -178,11 +166,6 @@ class Space:
         ----------
         limits : limits of the variables, shape (variable, 2), SI
         table : name of the table in `design` that the ends are from
-
-        Raises
-        ------
-        ParameterError
-            One of them is refused.
         """
         for variable, ends in zip(self.variables, limits.tolist(), strict=True):
             for value in dict.fromkeys(ends if variable.key != OPTION else ()):

@@ -102,11 +102,6 @@ def prepare(problem: Problem, longest_s: float = LONGEST_S, workers: int = 0) ->
     problem : problem of the study
     longest_s : longest time that the sweep may take
     workers : further processes that evaluate; with none this one does
-
-    Raises
-    ------
-    ParameterError
-        They take too much memory or too long.
     """
     check_size(problem, design_count(problem))
     listing = listing_of(problem)
@@ -179,13 +174,7 @@ def listing_of(problem: Problem) -> Listing:
 
 
 def with_variables(study: Study, variables: Mapping[str, Any]) -> Study:
-    """The study with other variables in its table `design`, or with such a table.
-
-    Raises
-    ------
-    ParameterError
-        No variable is of an option, and the study has no table that names one.
-    """
+    """The study with other variables in its table `design`, or with such a table."""
     tables = {key: entry if isinstance(entry, Mapping) else {"list": list(entry)}
               for key, entry in variables.items()}  # fmt: skip
     if study.design is not None:

@@ -115,13 +115,7 @@ class PressureLevels:
         }
 
     def add(self, block: Array) -> None:
-        """Take the next samples, shape (channel, time).
-
-        Raises
-        ------
-        ParameterError
-            A sample is not finite.
-        """
+        """Take the next samples, shape (channel, time)."""
         for row, meter in self._meters.items():
             meter.add(block[row])
         for row, sums in self._sums.items():

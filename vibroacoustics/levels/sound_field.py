@@ -31,11 +31,6 @@ def unit_sound_power(
     surface_transfer_vector : (position, dof, frequency), at the positions of an arrangement
     settings : the study's; its arrangement, K1 and K2 of its test stand go into the attributes
     surface_m2 : area of its measurement surface, m²
-
-    Raises
-    ------
-    ParameterError
-        The room of the test stand does not qualify.
     """
     background, environment = stand_corrections_db(settings, surface_m2)
     ordered = surface_transfer_vector.transpose("position", "dof", "frequency")

@@ -87,13 +87,7 @@ class Combination(Option):
         return sum((part.attached(machine) for part in self.parts), NO_BODIES)
 
     def added(self, machine: Machine, revolution: Revolution) -> Added:
-        """Return what all options add.
-
-        Raises
-        ------
-        ParameterError
-            Two of them exclude each other.
-        """
+        """Return what all options add."""
         each = []
         for part in self.parts:
             with OPTIONS.fenced(part.kind, ParameterError):

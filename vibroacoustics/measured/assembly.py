@@ -39,15 +39,7 @@ class Bench:
 
 
 def assemble(settings: Measured, names: Sequence[str], folder: Path) -> Bench:
-    """The functions that a change at some points needs.
-
-    Raises
-    ------
-    ParameterError
-        A function was not measured, in another unit, at other frequencies, or without an error.
-    StorageError
-        A file cannot be read.
-    """
+    """The functions that a change at some points needs."""
     library = Library(settings, folder)
     points = [node_of(settings.points[name]) for name in names]
     nodes = [unsigned(point) for point in points]

@@ -95,12 +95,6 @@ class BlockedForces(Parameters):
 
 
 def load_blocked_forces(path: Path) -> BlockedForces:
-    """Read a file for `blocked-forces`; docs/blocked_forces.md has its tables.
-
-    Raises
-    ------
-    ParameterError
-        Anything is missing, unknown, of the wrong type or outside its allowed range.
-    """
+    """Read a file for `blocked-forces`; docs/blocked_forces.md has its tables."""
     content = read_toml(path)
     return settings_of(BlockedForces, path, content)

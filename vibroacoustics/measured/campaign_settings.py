@@ -97,13 +97,7 @@ class SpeedSettings(Parameters):
             yield str(error)
 
     def source(self) -> SpeedSource:
-        """Make the source of the speed.
-
-        Raises
-        ------
-        ParameterError
-            The comb does not rise, the limits do not, or the machine has no induction motor.
-        """
+        """Make the source of the speed."""
         if self.nominal_rpm is not None:
             return NominalSpeed(self.nominal_rpm)
         if self.machine_file is not None:

@@ -10,15 +10,7 @@ from .floor_functions import read_floor
 
 
 def on_measured_floor(study: Study) -> Study:
-    """The study with the measured mobility under the feet of its machine, in every option.
-
-    Raises
-    ------
-    ParameterError
-        A machine has a floor of its file, or the files do not fit its feet.
-    StorageError
-        A file cannot be read.
-    """
+    """The study with the measured mobility under the feet of its machine, in every option."""
     settings = None if study.measured is None else study.measured.floor
     if settings is None:
         return study

@@ -28,13 +28,7 @@ def signs(nodes: Sequence[Node]) -> Array:
 def read_all(
     names: Sequence[str], units: Mapping[str, str], folder: Path = Path()
 ) -> list[MeasuredFunction]:
-    """Functions of some files, of a folder where their names do not show it.
-
-    Raises
-    ------
-    ParameterError, StorageError
-        A line for every file that cannot be read.
-    """
+    """Functions of some files, of a folder where their names do not show it."""
     return [function for each in read_each(names, units, folder) for function in each]
 
 

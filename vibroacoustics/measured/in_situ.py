@@ -73,15 +73,7 @@ class InSitu:
 
 
 def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
-    """The functions that blocked forces and their validation need.
-
-    Raises
-    ------
-    ParameterError
-        A function was not measured, in another unit, at other frequencies, or without an error.
-    StorageError
-        A file cannot be read.
-    """
+    """The functions that blocked forces and their validation need."""
     interface, measured = settings.blocked_forces, settings.measured
     library = Library(measured, folder)
     nodes = measured.points | measured.microphones

@@ -75,14 +75,6 @@ def option_ratios(
     response : microphone, or channel of the study as `channel_orders` names it
     lowest_rpm, highest_rpm : lowest and highest speed of the study's shaft in the recording; ratios
         at other speeds are not judged
-
-    Raises
-    ------
-    ParameterError
-        The results hold no such option or response, lack speeds of the recording, or hold two
-        changed lines at one order.
-    SchemaError
-        The results hold no sound.
     """
     check_names(results, option, response)
     results = results.sortby("speed")

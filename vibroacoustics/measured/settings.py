@@ -152,13 +152,7 @@ def name_files_beside(path: Path, content: Any) -> None:
 
 
 def load_prediction(path: Path) -> Prediction:
-    """Read a file for `predict`; docs/measured_changes.md has its tables.
-
-    Raises
-    ------
-    ParameterError
-        Anything is missing, unknown, of the wrong type or outside its allowed range.
-    """
+    """Read a file for `predict`; docs/measured_changes.md has its tables."""
     content = read_toml(path)
     name_files_beside(path, content)
     return settings_of(Prediction, path, content)

@@ -69,13 +69,7 @@ class AngularStream:
         self._width: Array = np.empty(0)
 
     def add(self, block: Array) -> AngularSignal:
-        """Take the next samples, shape (channel, time); the samples over the angle that they end.
-
-        Raises
-        ------
-        ParameterError
-            A sample is not finite.
-        """
+        """Take samples, shape (channel, time), and return those over the angle that they end."""
         check_finite(block)
         start, stop = self.plan.covered
         first, self._added = self._added, self._added + block.shape[1]

@@ -71,11 +71,6 @@ class BlockOrders:
     plan : plan of the recording
     channels : number of its channels
     settings : the orders that are wanted
-
-    Raises
-    ------
-    ParameterError
-        The recording has too few revolutions for the resolution, or too many for the map.
     """
 
     def __init__(self, plan: AngularPlan, channels: int, settings: OrderAnalysis) -> None:
@@ -98,11 +93,6 @@ class BlockOrders:
 
     def add(self, signal: AngularSignal) -> None:
         """Take the next samples over the angle.
-
-        Raises
-        ------
-        ParameterError
-            An order's band lies beyond the orders of the signal.
 
         Warns
         -----

@@ -23,13 +23,7 @@ def check_positive(name: str, value: float) -> None:
 
 
 def block_starts(samples: int, length: int, overlap_ratio: float) -> NDArray[np.int64]:
-    """First samples of blocks of a length, (block,).
-
-    Raises
-    ------
-    ParameterError
-        The overlap is outside its range.
-    """
+    """First samples of blocks of a length, (block,)."""
     return np.arange(0, samples - length + 1, block_hop(length, overlap_ratio))
 
 

@@ -87,13 +87,7 @@ def from_angle(time_s: Array, angle_rad: Array) -> CrankMotion:
 
 
 def from_curve(curve: PPoly) -> CrankMotion:
-    """A shaft whose angle in rad over time in s is a piecewise polynomial.
-
-    Raises
-    ------
-    ParameterError
-        The angle does not grow everywhere.
-    """
+    """A shaft whose angle in rad over time in s is a piecewise polynomial."""
     slope = PPoly(curve.c, curve.x).derivative()
     turning_points = slope.derivative().roots(extrapolate=False)
     instants = np.concatenate([curve.x, turning_points[np.isfinite(turning_points)]])

@@ -26,11 +26,6 @@ def ratio_over_speed(speed_rpm: Array, ratio: ComplexArray, wanted_rpm: Array) -
     Returns
     -------
     shape (order, time)
-
-    Raises
-    ------
-    ParameterError
-        The study lacks speeds; the message names those to add.
     """
     used = used_speeds(speed_rpm, float(np.min(wanted_rpm)), float(np.max(wanted_rpm)))
     phase = np.unwrap(np.angle(ratio[:, used]), axis=-1)

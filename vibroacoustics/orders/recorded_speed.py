@@ -62,13 +62,7 @@ class PulseWarning(UserWarning):
 
 
 def check_speed_channels(names: Sequence[str], speed: SpeedSource) -> None:
-    """Refuse a source of the speed whose channels a recording does not have.
-
-    Raises
-    ------
-    ParameterError
-        There is no such channel.
-    """
+    """Refuse a source of the speed whose channels a recording does not have."""
     if not isinstance(speed, NominalSpeed):
         _channel(names, speed.channel)
     if isinstance(speed, SpeedChannel) and speed.index_channel is not None:
@@ -77,12 +71,6 @@ def check_speed_channels(names: Sequence[str], speed: SpeedSource) -> None:
 
 def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSpeed:
     """Crank angle over the time of a recording, of which one channel is read.
-
-    Raises
-    ------
-    ParameterError
-        There is no such channel, no pulse, or the shaft stops; a channel that is no tacho is too
-        long to be held at once.
 
     Warns
     -----

@@ -78,11 +78,6 @@ def separated_orders(
     sample_rate_hz : sample rate of the signal
     tracks : orders; those that do not cross are at least 8 bandwidths apart
     bandwidth_hz : full width at -3 dB of what belongs to an order at most
-
-    Raises
-    ------
-    ParameterError, SolverError
-        See `vold_kalman`.
     """
     residual, envelopes = signal, []
     for group in _groups(tracks):

@@ -55,11 +55,6 @@ def run_cost(study: Study, progress: Progress = no_progress) -> RunCost:
     """Estimate what a run of a study will cost; radiation is taken from the cache if it is there.
 
     The processor time so far counts as that of the start.
-
-    Raises
-    ------
-    ParameterError, SolverError
-        The machine cannot run, the result is too large, or memory does not suffice.
     """
     with one_thread_of_linear_algebra():  # as in a run
         return surviving(study, partial(_run_cost, progress=progress))

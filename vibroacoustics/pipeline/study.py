@@ -81,11 +81,6 @@ def chain_with(
     product : type of what a stage hands on
     progress : called with the advance of long work
     radiation : gives the transfer vectors
-
-    Raises
-    ------
-    ParameterError, SolverError, StorageError
-        An input is out of range, a computation failed, a file cannot be read.
     """
     with one_thread_of_linear_algebra():
         chain = Chain(study, radiation, progress)

@@ -185,13 +185,7 @@ def directivity_points(settings: DirectivitySettings, floor_z_m: float | None) -
 
 
 def check_outside(name: str, points: Array, body: Body) -> None:
-    """Refuse points (..., 3) inside the body.
-
-    Raises
-    ------
-    ParameterError
-        One line that names the first such point.
-    """
+    """Refuse points (..., 3) inside the body."""
     contained = [body.contains(point) for point in points.reshape(-1, 3)]
     _refuse(name, points, np.reshape(contained, points.shape[:-1]), "inside the machine")
 

@@ -156,14 +156,7 @@ _BODY_SHARE: Final = 0.5
 
 
 class ByCutCells:
-    """The machine side on two grids, and the microphones.
-
-    Raises
-    ------
-    ParameterError
-        A receiver lies too close to the machine or behind a wall, memory does not suffice, or
-        walls are too thin for the grids.
-    """
+    """The machine side on two grids, and the microphones."""
 
     def __init__(self, task: Task) -> None:
         self._task = task
@@ -183,13 +176,6 @@ class ByCutCells:
         """Pressures (receiver, pattern, frequency) and errors; with k-Wave its check besides.
 
         And pressures (point, pattern, frequency) elsewhere.
-
-        Raises
-        ------
-        ParameterError
-            The grids do not resolve walls or gaps.
-        SolverError
-            A field is not finite or has not died down.
         """
         task, near = self._task, self.near
         room = Room(task.kwave_microphones, partial(room_greens, near[0].box, task, progress))

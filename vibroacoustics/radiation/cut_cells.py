@@ -106,13 +106,7 @@ class CutCells:
 
 
 def cut_cells(body: Body, grid: NearGrid) -> CutCells:
-    """Cut the cells of a grid by a body; along mirrored axes the one half is the other's image.
-
-    Raises
-    ------
-    ParameterError
-        The surface of the body is open.
-    """
+    """Cut the cells of a grid by a body; along mirrored axes the one half is the other's image."""
     upper = grid.upper_half
     start, stop = _around(body, upper)
     part = [edges[a : b + 1] for edges, a, b in zip(upper.edges, start, stop, strict=True)]

@@ -44,11 +44,6 @@ def vectors_at(
     Returns
     -------
     `transfer_vector` and, of modes, `pattern_transfer_vector`, the points as receivers
-
-    Raises
-    ------
-    ParameterError
-        The body is not one of revolution, or memory does not suffice.
     """
     shell = study.machine.shell
     task = task_of(shell, {}, _closed(study), motions=motions)

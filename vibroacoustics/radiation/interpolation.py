@@ -56,11 +56,6 @@ def interpolant(tabulated_hz: Array, transfer: ComplexArray, distance_m: Array) 
     transfer : pressure per unit velocity, shape (..., n), Pa.
     distance_m : distance of each receiver from the origin, shape (...); must broadcast against
         `transfer[..., 0]`.
-
-    Raises
-    ------
-    ParameterError
-        The function is called with a frequency that is negative or above the table.
     """
     smooth = transfer / _trend(tabulated_hz, distance_m)
     spline = CubicSpline(

@@ -34,13 +34,7 @@ _IMPORT: Final = threading.Lock()
 
 
 def load_kwave() -> None:
-    """Make k-Wave's modules importable without executing its `__init__`, which downloads.
-
-    Raises
-    ------
-    SolverError
-        k-wave-python is not installed.
-    """
+    """Make k-Wave's modules importable without executing its `__init__`, which downloads."""
     with _IMPORT:
         if "kwave" not in sys.modules:
             sys.modules["kwave"] = _bare_package()

@@ -71,11 +71,6 @@ class MachineSide:
 
     The patterns' fields on the boxes are joined with Green's functions and forgotten a few at a
     time: all of them together need not fit the memory.
-
-    Raises
-    ------
-    SolverError
-        A field is not finite or rings on for longer than is simulated.
     """
 
     def __init__(

@@ -143,11 +143,6 @@ def advance_run(run: Run, grid: NearGrid, cells: CutCells) -> tuple[ComplexArray
     """Pressure (frequency, recorded cell) per unit spectrum of the wall's velocity.
 
     And the largest pressure of the watched points, with that of the other parts, (watched,).
-
-    Raises
-    ------
-    SolverError
-        The field is not finite, or rings on for longer than is simulated.
     """
     upper, time_step = grid.upper_half, grid.time_step_s
     volumes = upper_half(cells.volumes, grid.mirrored)

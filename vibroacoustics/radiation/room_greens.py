@@ -87,13 +87,7 @@ _SMALLEST_SPACING_M: Final = 0.005
 
 
 def room_greens(box: Box, task: Task, progress: Progress) -> list[BoxField]:
-    """Green's functions of k-Wave's receivers on a box, at its frequencies.
-
-    Raises
-    ------
-    ParameterError, SolverError
-        See `kwave_green`.
-    """
+    """Green's functions of k-Wave's receivers on a box, at its frequencies."""
     device.warn_of_device()
     walls = task.scene.walls
     workers = _workers(box, task)
@@ -124,13 +118,7 @@ def room_spacing_m(box: Box, task: Task) -> float:
 
 
 def check_receivers(box: Box, task: Task) -> None:
-    """Check positions and memory of all k-Wave runs, before any run.
-
-    Raises
-    ------
-    ParameterError
-        See `kwave_green`.
-    """
+    """Check positions and memory of all k-Wave runs, before any run."""
     for name, position in _positions(task).items():
         spacing_m = room_spacing_m(box, task)
         check_receiver(name, position, box, spacing_m, task.scene.walls, task.kwave_table.stop)

@@ -130,13 +130,7 @@ def scene(shell: Shell, settings: RadiationSettings) -> Scene:
 
 
 def machine_body(shell: Shell, body: RadiatingBody) -> Body:
-    """The radiating surface about the centre of mass.
-
-    Raises
-    ------
-    ParameterError
-        The mesh cannot be read, is open or inverted.
-    """
+    """The radiating surface about the centre of mass."""
     bottom = -shell.centre_of_mass_height_m
     if isinstance(body, BoxBody):
         half_length, half_width = body.length_m / 2.0, body.width_m / 2.0
@@ -152,13 +146,7 @@ def machine_body(shell: Shell, body: RadiatingBody) -> Body:
 
 
 def file_patterns(body: RadiatingBody, machine: Body) -> list[Pattern]:
-    """Surface velocities of a mesh that files give.
-
-    Raises
-    ------
-    ParameterError
-        A file cannot be read or does not fit the mesh.
-    """
+    """Surface velocities of a mesh that files give."""
     if not isinstance(body, MeshBody):
         return []
     return [

@@ -113,11 +113,6 @@ def field_parts(
     """Wherever the sound field is asked for.
 
     The first `tabulated` of the frequencies are those of the table, the others those of the lines.
-
-    Raises
-    ------
-    ParameterError
-        A position of the measurement surface lies in the machine, too close to it or behind a wall.
     """
     floor = _floor_m(surroundings)
     fields: list[tuple[str, Array, dict[str, Any], str]] = []

@@ -161,11 +161,6 @@ def axes_of(
     times : time of each channel; None without one
     rates_hz : sample rate that is stated of each channel; None without one
     request : its sample rate overrides those
-
-    Raises
-    ------
-    ParameterError
-        A channel has neither time nor sample rate, or its time has another length.
     """
     made: dict[Any, tuple[Axis, np.datetime64 | None]] = {}
     axes = []

@@ -271,11 +271,6 @@ def recording_blocks(path: str | Path, **reading: Any) -> FileBlocks:
     Parameters
     ----------
     path, reading : see `read_recording`
-
-    Raises
-    ------
-    ParameterError, StorageError
-        The file cannot be read; see `read_recording`.
     """
     try:
         return hold_recording(path, **reading)
@@ -294,11 +289,6 @@ def hold_recording(
     Parameters
     ----------
     path, from_s, to_s, reading : see `read_recording`
-
-    Raises
-    ------
-    ParameterError, StorageError
-        See `read_recording`.
 
     Warns
     -----

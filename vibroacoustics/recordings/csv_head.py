@@ -85,13 +85,7 @@ class Head:
         return not (is_special or is_quoted) and cells == list(map(tidy, cells))
 
     def cells(self, line: str) -> list[str]:
-        """Cells of a row of numbers, as Python writes them.
-
-        Raises
-        ------
-        ValueError
-            The row cannot be split, or a cell is in another form.
-        """
+        """Cells of a row of numbers, as Python writes them."""
         cells = _cells(line.strip("\r\n"), self.separator)
         while len(cells) > len(self.names) and not cells[-1]:
             cells.pop()

@@ -45,13 +45,7 @@ def product(text: str) -> Units | None:
 
 
 def single(text: str) -> Units:
-    """Unit of a spectrum.
-
-    Raises
-    ------
-    ParameterError
-        It is unknown, or that of no response.
-    """
+    """Unit of a spectrum."""
     measured = quantity(text)
     return Units(checked(measured, text).unit, "", measured.factor)
 

@@ -107,13 +107,7 @@ def find_quantity(unit: str) -> Quantity | None:
 
 
 def time_factor(unit: str) -> float:
-    """Factor to s of the unit of a time axis; `s since DATE` is s.
-
-    Raises
-    ------
-    ParameterError
-        The unit is not in the list.
-    """
+    """Factor to s of the unit of a time axis; `s since DATE` is s."""
     return axis_factor("time", unit)
 
 

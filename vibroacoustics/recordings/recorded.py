@@ -249,13 +249,7 @@ def check_size(channels: int, samples: int) -> None:
 
 
 def check_rate(sample_rate_hz: float) -> None:
-    """Refuse a sample rate that no recorder has.
-
-    Raises
-    ------
-    ParameterError
-        It is outside 1 mHz to 1 GHz.
-    """
+    """Refuse a sample rate that no recorder has."""
     check_range("sample_rate_hz", sample_rate_hz, *SAMPLE_RATES_HZ, "Hz")
 
 

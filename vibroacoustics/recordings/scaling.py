@@ -16,13 +16,7 @@ FACTORS: Final = (1e-15, 1e15)
 def si_scale(
     names: Sequence[str], units: Sequence[str], calibration: Mapping[str, float]
 ) -> tuple[list[str], list[float]]:
-    """SI unit of each channel, and the factor that takes its samples to it.
-
-    Raises
-    ------
-    ParameterError
-        A unit is unknown, or a factor out of range.
-    """
+    """SI unit of each channel, and the factor that takes its samples to it."""
     measured = [_quantity(name, unit) for name, unit in zip(names, units, strict=True)]
     factors = [
         _calibration(name, calibration) * kind.factor
@@ -32,13 +26,7 @@ def si_scale(
 
 
 def scale_in_place(signal: Array, names: Sequence[str], factors: Sequence[float]) -> None:
-    """Multiply the samples of each channel, shape (channel, time), by its factor.
-
-    Raises
-    ------
-    ParameterError
-        A sample is not finite.
-    """
+    """Multiply the samples of each channel, shape (channel, time), by its factor."""
     for name, factor, samples in zip(names, factors, signal, strict=True):
         with np.errstate(over="ignore"):  # told in the next line
             np.multiply(samples, factor, out=samples)

@@ -98,25 +98,13 @@ def is_stamp(field: str) -> bool:
 
 
 def stamp_text(field: str) -> str:
-    """A time stamp as ISO 8601 writes it; empty where its date is not known.
-
-    Raises
-    ------
-    ValueError
-        The field is no time stamp.
-    """
+    """A time stamp as ISO 8601 writes it; empty where its date is not known."""
     stamp = _known(field)
     return f"{stamp.date}T{stamp.clock}{stamp.zone}" if stamp.date else ""
 
 
 def stamp_ns(field: str) -> int:
-    """Nanoseconds of a time stamp since 1970, of UTC where it states its offset.
-
-    Raises
-    ------
-    ValueError
-        The field is no time stamp.
-    """
+    """Nanoseconds of a time stamp since 1970, of UTC where it states its offset."""
     stamp = _known(field)
     return stamp.day_ns + stamp.clock_ns - 60_000_000_000 * _offset_minutes(stamp.zone or "Z")
 

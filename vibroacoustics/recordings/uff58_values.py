@@ -14,13 +14,7 @@ _TRUNCATED: Final = "a dataset 58 holds fewer samples than its header says: trun
 
 
 def values(file: BinaryIO, header: Header, first: int, last: int) -> tuple[Samples, Samples | None]:
-    """Ordinates from one point up to, but not with, another, and their abscissas where uneven.
-
-    Raises
-    ------
-    StorageError
-        The dataset holds fewer, or something that is no number.
-    """
+    """Ordinates from one point up to, but not with, another, and their abscissas where uneven."""
     if header.byte_order:
         return _binary(file, header, first, last)
     per_point = 1 if header.is_even else 2
@@ -29,13 +23,7 @@ def values(file: BinaryIO, header: Header, first: int, last: int) -> tuple[Sampl
 
 
 def ordinates(file: BinaryIO, header: Header) -> tuple[Samples, Samples | None]:
-    """All ordinates, complex where they are, and their abscissas where uneven.
-
-    Raises
-    ------
-    StorageError
-        Return ordinates and abscissae; see `values`.
-    """
+    """All ordinates, complex where they are, and their abscissas where uneven."""
     if header.byte_order:
         numbers_of_points, abscissa = _binary(file, header, 0, header.points)
     else:

@@ -266,13 +266,7 @@ class Part(NamedTuple):
 
 
 def to_json(blocks: Sequence[Block]) -> str:
-    """Blocks as JSON in ASCII; pictures in base64.
-
-    Raises
-    ------
-    ValueError
-        One of them is no block, or holds a value of another type than its own.
-    """
+    """Blocks as JSON in ASCII; pictures in base64."""
     text = json.dumps(_adapter().dump_python(rendered(blocks), mode="json", warnings=False))
     from_json(text)
     return text

@@ -44,13 +44,7 @@ def folder() -> Path:
 
 @contextmanager
 def opened() -> Iterator[Folder]:
-    """Open the folder of the cache, which no other user can write; it is made where it is missing.
-
-    Raises
-    ------
-    StorageError
-        It cannot be made or opened, belongs to another user or is writable by all.
-    """
+    """Open the folder of the cache, which no other user can write; it is made if missing."""
     path = folder()
     with ExitStack() as stack:
         with naming(path):
@@ -74,13 +68,7 @@ def _make_private(cache_folder: Folder) -> None:
 
 
 def contents() -> tuple[list[Entry], int]:
-    """Return the entries of the cache, and its size limit, bytes; the folder is not made.
-
-    Raises
-    ------
-    StorageError
-        The folder is not used.
-    """
+    """Return the entries of the cache, and its size limit, bytes; the folder is not made."""
     if not os.path.exists(folder()):
         return [], DEFAULT_LIMIT_BYTES
     with opened() as cache_folder:

@@ -73,14 +73,7 @@ class Compared(NamedTuple):
 
 
 def check_figures(compared: Compared, limits: Sequence[FigureLimit]) -> list[CheckedFigure]:
-    """Hold figures of both results against their limits.
-
-
-    Raises
-    ------
-    ParameterError
-        A limit is for a channel, band, criterion or unit that neither result has.
-    """
+    """Hold figures of both results against their limits."""
     return [row for limit in limits for row in _checked(compared, limit)]
 
 

@@ -38,11 +38,6 @@ def only_writer(path: Path) -> Iterator[Staging]:
     """Be the only writer of a folder, with an empty hidden folder in it to write to.
 
     A folder that was made for it goes again on failure.
-
-    Raises
-    ------
-    StorageError
-        The folder cannot be written.
     """
     with ExitStack() as stack:
         stack.enter_context(cleared(partial(_remove_empty, missing_folders(path))))
@@ -87,25 +82,13 @@ def _remove_tree(name: str, folder: Folder) -> None:
 
 
 def write(staged: Folder, name: str, content: Content) -> None:
-    """Write a file and carry it to the disk; folders on the way to it are made.
-
-    Raises
-    ------
-    StorageError
-        It cannot be written.
-    """
+    """Write a file and carry it to the disk; folders on the way to it are made."""
     with naming(staged.path / name):
         staged.write(name, content)
 
 
 def write_together(folder: Path, files: Mapping[str, Content]) -> None:
-    """Write files into a folder, together or not at all.
-
-    Raises
-    ------
-    StorageError
-        The folder cannot be written; what was there before then stays.
-    """
+    """Write files into a folder, together or not at all."""
     with only_writer(folder) as staged:
         for name, content in files.items():
             write(staged, name, content)
@@ -113,15 +96,7 @@ def write_together(folder: Path, files: Mapping[str, Content]) -> None:
 
 
 def replace_all(staged: Staging, first: str = "") -> None:
-    """Move all that was written to its names, one before all others; no signal comes between.
-
-
-    Raises
-    ------
-    StorageError
-        A name is taken by a folder, link, pipe, socket or device, which is seen before any file
-        is replaced, or the disk fails.
-    """
+    """Move all that was written to its names, one before all others; no signal comes between."""
     names = sorted(map(PurePosixPath, staged.files()), key=lambda name: str(name) != first)
     for name in names:
         staged.target.check_file(str(name))

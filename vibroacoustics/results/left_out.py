@@ -12,13 +12,7 @@ ATTRIBUTE: Final = "left_out"
 
 
 def lines_of(results: xr.Dataset) -> list[str]:
-    """Return a line on everything that is omitted.
-
-    Raises
-    ------
-    SchemaError
-        The results hold something else.
-    """
+    """Return a line on everything that is omitted."""
     return read_attribute(results, ATTRIBUTE, list[str]) if ATTRIBUTE in results.attrs else []
 
 

@@ -31,16 +31,7 @@ _NO_LOCKS: Final = (errno.ENOLCK, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOSYS)
 
 @contextmanager
 def locked(folder: Folder, name: str, what: str) -> Iterator[None]:
-    """Hold a lock; another's is waited for, and named in one warning.
-
-
-    Raises
-    ------
-    StorageError
-        The name is taken by something else.
-    OSError
-        The file cannot be made.
-    """
+    """Hold a lock; another's is waited for, and named in one warning."""
     begin, announced = time.monotonic(), False
     while True:
         with taken(folder, name) as held:

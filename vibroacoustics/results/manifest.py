@@ -66,11 +66,6 @@ def replacing(path: Path, dataset: str, dataset_sha256: str = "") -> Iterator[St
     path : folder where everything goes
     dataset : name of the dataset
     dataset_sha256 : its hash, where it is not written along
-
-    Raises
-    ------
-    StorageError
-        The folder cannot be written; what was there before then stays.
     """
     with only_writer(path) as staged:
         yield staged

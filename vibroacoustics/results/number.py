@@ -62,11 +62,6 @@ def number(
     write : gives the text of an estimate
     unit : that of the vocabulary where none is given
     selection : a label of each of its dimensions; those of others are not used
-
-    Raises
-    ------
-    ParameterError
-        The results hold no such variable or label.
     """
     value_with_ends = estimate(results, variable, **selection)
     sampled = is_sampled(results, variable)

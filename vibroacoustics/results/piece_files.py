@@ -56,13 +56,7 @@ class PieceFiles:
         return len(self._batch) + len(self._files)
 
     def get(self, key: str) -> Any:
-        """Return a piece that the store holds.
-
-        Raises
-        ------
-        StorageError
-            Its file cannot be read any more.
-        """
+        """Return a piece that the store holds."""
         return from_bytes(self._content(key))
 
     def put(self, key: str, piece: Any) -> None:
@@ -78,13 +72,7 @@ class PieceFiles:
             self.write()
 
     def write(self) -> None:
-        """Write the pieces that are not written yet.
-
-        Raises
-        ------
-        StorageError
-            They cannot be written.
-        """
+        """Write the pieces that are not written yet."""
         if self._batch:
             last = self._names[-1].removeprefix(_FIRST).partition(".")[0] if self._names else "-1"
             name = f"{_FIRST}{int(last) + 1:08d}.bin"

@@ -51,13 +51,7 @@ HIGHEST_COLUMN: Final = 2
 
 
 def check_variables(results: xr.Dataset) -> None:
-    """Refuse what lacks a variable or coordinate that a report reads, or holds it otherwise.
-
-    Raises
-    ------
-    SchemaError
-        Names the variable or the coordinate.
-    """
+    """Refuse what lacks a variable or coordinate that a report reads, or holds it otherwise."""
     declared_results = check_known(results)
     check(declared_results, needed_variables(declared_results))
     for name in declared_results.data_vars:
@@ -66,14 +60,7 @@ def check_variables(results: xr.Dataset) -> None:
 
 
 def check_known(results: xr.Dataset) -> xr.Dataset:
-    """Return the part of any results that the vocabulary knows; its values can be right.
-
-    Raises
-    ------
-    SchemaError
-        Names the variable or the coordinate: other dimensions, unit or type; a value that is
-        missing and must not be, or beyond its bounds; a label twice.
-    """
+    """Return the part of any results that the vocabulary knows; its values can be right."""
     third_party = [name for name in results.data_vars if name not in VARIABLES]
     third_party += [name for name in results.coords if name not in COORDINATES]
     checked = check(results.drop_vars(third_party))

@@ -33,11 +33,6 @@ def write_results(results: xr.Dataset, path: str | Path) -> Path:
 
     What was there before stays readable until then. A folder has one writer at a time: another is
     waited for.
-
-    Raises
-    ------
-    StorageError
-        It cannot be written.
     """
     path = Path(path)
     with only_writer(path.parent) as staged:
@@ -47,13 +42,7 @@ def write_results(results: xr.Dataset, path: str | Path) -> Path:
 
 
 def stage_results(results: xr.Dataset, staged: Staging, name: str) -> str:
-    """Write a dataset into a hidden folder; returns its hash.
-
-    Raises
-    ------
-    StorageError
-        It cannot be written.
-    """
+    """Write a dataset into a hidden folder; returns its hash."""
     with naming(staged.path / name):
         write_netcdf(results, staged.library_path(name))
         with open(name, "r+b", opener=staged.open) as file:

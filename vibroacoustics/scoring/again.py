@@ -19,11 +19,6 @@ def scored_again(results: xr.Dataset, settings: Scoring | None) -> xr.Dataset:
     ----------
     results : dataset of a run
     settings : settings, see `score`
-
-    Raises
-    ------
-    ParameterError
-        See `score`.
     """
     with collected() as lines:
         scores = score(results, settings)

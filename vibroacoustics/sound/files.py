@@ -69,12 +69,6 @@ def at_gain(pressure_pa: Array, full_scale_pa: float) -> Array:
 
 
 def calibration_tone(level_db: float, samples: int, sample_rate_hz: int) -> Array:
-    """A tone of 1 kHz of a level, Pa.
-
-    Raises
-    ------
-    ParameterError
-        The level is not between 0 and 140 dB.
-    """
+    """A tone of 1 kHz of a level, Pa."""
     turn = 2.0 * np.pi * CALIBRATION_HZ / sample_rate_hz
     return np.asarray(peak_of_tone(level_db) * np.sin(turn * np.arange(samples)))

@@ -51,13 +51,7 @@ def _peak(sound: Ingredients) -> float:
 
 
 def peak_of_tone(level_db: float) -> float:
-    """Peak of a tone of calibration, Pa.
-
-    Raises
-    ------
-    ParameterError
-        The level is not 0 to 140 dB.
-    """
+    """Peak of a tone of calibration, Pa."""
     check_range("calibration", level_db, 0.0, 140.0, "dB")
     return float(np.sqrt(2.0) * REFERENCE_PRESSURE_PA * amplitude_of_level(level_db))
 

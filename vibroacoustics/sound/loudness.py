@@ -91,11 +91,6 @@ def loudness_of_thirds(mean_square: Array, field: SoundField = "free") -> list[L
     ----------
     mean_square : in the bands `CENTRES_HZ`, shape (sound, band), Pa²
     field : sound field, see `loudness_of`
-
-    Raises
-    ------
-    ParameterError
-        See `loudness_of`.
     """
     core = core_loudness(thirds_db(mean_square), field)
     total = total_loudness(core)

@@ -46,11 +46,6 @@ def mean_audibility(pressure_pa: Array, sample_rate_hz: float) -> MeanAudibility
     ----------
     pressure_pa : sound pressure, shape (sample,), Pa
     sample_rate_hz : number of samples a second, Hz
-
-    Raises
-    ------
-    ParameterError
-        The recording is shorter than 3 s.
     """
     frequency_hz, level_db = narrow_band_levels(pressure_pa, sample_rate_hz)
     return mean_of_spectra(

@@ -81,11 +81,6 @@ def added_by(option: Option, machine: Machine, revolution: Revolution) -> Added:
     option : whose shapes are checked
     machine : with the option built into it
     revolution : revolution of the machine
-
-    Raises
-    ------
-    ParameterError, SolverError
-        It cannot be built so, or finds no steady motion.
     """
     with OPTIONS.fenced(option.kind, ParameterError):
         added = option.added(machine, revolution)
@@ -109,13 +104,7 @@ def sources_of(study: Study) -> dict[str, Source]:
 
 
 def loads_of(study: Study, case: Case) -> dict[str, Loads]:
-    """Loads of all sources in one case.
-
-    Raises
-    ------
-    ParameterError
-        A source cannot act so.
-    """
+    """Loads of all sources in one case."""
     return _loaded(study, case)[1]
 
 
@@ -199,13 +188,7 @@ def without_time_series(case: Case, loads: Mapping[str, Loads]) -> tuple[Case, d
 
 
 def check_revolution(revolution: Revolution, samples: int) -> None:
-    """Refuse a revolution whose time histories are not over the crank angles.
-
-    Raises
-    ------
-    ValueError
-        Names the time history.
-    """
+    """Refuse a revolution whose time histories are not over the crank angles."""
     _check_history("rotation", revolution.rotation.speed_rad_per_s, (samples,))
     _check_wrenches(revolution.wrenches, samples)
 

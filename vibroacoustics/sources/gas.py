@@ -178,11 +178,6 @@ def gas_cycle(machine: Machine, shared: Shared, speed_rpm: float) -> ScrollGasCy
     machine : with wraps and gas
     shared : with what else needs the cycle
     speed_rpm : constant; only a flow with inertia depends on it
-
-    Raises
-    ------
-    ParameterError, SolverError
-        See `steady_opening`.
     """
     wraps, gas = machine.table(ScrollWraps), machine.table(ScrollGas)
     tables = (machine.table(table) for table in gas_tables(machine).values())
@@ -203,11 +198,6 @@ def gas_on_parts(machine: Machine, speed_rpm: float, angle: Array) -> dict[Port,
     machine : with wraps and gas
     speed_rpm : speed of the steady running
     angle : shape (times,), rad
-
-    Raises
-    ------
-    ParameterError, SolverError
-        See `steady_opening`.
     """
     cycle = gas_cycle(machine, Shared(), speed_rpm)
     samples = cycle.crank_angle.size

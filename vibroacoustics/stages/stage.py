@@ -218,13 +218,6 @@ def advanced(chain: Chain, stage: Stage) -> Chain:
 
     The stage gets what it names among its reads, so that one that it forgets is missing in every
     run, not only where the stage that gives it comes later.
-
-    Raises
-    ------
-    PluginError
-        The stage gives what it does not name.
-    FaultError
-        The stage of a plug-in failed.
     """
     with STAGES.fenced(stage.name):
         return _advanced(chain, stage)

@@ -111,13 +111,6 @@ def run_down(
     sample_rate_hz : sample rate of the result
     steady_revolutions : before switch-off, at constant speed
     after : stretch after the first rest; none for a stop that ends there
-
-    Raises
-    ------
-    ParameterError
-        A source is unknown, the speed is not above zero, or nothing slows the shaft.
-    SolverError
-        The integration of the reversal fails.
     """
     _check(parts, shifted, speed_rad_per_s)
     coasting = Coasting.of(stopping, parts, shifted, gas_torque_n_m)

@@ -192,11 +192,6 @@ def stopping_event(
     body : the machine on its mounts
     pressure_per_velocity : function of frequencies to shape (receiver, dof, frequency)
     shell : that bends too; none for a rigid one
-
-    Raises
-    ------
-    ParameterError
-        The mounts have next to no loss and do not ring out.
     """
     first = np.count_nonzero(run.time_s < 0.0) - LOAD_SAMPLES * clock.lead
     history = np.concatenate([run.force_n.sum(axis=0), run.moment_n_m.sum(axis=0)])[:, first:]

@@ -28,11 +28,6 @@ def coarse(study: Study) -> Study:
     Parameters
     ----------
     study : from `load_study`
-
-    Raises
-    ------
-    ParameterError
-        The study was not read from a file.
     """
     changes = [
         change

@@ -145,11 +145,6 @@ def joined_machine(
     names : names of the options that are joined
     changes : changes of each redesign of the study
     read : the machine with further tables of changes, by their keys
-
-    Raises
-    ------
-    ParameterError
-        Two redesigns change one value, or the machine is refused.
     """
     ordered = joined_changes(names, changes, where)
     if not ordered:

@@ -49,13 +49,7 @@ def _without_options(study: Study, fault: FaultError) -> Study:
 
 
 def without_failing(written: Written, fault: FaultError) -> Written:
-    """Take options and criteria that fail out of what a study's file says.
-
-    Raises
-    ------
-    FaultError
-        Something else of a plug-in failed.
-    """
+    """Take options and criteria that fail out of what a study's file says."""
     content = deepcopy(written.content)
     if fault.noun == CRITERIA.noun and fault.name in _table(content, "scoring", "criteria"):
         leave_out(fault)

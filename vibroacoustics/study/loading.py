@@ -68,15 +68,7 @@ def load_study(path: str | Path, without: Collection[str] = ()) -> Study:
 
 
 def study_of(written: Written) -> Study:
-    """Read the study that a file's tables say, without options and criteria that fail.
-
-    Raises
-    ------
-    ParameterError
-        See `load_study`.
-    FaultError
-        The code of a machine or source failed.
-    """
+    """Read the study that a file's tables say, without options and criteria that fail."""
     with collected() as lines:
         while True:
             try:
@@ -350,12 +342,6 @@ def _table_at(content: Any, keys: tuple[str, ...]) -> dict[str, Any] | None:
 
 
 def load_study_or_machine(path: str | Path) -> Study | Machine:
-    """Read a study; or, of a file that names a kind of machine by itself, that machine.
-
-    Raises
-    ------
-    ParameterError
-        See `load_study` and `load_machine`.
-    """
+    """Read a study; or, of a file that names a kind of machine by itself, that machine."""
     is_machine = "kind" in read_toml(Path(path))
     return load_machine(path) if is_machine else load_study(path)

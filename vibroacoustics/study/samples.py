@@ -101,13 +101,7 @@ def fitting(study: Study, sample: Sample) -> Sample:
 
 
 def warn_of_contradictions(study: Study) -> None:
-    """Tell in one line how many samples contradict themselves, and in what.
-
-    Raises
-    ------
-    ParameterError
-        Nearly all do.
-    """
+    """Tell in one line how many samples contradict themselves, and in what."""
     sample_set = samples_of(study)
     if sample_set.refused:
         share = len(sample_set.refused) / sample_set.tried
@@ -129,11 +123,6 @@ def with_sample(machine: Machine, nominal: Machine, sample: Sample) -> Machine:
     machine : machine with an option
     nominal : nominal machine of the study
     sample : values by table and field
-
-    Raises
-    ------
-    ParameterError
-        The values contradict one another.
     """
     changed = {
         f"{table}.{field}".lstrip("."): value

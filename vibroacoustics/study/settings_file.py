@@ -16,11 +16,6 @@ def settings_of(model: type[Model], path: Path, content: dict[str, Any]) -> Mode
     model : class of the settings
     path : file that gives the content
     content : content in the file's units
-
-    Raises
-    ------
-    ParameterError
-        Anything is missing, unknown, of the wrong type or outside its allowed range.
     """
     reader = Reader(path, dict.fromkeys(leaves(content), path))
     return validated(model, reader.to_si(content, ()), reader)

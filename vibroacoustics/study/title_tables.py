@@ -10,13 +10,7 @@ from .titles import LONGEST
 
 
 def take_titles(content: Mapping[str, Any], reader: Reader) -> dict[str, Any]:
-    """Take the key `title` out of the tables of machine and options.
-
-    Raises
-    ------
-    ParameterError
-        A title is no text, blank, too long, or that or the name of another option.
-    """
+    """Take the key `title` out of the tables of machine and options."""
     machine, options = content.get("machine"), content.get("options")
     titles: dict[str, Any] = {"machine": "", "options": {}}
     if isinstance(machine, dict) and "title" in machine:

@@ -79,13 +79,7 @@ def _deeper_than(content: Mapping[str, Any], depth: int) -> bool:
 
 
 def read_with_base(path: Path) -> Written:
-    """Merge a study over the one it extends, and so on; also give the file of each value.
-
-    Raises
-    ------
-    ParameterError
-        A file cannot be read, or they extend one another in a circle.
-    """
+    """Merge a study over the one it extends, and so on; also give the file of each value."""
     return _over_base(path, (path,))
 
 

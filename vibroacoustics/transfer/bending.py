@@ -72,11 +72,6 @@ class BendingShell:
         port : port of the load, in the shell
         frequency_hz : frequencies, shape (frequency,), Hz; solutions for parts and gas are shared
         lines : indices of the loaded frequencies, shape (line,)
-
-        Raises
-        ------
-        ParameterError
-            The machine has no such port.
         """
         key = observers, port, frequency_hz.tobytes(), lines.tobytes()
         return self._known(key, lambda: self._response(observers, port, frequency_hz, lines))
@@ -170,13 +165,7 @@ class BendingShell:
 
 
 def bending_shell(machine: Machine, path: ShellPath) -> BendingShell:
-    """Make the shell with a machine's values.
-
-    Raises
-    ------
-    ParameterError
-        Frame or joints do not fit the shell.
-    """
+    """Make the shell with a machine's values."""
     structure, variation = machine.table(ShellStructure), machine.table(ShellVariation)
     shell = path.with_structure(structure)
     frame = frame_on_shell(machine, shell)

@@ -44,11 +44,6 @@ class LoadPath:
         ports : where it is loaded
         frequency_hz : shape (frequency,)
         lines : indices of frequencies that are loaded; all where they are not given
-
-        Raises
-        ------
-        ParameterError
-            The machine has no such port.
         """
         columns = np.arange(frequency_hz.size) if lines is None else lines
         each = [self._of_port(observers, port, frequency_hz, columns) for port in ports]

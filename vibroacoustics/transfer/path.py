@@ -65,13 +65,7 @@ class ShellPath:
 
     @cached_property
     def joint_forces(self) -> Array:
-        """Generalised force per unit load, shape (mode, joint, component).
-
-        Raises
-        ------
-        ParameterError
-            A joint reaches beyond the wall.
-        """
+        """Generalised force per unit load, shape (mode, joint, component)."""
         joints = [getattr(self.structure, name) for name in JOINTS]
         if self.wall is not None:
             loads = [modal_forces(self.wall.shell, JointLoads(joint)) for joint in joints]

@@ -92,11 +92,6 @@ def wall_mobility(
     wall : points
     references : forces
     frequency_hz : above zero, shape (frequency,)
-
-    Raises
-    ------
-    ParameterError
-        Frame or joints do not fit the shell.
     """
     structure, variation = machine.table(ShellStructure), machine.table(ShellVariation)
     shell_path = path.with_structure(structure)

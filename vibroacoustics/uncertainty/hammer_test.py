@@ -150,13 +150,7 @@ class HammerTest:
             return NO_MACHINE
 
     def of_machine(self, machine: Machine) -> ShellAgreement:
-        """Agreement of a machine's shell.
-
-        Raises
-        ------
-        ParameterError
-            Frame or joints do not fit the shell.
-        """
+        """Agreement of a machine's shell."""
         settings = self.settings
         tolerances = Tolerances(
             settings.gain_tolerance_db,

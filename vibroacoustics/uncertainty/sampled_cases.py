@@ -34,11 +34,6 @@ def sampled_cases(
     study : with its machine and options
     sample : values by table and field
     shared : results that other cases of the sample have computed
-
-    Raises
-    ------
-    ParameterError, SolverError
-        A machine cannot run so, an option not be built, a source not act.
     """
     sampled = Cases({}, {}, {})
     shared, machines = shared or Shared(), Shared()
@@ -70,11 +65,6 @@ def sampled_machine(machine: Machine, nominal: Machine, option: Option, sample: 
     nominal : machine of the study
     option : option of the case
     sample : values by table and field
-
-    Raises
-    ------
-    ParameterError
-        The values contradict one another, or the bodies do not fit the machine.
     """
     with_values = with_sample(machine, nominal, sample)
     return with_values.carrying(option.attached(with_values))

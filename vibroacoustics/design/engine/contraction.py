@@ -76,13 +76,7 @@ class Contraction:
         return self._stands[layout]
 
     def probe(self, design: Array) -> Probe:
-        """Return loads and body of a design, shape (variable,).
-
-        Raises
-        ------
-        ParameterError, SolverError
-            It cannot be built, or not run.
-        """
+        """Return loads and body of a design, shape (variable,)."""
         loads = self.loads(design)
         return Probe.of(loads, self.stands(loads.layout)(design))
 

@@ -107,11 +107,6 @@ def hearing_of(
     square : mean squares of the lines, shape (design, pair, receiver, line), Pa²
     noise : mean squares of the noise in the third octaves of a baseline, shape (design or 1, pair,
         receiver, band), Pa²
-
-    Raises
-    ------
-    ParameterError
-        All designs have a third octave below 300 Hz above 120 dB.
     """
     wanted: Mapping[Need, object] = dict.fromkeys(needs)
     result: dict[Need, Array] = {}
@@ -131,11 +126,6 @@ def loudness_sone(mean_square: Array) -> Array:
     Parameters
     ----------
     mean_square : shape (..., 28), Pa²
-
-    Raises
-    ------
-    ParameterError
-        All of the sounds are too loud.
     """
     level_db = thirds_db(mean_square)
     is_too_loud = (level_db[..., _LOW] > LOUDEST_DB).any(axis=-1)

@@ -114,11 +114,6 @@ def probe(study: Study, option: str) -> Probe:
     ----------
     study : study with its options `none` and the requested one
     option : name of the requested option
-
-    Raises
-    ------
-    ParameterError, SolverError
-        The design cannot be built, or not run.
     """
     loads = loads_of_design(study, option, None, Shared())
     return Probe.of(loads, stand_of_design(study, option, None, loads.layout))
@@ -136,11 +131,6 @@ def loads_of_design(
     sample : sampled values by table and field; none for the nominal machine and all sources
         together
     shared : results shared with other designs of the same sample
-
-    Raises
-    ------
-    ParameterError, SolverError
-        The design cannot be built, or not run.
     """
     cases = _cases(study, option, sample, shared)
     speeds, together = study.operation.speed_rpm, sample is None
@@ -158,11 +148,6 @@ def stand_of_design(
     ----------
     study, option, sample : see `loads_of_design`
     layout : layout of the loads, by speed
-
-    Raises
-    ------
-    ParameterError
-        The design cannot be built.
     """
     body = on_mounts(machine_of_design(study, option, sample, with_bodies=True))
     added = tuple(_over_frequency(body, speed.hertz) for speed in layout)
@@ -178,11 +163,6 @@ def machine_of_design(
     ----------
     study, option, sample : see `loads_of_design`
     with_bodies : whether it carries the bodies that the option attaches
-
-    Raises
-    ------
-    ParameterError
-        The design cannot be built.
     """
     chosen = study.options[option]
     changed, values = chosen.applied_to(study.machine), {} if sample is None else sample

@@ -44,13 +44,7 @@ class Scores:
     _slow: bool = True
 
     def __call__(self, design: Array) -> ResponsesByNeed:
-        """Return the criteria of a design, shape (1,); all samples of the machine share them.
-
-        Raises
-        ------
-        ParameterError, SolverError
-            It cannot be built, or not run.
-        """
+        """Return the criteria of a design, shape (1,); all samples of the machine share them."""
         study = self.space.quick_study_of(design)
         key = canonical_json(study.parameters()), self.option
         scores: ResponsesByNeed = self.sound_paths.criteria(key, partial(self._cached, study))

@@ -65,13 +65,7 @@ class Samples:
     _known: dict[bytes, Probe] = field(default_factory=dict, repr=False)
 
     def probes_of(self, values: Array) -> list[Probe]:
-        """Return the probes of designs, shape (design, variable).
-
-        Raises
-        ------
-        ParameterError, SolverError
-            One of them cannot be built.
-        """
+        """Return the probes of designs, shape (design, variable)."""
         return [self._one(row) for row in values]
 
     def forget(self) -> None:

@@ -87,11 +87,6 @@ class SoundPath:
         ----------
         machine : machine with the values of a design, and with bodies of an option where loads
             act on these
-
-        Raises
-        ------
-        ParameterError
-            Frame or joints do not fit the shell.
         """
         shell = self.transmission.shell
         return PathOfDesign(self, machine, None if shell is None else bending_shell(machine, shell))
@@ -128,11 +123,6 @@ class PathOfDesign:
         Parameters
         ----------
         layouts : lines and ports by speed
-
-        Raises
-        ------
-        ParameterError
-            The machine has no such port.
         """
         shell = None
         if self.shell is not None:  # what it keeps is large, and few frequencies come again

@@ -34,11 +34,6 @@ def search_front(
     generations : number of generations, the first included
     seed : seed of the random numbers; the same seed asks for the same designs
     progress : function called with the generations done
-
-    Raises
-    ------
-    ParameterError
-        pymoo is not installed.
     """
     history = History(problem.evaluate)
     algorithm, outline = _algorithm(problem, population, generations, seed)

@@ -30,11 +30,6 @@ def opened_store(path: Path, plan: dict[str, object]) -> Iterator[PieceFiles]:
     ----------
     path : path of the folder, in that of the results; both are made where they are missing
     plan : inputs that shape the designs and their evaluation, as JSON values
-
-    Raises
-    ------
-    StorageError
-        The folder holds designs of another plan, or cannot be written.
     """
     with ExitStack() as stack:
         with naming(path):

@@ -66,11 +66,6 @@ def measured_runs(settings: TrialRuns, folder: Path) -> MeasuredRuns:
     ----------
     settings : file of the runs
     folder : folder of the file, in which recordings are
-
-    Raises
-    ------
-    ParameterError, StorageError
-        A recording cannot be read, or its channel of a sensor is missing or of another quantity.
     """
     campaign = settings.campaign()
     recorded = (

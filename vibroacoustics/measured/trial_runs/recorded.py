@@ -110,11 +110,6 @@ def readings_of(recording: xr.Dataset, speed: SpeedChannel) -> RecordedReadings:
     ----------
     recording : from `read_recording` or `label_recording`
     speed : channel of the tacho
-
-    Raises
-    ------
-    ParameterError
-        A channel is missing, or there are too few revolutions.
     """
     names = [str(name) for name in recording["channel"].values]
     units = dict(zip(names, map(str, recording["channel_unit"].values), strict=True))

@@ -66,11 +66,6 @@ def worst_speed_moments(
     response, influence : see `sums_of_squares`
     largest : largest moment of each weight, above zero or infinite, kg m, shape (weight,); none
         for no limit
-
-    Raises
-    ------
-    SolverError
-        The lower bound differs from the result by more than 1e-7.
     """
     start = least_squares_moments(response, influence)
     share = np.zeros(start.size) if largest is None else 1.0 / largest

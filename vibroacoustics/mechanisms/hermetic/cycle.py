@@ -126,11 +126,6 @@ def steady_cycle(
     machine : the compressor, its motor at a fixed synchronous speed
     film : force of a bearing's film on the journal
     steps : uniform steps per revolution
-
-    Raises
-    ------
-    SolverError
-        Newton's method does not converge.
     """
     equations = ShaftEquations(machine, crankshaft(machine), film)
     mesh = np.union1d(np.linspace(0.0, 2.0 * np.pi, steps + 1), valve_angles(machine))

@@ -190,11 +190,6 @@ def linear_film(bearing: JournalBearing, load_n: float, spin_rad_per_s: float) -
     bearing : radius, width and clearance in m, viscosity in Pa s
     load_n : on the journal, along x, N
     spin_rad_per_s : Ω
-
-    Raises
-    ------
-    ParameterError
-        The film cannot carry the load.
     """
     size = 2.0 * bearing.radius_m, bearing.width_m, bearing.clearance_m
     return short_bearing(*size, bearing.viscosity_pa_s, spin_rad_per_s, load_n)

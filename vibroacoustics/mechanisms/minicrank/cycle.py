@@ -203,11 +203,6 @@ def crank_pin_force(
 
     Gas, weight and inertia of the scroll, less what the mini-crank takes (Zhao et al. 2013,
     figure 3).
-
-    Raises
-    ------
-    ParameterError
-        See `minicrank_pin_force`.
     """
     outward, forward = direction(motion.crank_angle), direction(motion.crank_angle + 0.5 * np.pi)
     gas = -load.tangential_force_n * forward - load.radial_force_n * outward

@@ -70,11 +70,6 @@ def first_contact(machine: RollingPistonTables, gas: GasTurn, speed_rad_per_s: f
     machine : with cylinder and vane
     gas : turn of the cylinder
     speed_rad_per_s : Ω
-
-    Raises
-    ------
-    SolverError
-        The vane does not come back within a turn.
     """
     still = np.zeros(gas.compression_pa.size)
     extension = vane_extension(machine.cylinder, uniform_crank_angle(still.size))
@@ -110,11 +105,6 @@ def contact_turn(
     gas : turn of the cylinder
     rotation : rotation of the shaft over the cylinder's own angle
     before : result of the last iteration, or `first_contact`
-
-    Raises
-    ------
-    SolverError
-        No periodic spin is reached.
     """
     cylinder, vane = machine.cylinder, machine.vane
     angle, (x, slope, _) = rotation.crank_angle, before.extension

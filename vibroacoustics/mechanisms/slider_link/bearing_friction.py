@@ -24,11 +24,6 @@ def short_bearing_friction(eccentricity_ratio: Array, length_per_diameter: float
     ----------
     eccentricity_ratio : eccentricity, from 0 to below 1, shape (...)
     length_per_diameter : l/d
-
-    Raises
-    ------
-    ParameterError
-        The eccentricity is outside its range.
     """
     ratio = _checked(eccentricity_ratio)
     clear = np.sqrt(1.0 - ratio**2)

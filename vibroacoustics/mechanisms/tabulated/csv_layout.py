@@ -36,13 +36,7 @@ _Groups = dict[tuple[float, str], list[int]]
 
 
 def read_csv(path: Path) -> Spectra:
-    """Columns `speed_rpm`, `crank_angle_deg` or `order`, `source`, force and moment.
-
-    Raises
-    ------
-    ParameterError
-        The file cannot be read, lacks a column, or a row is refused.
-    """
+    """Columns `speed_rpm`, `crank_angle_deg` or `order`, `source`, force and moment."""
     columns = read_layouts(path, LAYOUTS)
     return _assembled(columns, _of_orders if "order" in columns.numbers else _of_angles)
 

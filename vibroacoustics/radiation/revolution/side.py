@@ -53,11 +53,6 @@ class RevolutionSide:
     patterns : velocities of its wall
     maximum_frequency_hz : that the meshes resolve
     floor_z_m : height of a hard floor
-
-    Raises
-    ------
-    ParameterError
-        The body is so large against the wave that memory does not suffice.
     """
 
     def __init__(

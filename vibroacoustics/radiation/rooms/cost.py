@@ -25,13 +25,7 @@ motions of a compressor on its floor, some 20 s with the modes of its shell."""
 
 
 def room_cost(study: Study, settings: StudyRoom) -> Cost:
-    """A run for each listener and one for the map, and the machine's field.
-
-    Raises
-    ------
-    ParameterError
-        See `room_vectors`.
-    """
+    """A run for each listener and one for the map, and the machine's field."""
     waves, ears = RoomSettings(settings.maximum_frequency_hz), listeners_m(settings)
     shell, radiation = study.machine.shell, study.radiation
     _, stands = placed(shell, radiation, room_of(settings), foot_m(settings), ears, waves)

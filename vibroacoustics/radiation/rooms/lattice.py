@@ -86,11 +86,6 @@ def pieces_of(
     """Pressure (-1) and derivatives by axis at a lattice, by box of air.
 
     Indices are those of a flat array (quantity, x, y, z) that begins at `first_index`.
-
-    Raises
-    ------
-    ParameterError
-        A point lies in a block or outside the room.
     """
     shape = (len(quantities), *lattice.shape)
     result_rows: IndexArray = first_index + np.arange(int(np.prod(shape))).reshape(shape)

@@ -233,13 +233,7 @@ def room_pressure_per_velocity(vectors: xr.Dataset) -> Callable[[Array], Complex
 
 
 def green_of_foot(vectors: xr.Dataset) -> Callable[[Array], ComplexArray]:
-    """`room_green_of_foot` as a function of frequencies in Hz, (listener, frequency), 1/m.
-
-    Raises
-    ------
-    ParameterError
-        Takes and gives what `room_pressure_per_velocity` does.
-    """
+    """`room_green_of_foot` as a function of frequencies in Hz, (listener, frequency), 1/m."""
     table = vectors["room_green_of_foot"].transpose("listener", "room_frequency")
     return _between_lines(table.values, vectors)
 

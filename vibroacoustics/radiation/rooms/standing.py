@@ -42,13 +42,7 @@ class Standing:
 def standing(
     shell: Shell, profile: Profile, room: Room, foot_m: Array, spacing_m: float
 ) -> Standing:
-    """The machine with its foot at a point of the floor or on a block.
-
-    Raises
-    ------
-    ParameterError
-        The foot is elsewhere, or the body meets walls or blocks or is too close to them.
-    """
+    """The machine with its foot at a point of the floor or on a block."""
     foot_m = np.asarray(foot_m, dtype=float)
     radius_m, height_m = profile.radius_m, profile.top_z_m - shell.floor_z_m
     lower = foot_m - np.array([radius_m, radius_m, 0.0])

@@ -32,15 +32,7 @@ class _Table:
 
 
 def read(request: Request) -> Recorded:
-    """Columns of a table; its time column gives the sample rate.
-
-    Raises
-    ------
-    ParameterError
-        There is no header, no time column, or the times are not even.
-    StorageError
-        The table has a gap, a line too long or columns of different lengths.
-    """
+    """Columns of a table; its time column gives the sample rate."""
     with opened(request.path) as file:
         head = read_head([text(line) for line in islice(lines(file), MAXIMUM_HEAD_LINES)])
         table, remarks = _complete(_Table(file, head, *_rows(file, head)))

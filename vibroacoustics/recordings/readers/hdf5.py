@@ -33,15 +33,7 @@ _CLASSIC: Final = b"CDF"
 
 
 def read(request: Request) -> Recorded:
-    """Vectors and tables of numbers anywhere in an HDF5 or netCDF file.
-
-    Raises
-    ------
-    ParameterError
-        There is no channel, no sample rate, or the channels differ in length.
-    StorageError
-        The file is damaged or claims more samples than the cap allows.
-    """
+    """Vectors and tables of numbers anywhere in an HDF5 or netCDF file."""
     with request.path.open("rb") as file:
         is_classic = file.read(3) == _CLASSIC
     return _read_classic(request) if is_classic else _read_hdf5(request)

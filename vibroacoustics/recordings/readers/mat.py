@@ -33,15 +33,7 @@ _MAXIMUM_DEPTH: Final = 8
 
 
 def read(request: Request) -> Recorded:
-    """Vectors and tables of numbers, a time vector `t` or `time`, or a sample rate `fs`.
-
-    Raises
-    ------
-    ParameterError
-        There is no channel, no sample rate, or the channels differ in length.
-    StorageError
-        The file claims more samples than the cap allows.
-    """
+    """Vectors and tables of numbers, a time vector `t` or `time`, or a sample rate `fs`."""
     with request.path.open("rb") as file:
         head = file.read(_HDF5_OFFSET + len(_HDF5_MARK))
     is_hdf5 = head.startswith(_HDF5_MARK) or head[_HDF5_OFFSET:] == _HDF5_MARK

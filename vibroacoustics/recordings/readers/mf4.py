@@ -37,15 +37,7 @@ class _Channel:
 
 
 def read(request: Request) -> Recorded:
-    """Channels of numbers; the groups' times make one time line.
-
-    Raises
-    ------
-    ParameterError
-        There is no channel, a group's axis is no time, or groups have no common time.
-    StorageError
-        Samples are marked invalid, or the file claims more than the cap allows.
-    """
+    """Channels of numbers; the groups' times make one time line."""
     logging.getLogger("asammdf").disabled = True  # it writes there what it repairs
     from asammdf import MDF
 

@@ -22,15 +22,7 @@ _TIME_NAMES: Final = ("", "time", "zeit", "t")
 
 
 def read(request: Request) -> Recorded:
-    """Channels of numbers; `group/channel` where the file has several groups.
-
-    Raises
-    ------
-    ParameterError
-        There is no channel, an axis is no time, or the chosen ones have no common time.
-    StorageError
-        The file is truncated or too large.
-    """
+    """Channels of numbers; `group/channel` where the file has several groups."""
     from nptdms import TdmsFile
 
     from .. import tdms_segments as segments

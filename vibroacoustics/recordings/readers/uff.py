@@ -30,13 +30,6 @@ def read(request: Request) -> Recorded:
     """Time responses of a universal file; the sample rate is 1 over the abscissa increment.
 
     An ASCII file stores that increment with six digits, so the rate is no better.
-
-    Raises
-    ------
-    ParameterError
-        The file holds no time response, or the chosen ones differ in length or rate.
-    StorageError
-        The file is truncated or too large.
     """
     with request.path.open("rb") as file:
         contents = datasets(file)

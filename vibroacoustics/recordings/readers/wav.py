@@ -15,13 +15,7 @@ from . import sound_file
 
 
 def read(request: Request) -> Recorded:
-    """Channels `channel 1`, `channel 2` … of a WAV file.
-
-    Raises
-    ------
-    StorageError
-        The file is no WAV file, is truncated or too large.
-    """
+    """Channels `channel 1`, `channel 2` … of a WAV file."""
     with request.path.open("rb") as file:
         wave = read_wave(file)
     if wave.kind not in (PCM, FLOAT):  # packed: A-law, ADPCM, …

@@ -51,15 +51,7 @@ class _Sheet:
 
 
 def read(request: Request) -> Recorded:
-    """Columns of the first sheet that holds a table of numbers.
-
-    Raises
-    ------
-    ParameterError
-        There is no table with names above, no time and no sample rate, or the times are not even.
-    StorageError
-        The file is damaged, or a cell of the table holds no number.
-    """
+    """Columns of the first sheet that holds a table of numbers."""
     from openpyxl import load_workbook
 
     _check_parts(request.path)

@@ -54,11 +54,6 @@ def loudest_orders(
     orders : result of `analyse_orders`; needs `order_map` and, of sound pressure, `block_level`
     channel : one of the dataset's channels; default: the first
     gain : `a_weighted_power` of the map, if it is known
-
-    Raises
-    ------
-    ParameterError
-        There is no such channel.
     """
     of_channel = orders.sel(channel=chosen(orders, "channel", channel))
     unit, band_order = str(of_channel["channel_unit"].item()), float(orders.attrs["band_order"])

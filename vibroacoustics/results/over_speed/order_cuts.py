@@ -58,11 +58,6 @@ def order_cuts(
     channel : channel, see `compare`; default: of a study the microphone of its published level,
         else the first
     option : option of a study
-
-    Raises
-    ------
-    ParameterError
-        There is no such channel or option.
     """
     if "block_order_rms" in orders:
         return _of_recording(orders, channel)

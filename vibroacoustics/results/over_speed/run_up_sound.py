@@ -35,13 +35,7 @@ class RunUpSound(NamedTuple):
 
 
 def shown_channel(orders: xr.Dataset, channel: str | None) -> str:
-    """Name of the channel that is shown; by default the first of sound pressure, or the first.
-
-    Raises
-    ------
-    ParameterError
-        There is no such channel.
-    """
+    """Name of the channel that is shown; by default the first of sound pressure, or the first."""
     pressures = orders["channel"].values[orders["channel_unit"].values == "Pa"]
     default = str(pressures[0]) if pressures.size else None
     return str(chosen(orders, "channel", channel or default))

@@ -150,13 +150,7 @@ def breakdown_slip(motor: CapacitorMotor) -> float:
 
 
 def point_at_torque(motor: CapacitorMotor, torque_n_m: float) -> OperatingPoint:
-    """Operating point at which the mean torque carries a load.
-
-    Raises
-    ------
-    ParameterError
-        The load is beyond what the motor gives between no slip and its breakdown torque.
-    """
+    """Operating point at which the mean torque carries a load."""
     slip = _slip_at(lambda slip: operating_point(motor, slip).torque_n_m, torque_n_m)
     return operating_point(motor, float(slip))
 
@@ -180,11 +174,6 @@ def supply_frequency_hz(rated: CapacitorMotor, speed_rpm: float, torque_n_m: flo
     rated : with the values of its line frequency
     speed_rpm : speed of the shaft
     torque_n_m : mean load against the rotation
-
-    Raises
-    ------
-    ParameterError
-        The motor does not give that torque at that speed on any supply.
     """
 
     def frequency(slip: float) -> float:

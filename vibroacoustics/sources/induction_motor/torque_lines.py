@@ -152,11 +152,6 @@ def rotor_in_motor(motor: CapacitorMotor, inertia_kg_m2: float, mean_n_m: float)
     motor : the motor's circuit
     inertia_kg_m2 : J of all that turns with the shaft
     mean_n_m : load torque against the rotation
-
-    Raises
-    ------
-    ParameterError
-        The motor cannot carry the load.
     """
     point = point_at_torque(motor, mean_n_m)
     speed = motor.synchronous_speed_rad_per_s * (1.0 - point.slip)

@@ -120,13 +120,6 @@ def steady_opening(
     steps : number of steps of a turn, even; none for as many as the gas needs
     leakage : gaps between the pockets; none where they are tight
     filling : filling of the suction pockets; none where they are at the suction pressure
-
-    Raises
-    ------
-    ParameterError
-        See `opening_constants`.
-    SolverError
-        The gas does not come to a periodic solution.
     """
     constants = opening_constants(wraps, gas, opening, speed_rpm)
     steps = steps or steps_of_turn(speed_rpm)

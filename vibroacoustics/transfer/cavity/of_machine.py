@@ -24,11 +24,6 @@ def gas_of(machine: Machine, path: ShellPath) -> Mapping[str, DrivenGas]:
     ----------
     machine : their tables
     path : modes of the nominal wall; it keeps the modes of the gas
-
-    Raises
-    ------
-    ParameterError
-        The modes of the wall are measured.
     """
     spaces, gas = spaces_of(machine, path), {}
     if _DOME in spaces:

@@ -39,13 +39,7 @@ class JointLoads:
     joint: Joint
 
     def generalised(self, meridian: Meridian, around: Around) -> Array:
-        """Return the generalised force, see `Load`.
-
-        Raises
-        ------
-        ParameterError
-            The joint reaches beyond the wall.
-        """
+        """Return the generalised force, see `Load`."""
         parts = self._mean_parts(around)
         parts[:, 3] /= meridian.wall_radius_m
         return mean_over_band(meridian, self.joint) @ parts

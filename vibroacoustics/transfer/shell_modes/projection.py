@@ -42,11 +42,6 @@ def patch_forces(shell: ElasticShell, joint: Joint) -> Array:
     ----------
     shell : its modes
     joint : welds
-
-    Raises
-    ------
-    ParameterError
-        The joint reaches beyond the wall.
     """
     mean = mean_over_band(shell.meridian, joint)
     reached = np.flatnonzero(mean.any(axis=1))

@@ -34,11 +34,6 @@ class WallFlexibility:
 
         Contacts are outwards, up and around at each weld of each joint, one after another, means
         over the weld.
-
-        Raises
-        ------
-        ParameterError
-            A joint reaches beyond the wall.
         """
         shapes = np.stack([mean_over_band(self.shell.meridian, joint) for joint in joints], axis=1)
         rows = np.flatnonzero(shapes[self._dofs].any(axis=(1, 2)))
@@ -60,11 +55,6 @@ class WallFlexibility:
         ----------
         joint : band
         order : n, below STATIC_ORDERS
-
-        Raises
-        ------
-        ParameterError
-            The band reaches beyond the wall.
         """
         mean = mean_over_band(self.shell.meridian, joint)[self._dofs, 0]
         return float(mean @ self._by_order[order] @ mean)
