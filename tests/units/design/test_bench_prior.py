@@ -8,7 +8,7 @@ from trial_run_files import at
 
 import vibroacoustics as va
 from vibroacoustics.design.balance import MOTION, counterweights_of, influence_of_weights
-from vibroacoustics.design.bench.prior import _along, ensemble_of
+from vibroacoustics.design.bench.prior import _along, influence_of_study
 from vibroacoustics.design.engine.sound_path import SoundPaths
 from vibroacoustics.measured.trial_runs.measured_runs import measured_runs
 from vibroacoustics.measured.trial_runs.settings import Sensor, load_trial_runs
@@ -121,7 +121,7 @@ def test_a_machine_of_the_prior_needs_one_trial_run(tmp_path):
     """Each of five samples is the machine in turn, without scatter; others are the prior."""
     path = files(tmp_path)
     settings = load_trial_runs(path)
-    prior = ensemble_of(settings, measured_runs(settings, tmp_path))
+    prior = influence_of_study(settings, measured_runs(settings, tmp_path)).ensemble
     assert prior.samples.shape == (30, 3, 2)
     spread = prior.samples.std(axis=0) / np.abs(prior.samples.mean(axis=0))
     assert spread.max() > 0.02
@@ -143,7 +143,7 @@ def test_a_tacho_off_the_x_axis_turns_the_coefficients(tmp_path):
     turned = load_trial_runs(path)
     plain = turned.model_copy(update={"study": turned.study.model_copy(update={"tacho_rad": 0.0})})
     runs = measured_runs(turned, tmp_path)
-    ratio = ensemble_of(turned, runs).samples / ensemble_of(plain, runs).samples
+    ratio = influence_of_study(turned, runs).feet / influence_of_study(plain, runs).feet
     np.testing.assert_allclose(ratio, np.exp(1j * np.deg2rad(40.0)), rtol=1e-9)
 
 

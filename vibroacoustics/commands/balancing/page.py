@@ -14,6 +14,7 @@ from ...report.analysis import Analysis
 from ...report.blocks import Bullets, Part, Pictures
 from ...report.charts.svg import Picture
 from ...report.tables import Table
+from .of_study import study_part
 from .picture import plane_picture, weight_words
 from .tables import (
     answers_table,
@@ -49,11 +50,13 @@ def analysis_of_balancing(result: BalancedRuns, remarks: list[str]) -> Analysis:
         readings_table(result),
         answers_table(result),
     )
+    of_study, study_tables = study_part(result)
     doubts = Part("remarks", "Remarks", (Bullets(tuple(remarks)),)) if remarks else None
     parts = (
         Part("weights", "Weights", (weights, Pictures(tuple(_pictures(result))))),
         Part("readings", "Readings", (readings,)),
         *([doubts] if doubts else []),
+        *of_study,
         Part("answers", "Alternatives", (answers, Bullets(tuple(_alternatives(result))))),
         Part(
             "method", "Assumptions and limits", (Bullets((*conventions(result), *_METHOD)),), True
@@ -68,7 +71,7 @@ def analysis_of_balancing(result: BalancedRuns, remarks: list[str]) -> Analysis:
         parts,
         summary=tuple(headlines(result)),
         shown=(weights, readings, answers),
-        tables=data_tables(result),
+        tables=data_tables(result) | study_tables,
         further={BENCH_NAME: bench_sheet(result).html()},
     )
 

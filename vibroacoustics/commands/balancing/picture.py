@@ -95,7 +95,7 @@ def _rotation(result: BalancedRuns) -> list[str]:
     return [
         svg.path(arc, fill="none", stroke=_TURN, stroke_width=2),
         svg.arrow(arc[-4], arc[-1] + (arc[-1] - arc[-4]), _TURN),
-        svg.words(_CENTRE + np.array([0.0, 38.0]), "rotation", "middle", fill=_TURN),
+        svg.words(_CENTRE + np.array([0.0, 26.0]), "rotation", "middle", fill=_TURN),
     ]
 
 

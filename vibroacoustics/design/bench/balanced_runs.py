@@ -19,12 +19,12 @@ from ...measured.trial_runs.measured_runs import (
 from ...measured.trial_runs.scatter import Deviations, at_nominal_speed, deviations, slopes
 from ...measured.trial_runs.settings import Plane, TrialRuns, hole_angles_rad, load_trial_runs
 from ...mechanics.balancing.bands import residual_samples
-from ...mechanics.balancing.coefficients import Coefficients, Ensemble, coefficients, rank_of_runs
+from ...mechanics.balancing.coefficients import Coefficients, coefficients, rank_of_runs
 from ...mechanics.balancing.planes import Dependence
 from ...radiation.given import Radiation
 from ...recordings.quantities import quantity
 from .answers import SOUND, BenchProblem, PlaneLimits, answers_of
-from .prior import ensemble_of
+from .prior import StudyInfluence, influence_of_study
 
 KINDS: Final = {"sound pressure": "microphones", "force": "feet"}
 _NO_EFFECT: Final = 1e-9
@@ -75,6 +75,8 @@ class BalancedRuns:
     expected_band : low end, median and high end of the next readings, which have a scatter of
         their own, shape (3, row)
     moment_samples : moments of least squares of samples of the coefficients, shape (sample, plane)
+    deviation : standard deviation of a reading's real and of its imaginary part, shape (run, row)
+    study : influence of weights in the samples of the machine's study, if the file names one
 
     Examples
     --------
@@ -97,6 +99,8 @@ class BalancedRuns:
     after_band: Array
     expected_band: Array
     moment_samples: ComplexArray
+    deviation: Array
+    study: StudyInfluence | None
 
     @property
     def before(self) -> ComplexArray:
@@ -156,11 +160,11 @@ def balance_runs(path: str | Path, radiation: Radiation | None = None) -> Balanc
     settings = load_trial_runs(path)
     with naming_settings(path):
         runs = without_gaps(measured_runs(settings, path.parent), settings.study is not None)
-        return balanced(settings, runs, ensemble_of(settings, runs, radiation))
+        return balanced(settings, runs, influence_of_study(settings, runs, radiation))
 
 
 def balanced(
-    settings: TrialRuns, runs: MeasuredRuns, prior: Ensemble | None = None
+    settings: TrialRuns, runs: MeasuredRuns, study: StudyInfluence | None = None
 ) -> BalancedRuns:
     """Return what `balance_runs` does, of readings that are arrays.
 
@@ -168,10 +172,11 @@ def balanced(
     ----------
     settings : file of the runs
     runs : readings and weights
-    prior : influence coefficients before the runs
+    study : influence of weights in the samples of the machine's study
     """
     measured = runs
     runs, scatter, by_speed = _corrected(settings, measured)
+    prior = None if study is None else study.ensemble
     fitted = coefficients(
         runs.readings, runs.weights, scatter.deviation, scatter.freedom, prior, by_speed
     )
@@ -206,6 +211,8 @@ def balanced(
         np.quantile(np.abs(residual), INTERVAL, axis=0),
         np.quantile(np.abs(expected), INTERVAL, axis=0),
         _sampled_moments(problem.weight, samples, runs.installed),
+        scatter.deviation,
+        study,
     )  # fmt: skip
 
 

@@ -1,6 +1,7 @@
 """Influence coefficients of a study with their spread over its samples, before any run."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -18,6 +19,7 @@ from ...recordings.quantities import quantity
 from ...stages.radiation import KeptRadiation
 from ...study.loading import load_study
 from ...study.samples import samples_of, with_sample
+from ...study.sampling import Sample
 from ...study.study import Study
 from ..balance import MOTION, counterweights_of, influence_of_weights
 from ..engine.sound_path import SoundPaths
@@ -28,10 +30,32 @@ _DERIVATIVES: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
 _LEAST_SAMPLES: Final = 10
 
 
-def ensemble_of(
+@dataclass(frozen=True)
+class StudyInfluence:
+    """Influence of weights on a machine in the samples of its study.
+
+    Attributes
+    ----------
+    study : study of the machine, at the speeds of the readings and at its own
+    samples : values of each sample
+    ensemble : influence coefficients of the rows of the readings
+    feet : forces on the feet, shape (sample, speed, foot and axis, plane), N per kg m
+    pressure : sound pressure, shape (sample, speed, receiver, plane), Pa per kg m: of each
+        sample where a reading is of sound, of the nominal machine where only the file's results
+        ask for it, else without receivers
+    """
+
+    study: Study
+    samples: Sequence[Sample]
+    ensemble: Ensemble
+    feet: ComplexArray
+    pressure: ComplexArray
+
+
+def influence_of_study(
     settings: TrialRuns, runs: MeasuredRuns, radiation: Radiation | None = None
-) -> Ensemble | None:
-    """Compute the influence coefficients of the samples of a study; none without a study.
+) -> StudyInfluence | None:
+    """Compute what the weights do in the samples of a study; none without a study.
 
     Parameters
     ----------
@@ -47,8 +71,9 @@ def ensemble_of(
     """
     if settings.study is None:
         return None
-    speeds = list(dict.fromkeys(runs.speeds_rpm.tolist()))
-    study = _at_speeds(load_study(Path(settings.study.file)), speeds, settings.study.samples)
+    loaded = load_study(Path(settings.study.file))
+    speeds = sorted({*runs.speeds_rpm.tolist(), *_further(loaded.operation.speed_rpm)})
+    study = _at_speeds(loaded, speeds, settings.study.samples)
     weights = counterweights_of(study, settings.study.option)
     for plane in settings.planes:
         if plane not in weights:
@@ -57,23 +82,37 @@ def ensemble_of(
                 f"{', '.join(weights)}"
             )
     figures = {name: _figure(name, settings.sensors[name]) for name in dict.fromkeys(runs.sensors)}
+    wanted = list(dict.fromkeys([*figures.values(), FOOT]))
     paths = SoundPaths(KeptRadiation() if radiation is None else radiation)
     order = [list(weights).index(plane) for plane in settings.planes]
     turn = np.exp(1j * settings.study.tacho_rad)
-    wanted = list(dict.fromkeys(figures.values()))
-    samples = []
-    for sampled in _sampled(study, settings.study, PRESSURE in wanted):
+    samples, rows, feet, pressure = [], [], [], []
+    for sample, sampled in _sampled(study, settings.study, PRESSURE in wanted):
         try:
             _, influence = influence_of_weights(
                 sampled, settings.study.option, weights, wanted, paths
             )
-            by_figure = _by_figure(influence[..., order], wanted, len(study.receivers))
+            by_figure = _by_figure(turn * influence[..., order], wanted, len(study.receivers))
         except (ParameterError, SolverError):
             continue  # values that contradict one another
-        samples.append(turn * _rows(settings, runs, sampled, figures, by_figure, speeds))
+        samples.append(sample)
+        rows.append(_rows(settings, runs, sampled, figures, by_figure, speeds))
+        feet.append(by_figure[FOOT])
+        pressure.append(by_figure.get(PRESSURE, by_figure[FOOT][:, :0]))
+    if settings.study.results is not None and PRESSURE not in wanted:
+        _, nominal = influence_of_weights(study, settings.study.option, weights, [PRESSURE], paths)
+        pressure = [turn * _peaks(nominal[..., order], len(study.receivers))] * len(samples)
     if len(samples) < _LEAST_SAMPLES:
         raise ParameterError(f"study.file: {len(samples)} samples have a solution: must be 10")
-    return Ensemble(np.array(samples))
+    return StudyInfluence(
+        study, samples, Ensemble(np.array(rows)), np.array(feet), np.array(pressure)
+    )
+
+
+def _further(speeds_rpm: Sequence[float]) -> list[float]:
+    """Slowest, middle and fastest speed of a study."""
+    ordered = sorted(speeds_rpm)
+    return [ordered[0], ordered[len(ordered) // 2], ordered[-1]]
 
 
 def _at_speeds(study: Study, speeds_rpm: Sequence[float], samples: int) -> Study:
@@ -89,8 +128,10 @@ def _at_speeds(study: Study, speeds_rpm: Sequence[float], samples: int) -> Study
     return study.replace(values)
 
 
-def _sampled(study: Study, settings: StudyOfMachine, with_sound: bool) -> Sequence[Study]:
-    """Studies with sampled values of the machine, without their sources where no sound counts."""
+def _sampled(
+    study: Study, settings: StudyOfMachine, with_sound: bool
+) -> Iterator[tuple[Sample, Study]]:
+    """Samples and studies with them, without their sources where no sound counts."""
     samples = samples_of(study).samples
     if not samples:
         raise ParameterError(
@@ -101,10 +142,9 @@ def _sampled(study: Study, settings: StudyOfMachine, with_sound: bool) -> Sequen
         {} if with_sound else {f"sources.{name}": None for name in study.sources}
     )
     plain = study.replace(changed)
-    return [
-        plain.model_copy(update={"machine": with_sample(plain.machine, plain.machine, sample)})
-        for sample in samples
-    ]
+    for sample in samples:
+        machine = with_sample(plain.machine, plain.machine, sample)
+        yield sample, plain.model_copy(update={"machine": machine})
 
 
 def _by_figure(
@@ -114,7 +154,15 @@ def _by_figure(
     sizes = {MOTION: 6, PRESSURE: receivers}
     further = influence.shape[1] - sum(sizes.get(figure, 0) for figure in figures)
     ends = np.cumsum([sizes.get(figure, further) for figure in figures])
-    return dict(zip(figures, np.split(influence, ends[:-1], axis=1), strict=True))
+    parts = dict(zip(figures, np.split(influence, ends[:-1], axis=1), strict=True))
+    if PRESSURE in parts:
+        parts[PRESSURE] = _peaks(parts[PRESSURE], receivers)
+    return parts
+
+
+def _peaks(pressure: ComplexArray, receivers: int) -> ComplexArray:
+    """Peaks at each of the microphones, whose effective values add to a mean square."""
+    return np.asarray(np.sqrt(2.0 * receivers) * pressure)
 
 
 def _figure(name: str, sensor: Sensor) -> str:
@@ -152,7 +200,7 @@ def _rows(
         elif figure == FOOT:
             value = at_speed[3 * _foot(name, sensor, study) + "xyz".index(sensor.axis or "z")]
         else:
-            value = np.sqrt(2.0 * len(study.receivers)) * at_speed[_receiver(name, sensor, study)]
+            value = at_speed[_receiver(name, sensor, study)]
         rows.append(value / (measured.factor * PEAK_FACTORS[settings.amplitudes]))
     return np.array(rows)
 

@@ -121,6 +121,8 @@ class StudyOfMachine(Parameters):
     samples: int = Field(default=60, ge=10, le=1000)
     tacho_rad: float = Field(default=0.0, ge=-7.0, le=7.0)
     """Angle of the tacho from the x axis of the study, with the rotation."""
+    results: str | None = None
+    """Results of a run of the study, which give the total levels."""
 
 
 class TrialRuns(Parameters):
@@ -221,6 +223,8 @@ def load_trial_runs(path: Path) -> TrialRuns:
         )
     resolve_settings_files(path, content)
     study = content.get("study")
-    if isinstance(study, dict) and isinstance(study.get("file"), str):
-        study["file"] = str(beside(path, study["file"]))
+    if isinstance(study, dict):
+        for key in ("file", "results"):
+            if isinstance(study.get(key), str):
+                study[key] = str(beside(path, study[key]))
     return settings_of(TrialRuns, path, content)
