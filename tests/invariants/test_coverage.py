@@ -27,6 +27,8 @@ from vibroacoustics.uncertainty.evidence import with_gain
 
 LEVEL_DEVIATION_DB, SHARE_DEVIATION = 2.0, 0.15
 BELOW_HZ = 900.0
+KINDS = {"measured": (0.0, 0.0), "declared": (2.5, 1.5), "series": (1.0, 2.0)}
+"""Mean and standard deviation of what a published level is above that of the machine."""
 GRID_DB = np.arange(-26.0, 4.5, 1.0)
 """Flat prior of unmodelled noise, about the median of the modelled levels."""
 QUANTITIES = ("level", "other speed", "gas share", "twin", "twin, other speed", "unmodelled")
@@ -122,15 +124,17 @@ class Inference:
         low = prior.low[..., None] + power * prior.low_part[:, None, None]
         self.level_db, self.share = 10.0 * np.log10(total), low / total
 
-    def weights(self, level_db, share):
+    def weights(self, level_db, share, kind="measured"):
         """Of samples, discrepancies and unmodelled levels."""
-        off = ((self.level_db - level_db) / LEVEL_DEVIATION_DB) ** 2
+        bias_db, spread_db = KINDS[kind]
+        deviation = np.hypot(LEVEL_DEVIATION_DB, spread_db)
+        off = ((self.level_db - (level_db - bias_db)) / deviation) ** 2
         off += ((self.share - share) / SHARE_DEVIATION) ** 2
         return np.exp(-0.5 * (off - off.min()))
 
-    def interval(self, level_db, share, rng, without=None):
+    def interval(self, level_db, share, rng, without=None, kind="measured"):
         """Ends of the 80 % intervals, shape (2, quantity)."""
-        weight = self.weights(level_db, share)
+        weight = self.weights(level_db, share, kind)
         if without is not None:
             weight[without] = 0.0
         rising = np.cumsum(weight.ravel())
@@ -145,16 +149,20 @@ class Inference:
         )
 
 
-def held(inference, truths, rng, leave_out=False):
-    """Share of truths inside, of twin changes within `NEAR_DB`, and median widths by quantity."""
+def held(inference, truths, rng, leave_out=False, kind="measured", more_db=0.0):
+    """Share of truths inside, of twin changes within `NEAR_DB`, and median widths by quantity.
+
+    The published level is so much above that of the truth, and of a kind.
+    """
     inside, near, widths = [], [], []
     for number in range(len(truths.gas)):
         one, first = np.array([number]), np.array([0])
         unmodelled = 10.0 ** (rng.uniform(GRID_DB[0], GRID_DB[-1], 1) / 10.0)
         truth = truths.quantities(one, first, unmodelled)[0]
         share = truths.share(one, first, unmodelled)[0] + rng.normal(0.0, SHARE_DEVIATION)
-        published = truth[0] + rng.normal(0.0, LEVEL_DEVIATION_DB)
-        low, high = inference.interval(published, share, rng, number if leave_out else None)
+        published = truth[0] + more_db + rng.normal(0.0, LEVEL_DEVIATION_DB)
+        left_out = number if leave_out else None
+        low, high = inference.interval(published, share, rng, left_out, kind)
         inside.append((low <= truth) & (truth <= high))
         near.append((low - NEAR_DB <= truth) & (truth <= high + NEAR_DB))
         widths.append(high - low)
@@ -294,6 +302,19 @@ def test_coverage_of_made_up_sources(ensemble, number):
     assert_holds(found, inside, len(truths.gas), name)
 
 
+@pytest.mark.parametrize(
+    ("kind", "more_db", "least", "most"),
+    [("declared", 3.0, 0.72, 0.95), ("declared", 1.0, 0.72, 0.95), ("series", 1.0, 0.72, 0.95),
+     ("measured", 3.0, 0.0, 0.6)],
+)  # fmt: skip
+def test_a_level_above_that_of_the_machine(ensemble, kind, more_db, least, most):
+    """A declared level 3 dB too high: its interval holds; taken as measured it fails."""
+    truths = ensemble.truths(ensemble.samples, ensemble.sounds, ensemble.worlds.one_discrepancy)
+    rng = np.random.default_rng(4)
+    _, inside, _ = held(ensemble.inference, truths, rng, True, kind, more_db)
+    assert least <= inside[QUANTITIES.index("level")] <= most, inside
+
+
 def at_ends(study, rng, count):
     """Samples whose values are all at an end of their ranges, where these fit together."""
     ends = rng.integers(0, 2, (count, len(study.ranges)))
@@ -350,7 +371,8 @@ def test_coverage_of_the_inner_sources():
         assert_holds(*row, name)
 
 
-def test_weights_are_those_of_the_package(ensemble):
+@pytest.mark.parametrize("kind", ["measured", "declared", "series"])
+def test_weights_are_those_of_the_package(ensemble, kind):
     """With the same sample, level and share, for every discrepancy and unmodelled level."""
     chain, number, level_db, share = ensemble.worlds.chain, 3, 2.0, 0.4
     study, scale = chain.study, ensemble.scale
@@ -359,7 +381,7 @@ def test_weights_are_those_of_the_package(ensemble):
         update={"share_ratio": share, "deviation_ratio": SHARE_DEVIATION}
     )
     published_db = level_db + 10.0 * np.log10(scale / 4e-10)
-    update = {"level_dba": published_db, "deviation_db": LEVEL_DEVIATION_DB}
+    update = {"level_dba": published_db, "deviation_db": LEVEL_DEVIATION_DB, "kind": kind}
     data = data_of(noise.model_copy(update={**update, "spectral_share": share_of}))
     flat = Prior("flat", "", lambda level: np.where(np.isin(level, GRID_DB), 1.0, 0.0))
     machine = with_sample(study.machine, study.machine, ensemble.samples[number])
@@ -368,5 +390,5 @@ def test_weights_are_those_of_the_package(ensemble):
     modelled = with_gain(ensemble.sounds[number][study.catalogue_case].mutual[:, :, 0], gain)
     found = log_weights(modelled, spectrum * scale / spectrum.sum(), data, flat)
     found = np.exp(found[:, np.isin(LEVELS_DB, GRID_DB)])
-    expected = ensemble.inference.weights(level_db, share)[number]
+    expected = ensemble.inference.weights(level_db, share, kind)[number]
     assert found / found.sum() == pytest.approx(expected / expected.sum(), rel=1e-9)

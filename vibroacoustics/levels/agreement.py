@@ -106,7 +106,7 @@ def data_of(noise: OverallNoise | None) -> tuple[Datum, ...]:
     """Return the published data of a machine, its level first."""
     if noise is None:
         return ()
-    level = Datum(PUBLISHED_LEVEL, noise.level_dba, noise.deviation_db, _level)
+    level = Datum(PUBLISHED_LEVEL, noise.likely_level_dba, noise.likely_deviation_db, _level)
     share = noise.spectral_share
     if share is None:
         return (level,)

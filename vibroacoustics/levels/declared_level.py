@@ -17,7 +17,8 @@ class Published(NamedTuple):
 
     Attributes
     ----------
-    level_dba : zero without a published level, to which levels then are relative
+    level_dba : that of the machine by the published one; zero without, to which levels then are
+        relative
     data : empty without a published level
     priors : priors of the unmodelled noise; the first one is that of all intervals
     spectrum : measured third octaves; None without any
@@ -33,7 +34,7 @@ def published_of(study: Study) -> Published:
     """Return the published data of a study's machine."""
     noise = study.machine.overall_noise
     priors = priors_of(study.machine.remainder) if noise or study.baseline else (ALL_ALIKE,)
-    level_dba = 0.0 if noise is None else noise.level_dba
+    level_dba = 0.0 if noise is None else noise.likely_level_dba
     return Published(level_dba, data_of(noise), priors, spectrum_data(study))
 
 

@@ -87,7 +87,7 @@ def unmodelled_square(
         return 0.0
     receiver = list(axes.receivers).index(study.catalogue_receiver)
     alone = sound[study.catalogue_case].total[0, receiver]
-    unmodelled = REFERENCE_PRESSURE_PA**2 * power_of_level(published.level_dba) - alone
+    unmodelled = REFERENCE_PRESSURE_PA**2 * power_of_level(published.likely_level_dba) - alone
     if unmodelled <= 0.0 and not may_be_none:
         level = mean_square_level(alone, REFERENCE_PRESSURE_PA)
         raise ParameterError(

@@ -1,7 +1,7 @@
 """Unmodelled noise of a machine: its growth with speed and its spectrum."""
 
 from math import inf
-from typing import Annotated, Final
+from typing import Annotated, Final, Literal
 
 import numpy as np
 from pydantic import Field
@@ -33,6 +33,11 @@ class SpectralShare(Parameters):
     """Standard deviation of the share."""
 
 
+BIAS_DB: Final = {"measured": (0.0, 0.0), "declared": (2.5, 1.5), "series": (1.0, 2.0)}
+"""Mean and standard deviation of the published level less that of the machine: K of a declared
+level by ISO 4871 from 1.5 to 4 dB, the scatter of a series assumed."""
+
+
 class OverallNoise(Parameters):
     """A-weighted sound pressure level of the machine, published or assumed."""
 
@@ -41,11 +46,23 @@ class OverallNoise(Parameters):
     distance_m: Annotated[float, DATUM] = Field(ge=0.1, le=20.0)
     deviation_db: Annotated[float, DATUM] = Field(default=2.0, ge=0.1, le=10.0)
     """Standard deviation of the level."""
+    kind: Literal["measured", "declared", "series"] = "measured"
+    """A declared level is L + K of ISO 4871, that of a series one for many machines."""
     spectral_share: SpectralShare | None = None
     other_speed_rpm: Annotated[float | None, DATUM] = Field(default=None, ge=60.0, le=60000.0)
     """Second speed at which a level is published."""
     other_level_dba: Annotated[float | None, DATUM] = Field(default=None, ge=0.0, le=140.0)
     """Level at the second speed; both give the growth of unmodelled noise with speed."""
+
+    @property
+    def likely_level_dba(self) -> float:
+        """Level of the machine that the published one stands for: less the bias of its kind."""
+        return self.level_dba - BIAS_DB[self.kind][0]
+
+    @property
+    def likely_deviation_db(self) -> float:
+        """Standard deviation of the level with that of the bias."""
+        return float(np.hypot(self.deviation_db, BIAS_DB[self.kind][1]))
 
     def contradictions(self) -> Contradictions:
         if (self.other_speed_rpm is None) != (self.other_level_dba is None):

@@ -10,6 +10,7 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import REFERENCE_OPTION
+from ..machine.remainder import BIAS_DB
 
 Labelled = TypeVar("Labelled", xr.DataArray, xr.Dataset)
 
@@ -111,6 +112,22 @@ def quoted_dba(results: xr.Dataset) -> float:
 def at_catalogue(results: xr.Dataset, **more: Any) -> dict[str, Any]:
     """Selection of the catalogue's microphone without a balancer, with further labels."""
     return {"option": REFERENCE_OPTION, "receiver": catalogue_receiver(results), **more}
+
+
+def level_kind(results: xr.Dataset) -> str:
+    """Word for the level of the machine that the study gives: assumed, published, declared, series.
+
+    Only where there is such a level.
+    """
+    kind = str((overall_noise(results) or {}).get("kind", "measured"))
+    if kind != "measured":
+        return kind
+    return "assumed" if assumed_level(results) else "published"
+
+
+def level_bias_db(results: xr.Dataset) -> tuple[float, float]:
+    """Mean and standard deviation of the published level less that of the machine, by its kind."""
+    return BIAS_DB.get(level_kind(results), (0.0, 0.0))
 
 
 def a_weighted(level: Labelled) -> Labelled:

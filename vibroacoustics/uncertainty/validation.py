@@ -15,6 +15,7 @@ from ..results.stored_study import (
     at_catalogue,
     catalogue_receiver,
     has_sources,
+    level_bias_db,
     operating_points,
     overall_noise,
     parameters,
@@ -63,14 +64,15 @@ def _catalogue_level(results: xr.Dataset) -> Iterator[Validation]:
     else:
         return
     what = "all modelled sources" if has_sources(results) else "moving parts"
+    bias, spread = level_bias_db(results)
     yield Validation(
         f"Level at {receiver}, {speed:g} rpm: {what}, beside the machine",
         "dB(A)",
         simulated,
-        noise["level_dba"],
+        noise["level_dba"] - bias,
         grid_error_db(results, receiver),
         float(np.std(sampled)) if sampled.size else 0.0,
-        noise.get("deviation_db", _DEVIATION_DB),
+        float(np.hypot(noise.get("deviation_db", _DEVIATION_DB), spread)),
         _source(results, "overall_noise.level_dba"),
     )
 

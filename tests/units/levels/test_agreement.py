@@ -127,3 +127,14 @@ def test_effective_samples():
     assert effective_samples(np.array([0.5, 0.0])) == pytest.approx(1.0)
     assert effective_samples(np.full(5, 1e-9)) == pytest.approx(5.0)
     assert effective_samples(np.zeros(3)) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("kind", "likely_dba", "deviation_db"),
+    [("measured", 56.0, 2.0), ("declared", 53.5, 2.5), ("series", 55.0, np.sqrt(8.0))],
+)
+def test_a_declared_level_stands_for_a_quieter_machine(kind, likely_dba, deviation_db):
+    """The datum lies the bias of its kind below the published level and scatters as much more."""
+    noise = OverallNoise(level_dba=56.0, speed_rpm=2900.0, distance_m=1.0, kind=kind)
+    (level,) = data_of(noise)
+    assert (level.value, level.deviation) == pytest.approx((likely_dba, deviation_db))

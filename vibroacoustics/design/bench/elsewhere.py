@@ -159,7 +159,9 @@ def _size(influence: ComplexArray, moment: ComplexArray) -> Array:
 
 
 def _ratio_db(before: Array, after: Array) -> Array:
-    return level_of_amplitude(np.maximum(after / before, _LEAST_RATIO))
+    """Change, dB; zero where there is nothing to balance."""
+    ratio = np.divide(after, before, out=np.ones_like(after), where=before > 0.0)
+    return level_of_amplitude(np.maximum(ratio, _LEAST_RATIO))
 
 
 def _band(values: Array) -> Array:

@@ -10,8 +10,9 @@ from ...base.registry import register
 from ...results.bands import INTERVAL, band
 from ...results.estimates import has_samples
 from ...results.stored_study import (
-    assumed_level,
     catalogue_receiver,
+    level_bias_db,
+    level_kind,
     operating_points,
     overall_noise,
     parameters,
@@ -131,13 +132,15 @@ def unmodelled_sentence(results: xr.Dataset) -> str:
     noise = overall_noise(results)
     if noise is None:
         return growth_sentence(results)
-    kind = "assumed" if assumed_level(results) else "published"
+    kind = level_kind(results)
+    bias, spread = level_bias_db(results)
+    lower = f" It stands for one {bias:g} ± {spread:g} dB lower." if bias else ""
     unmodelled = f"{rounding.fixed(results['level_unmodelled'].item())} dB(A)"
     if has_samples(results):
         unmodelled = f"{band(results, 'level_unmodelled').ends(rounding.fixed)} dB(A) ({INTERVAL})"
     return (
         f"The {kind} level is {noise['level_dba']:g} dB(A) at {noise['distance_m']:g} m and "
-        f"{noise['speed_rpm']:g} rpm{_point_words(results)}. Unmodelled noise at "
+        f"{noise['speed_rpm']:g} rpm{_point_words(results)}.{lower} Unmodelled noise at "
         f"{catalogue_receiver(results)} without a balancer is {unmodelled}. It is added as energy "
         "at every option and microphone, spread as from a source at the machine. "
         f"{growth_sentence(results)}"

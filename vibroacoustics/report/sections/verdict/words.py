@@ -16,11 +16,11 @@ from ....base.vocabulary import REFERENCE_OPTION
 from ....results.bands import Band, band
 from ....results.estimates import QUANTILES, effective_samples, has_samples
 from ....results.stored_study import (
-    assumed_level,
     at_catalogue,
     balancers,
     catalogue_receiver,
     has_sources,
+    level_kind,
     nearest_speed,
     overall_noise,
     parameters,
@@ -63,7 +63,7 @@ def contributions(results: xr.Dataset) -> Intervals:
         level, deviation = noise["level_dba"], noise.get("deviation_db", 2.0)
         bounds = (level - deviation, level, level + deviation)
         text = f"{level:g} ± {deviation:g}"
-        rows.insert(0, Interval(_kind(results), text, *bounds, "published"))
+        rows.insert(0, Interval(level_kind(results), text, *bounds, "published"))
         scatter = f" ±{NO_BREAK}{deviation:g} dB is the standard deviation."
     if noise is not None:
         unmodelled = band(results, "residual_level", **coordinates).as_part_of(total)
@@ -163,7 +163,7 @@ def _basis(results: xr.Dataset, speed_rpm: float) -> str:
     if noise is None:
         return "predicted; no level is published"
     speed = "" if speed_rpm == noise["speed_rpm"] else f" at {noise['speed_rpm']:g} rpm"
-    return f"fitted to the {_kind(results)} {noise['level_dba']:g}{speed}"
+    return f"fitted to the {level_kind(results)} {noise['level_dba']:g}{speed}"
 
 
 def _model_alone(results: xr.Dataset) -> str:
@@ -177,11 +177,6 @@ def _model_alone(results: xr.Dataset) -> str:
         parts.append(f"{effective_samples(results):.0f} effective samples")
     text = "; ".join(parts)
     return f"{text[0].upper()}{text[1:]}." if text else ""
-
-
-def _kind(results: xr.Dataset) -> str:
-    """Return what the level of the machine that the study gives is."""
-    return "assumed" if assumed_level(results) else "published"
 
 
 def _windows(results: xr.Dataset) -> str:
@@ -210,7 +205,7 @@ def _source(results: xr.Dataset) -> str:
     if not has_sources(results):
         coordinates = at_catalogue(results, speed=speed)
         modelled = band(results, "level_modelled", **coordinates).middle_text(rounding.level)
-        fill = f"; unmodelled noise fills up the {_kind(results)} level"
+        fill = f"; unmodelled noise fills up the {level_kind(results)} level"
         unmodelled = "" if overall_noise(results) is None else fill
         return f"Shaft orders of the rigid machine alone make {modelled} dB(A){unmodelled}."
     source, makes_most = dominant_source(results)
