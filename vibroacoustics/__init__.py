@@ -54,6 +54,7 @@ it (ISO 3744), on a `MeasurementSurface`.
 `inverted_forces(...)` is its formula for arrays.
 `balance_runs(path)` balances a machine on the bench from runs with trial weights, `BalancedRuns`
 with each `PlacedWeight`.
+`judge_permit(path)` judges units at windows by rules of authorities, a `PermitVerdict` each.
 
 **Figures and arrays.**
 `plot` has every figure as a function that returns a matplotlib Figure.
@@ -82,7 +83,8 @@ line that is no order, `Noise` a random load. A `DesignFigure` of what is seen o
 `Need`, is what they can be judged by. A `Curve` over each `CurveAxis` shows what goes on inside. A
 `Variable`, `Coordinate` or `Unit` joins the vocabulary; `stamp` labels an array as a variable,
 `check` tests a dataset. A `Reader` reads a format of recordings: it gets a `Request` and gives
-`Recorded`. `RatingRules` hold limits and adjustments of a country.
+`Recorded`. `RatingRules` hold limits and adjustments of a country; a `PermitRule` judges a
+`PermitUnit` at a window by each `CalculationLine`.
 
 **Errors.** All derive from `VibroacousticsError`, each message is one line: `ParameterError`,
 `SolverError`, `StorageError`, `SchemaError`, `PluginError`. Doubtful recordings are a

@@ -93,6 +93,11 @@ from .mechanics.ports import Port as Port
 from .mechanics.rotation import Rotation as Rotation
 from .mechanics.rotation import constant_rotation as constant_rotation
 from .orders.recorded_speed import PulseWarning as PulseWarning
+from .permits.file import judge_permit as judge_permit
+from .permits.rule import CalculationLine as CalculationLine
+from .permits.rule import PermitRule as PermitRule
+from .permits.rule import PermitUnit as PermitUnit
+from .permits.verdict import PermitVerdict as PermitVerdict
 from .pipeline import impulse_responses as impulse_responses
 from .pipeline import radiate as radiate
 from .pipeline import run as run

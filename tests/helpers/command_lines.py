@@ -18,6 +18,7 @@ import vibroacoustics as va
 from vibroacoustics import pipeline
 from vibroacoustics.base.progress import no_progress
 from vibroacoustics.commands.balancing.template import TEMPLATE
+from vibroacoustics.commands.permits.template import TEMPLATE as PERMIT
 from vibroacoustics.pipeline.study import run as run_study
 from vibroacoustics.results.storage import write_results
 from vibroacoustics.stages import room
@@ -49,6 +50,7 @@ CASES: Final = {
     ),
     "predict": ("bench.toml",),
     "balance": ("balancing.toml",),
+    "permit": ("permit.toml",),
     "blocked-forces": ("in_situ/in_situ.toml",),
     "cache": (),
     "doctor": (),
@@ -118,6 +120,7 @@ def write_inputs(folder: Path) -> None:
     )
     write_bench(folder, HALVED, state(FREQUENCY, AS_MEASURED))
     (folder / "balancing.toml").write_text(TEMPLATE)
+    (folder / "permit.toml").write_text(PERMIT)
     (folder / "in_situ").mkdir()
     write_blocked(folder / "in_situ", BELOW)
 

@@ -25,6 +25,7 @@ import vibroacoustics as va
 from vibroacoustics.base import registry
 from vibroacoustics.base.vocabulary import RIGID_BODY_DOFS, label_coordinates, stamp
 from vibroacoustics.commands.balancing.template import TEMPLATE
+from vibroacoustics.commands.permits.template import TEMPLATE as PERMIT
 from vibroacoustics.results import storage
 
 PUBLIC = {f"va.{name}": getattr(va, name) for name in va.__all__}
@@ -66,6 +67,8 @@ def workplace(tmp_path_factory: pytest.TempPathFactory) -> Path:
     storage.write_results(_predicted(folder / "bench"), folder / "prediction.nc")
     (folder / "fan").mkdir()
     (folder / "fan" / "balancing.toml").write_text(TEMPLATE)
+    (folder / "heat_pump").mkdir()
+    (folder / "heat_pump" / "permit.toml").write_text(PERMIT)
     (folder / "in_situ").mkdir()
     in_situ = in_situ_bench.write(folder / "in_situ", in_situ_bench.BELOW)
     storage.write_results(va.blocked_forces(in_situ), folder / "blocked_forces.nc")

@@ -13,7 +13,7 @@ NO_LEVELS = {
     "mechanics/added.py": "number of a third octave",
     "recordings/axes.py": "digits of a written time",
     "recordings/time_stamps.py": "nanoseconds of a second",
-    "radiation/rooms/diffuse.py": "a standard's formula for the air",
+    "base/air_attenuation.py": "a standard's formula for the air",
     "report/charts/layout.py": "ticks of an axis",
     "sound/critical_bands.py": "powers and logarithms of a frequency",
     "study/operation.py": "rounding of a step",

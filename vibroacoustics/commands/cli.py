@@ -17,6 +17,7 @@ from . import (  # noqa: F401 - each registers its commands
     installation_commands,
     messages,
     outcome,
+    permit_commands,
     prediction_commands,
     recording_commands,
     replay_commands,

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from .printing import Printer
 
 
-BALANCE: Final = "balance"
+BALANCE, PERMIT = "balance", "permit"
 """Kind of `new` that writes a file of runs with trial weights."""
 
 
@@ -255,7 +255,9 @@ def radiation_command(
 
 @command("new", "Studies", "oldham-scroll --out my_machine", computes=False)
 def new_command(
-    kind: Annotated[str, "KIND: Kind of machine; `balance` for runs with trial weights."] = "",
+    kind: Annotated[
+        str, "KIND: Kind of machine; `balance` for trial weights, `permit` for rules."
+    ] = "",
     out: Annotated[Path | None, "Folder of the files; default: KIND."] = None,
     included: Annotated[
         str | None,
@@ -282,8 +284,8 @@ def new_command(
         )
     if not kind:
         raise ParameterError("new: KIND is missing; `vibroacoustics new --list` prints the kinds")
-    if kind == BALANCE:
-        return _new_balancing(out or Path(kind))
+    if kind in (BALANCE, PERMIT):
+        return _new_file(kind, out or Path(kind))
     if included not in (None, "sources"):
         raise ParameterError(f"--with {included}: unknown; allowed sources")
     files = starter.starting_files(kind, included is not None, level)
@@ -297,13 +299,19 @@ def new_command(
     )
 
 
-def _new_balancing(folder: Path) -> Outcome:
-    """Write the file to begin with for `balance`."""
-    from .balancing.template import BALANCING_NAME, TEMPLATE
+def _new_file(kind: str, folder: Path) -> Outcome:
+    """Write the file to begin with for `balance` or `permit`."""
+    from .balancing import template as of_balance
+    from .permits import template as of_permit
 
-    _write_new(folder, {BALANCING_NAME: TEMPLATE.encode()})
-    file = folder / BALANCING_NAME
-    return Outcome(f"next: vibroacoustics balance {file}", {f"written {BALANCING_NAME}": file})
+    name, text = {
+        BALANCE: (of_balance.BALANCING_NAME, of_balance.TEMPLATE),
+        PERMIT: (of_permit.PERMIT_NAME, of_permit.TEMPLATE),
+    }[kind]
+    _write_new(folder, {name: text.encode()})
+    return Outcome(
+        f"next: vibroacoustics {kind} {folder / name}", {f"written {name}": folder / name}
+    )
 
 
 def _write_new(folder: Path, files: Mapping[str, bytes]) -> None:

@@ -5,6 +5,7 @@ import pytest
 from documents import ISO_9613_1
 from evidence import claim
 
+from vibroacoustics.base.air_attenuation import air_attenuation_per_m
 from vibroacoustics.radiation.rooms import (
     Block,
     DiffuseRoom,
@@ -16,7 +17,6 @@ from vibroacoustics.radiation.rooms import (
     mean_square_per_power,
 )
 from vibroacoustics.radiation.rooms.diffuse import (
-    air_attenuation_per_m,
     reverberation_time_s,
     surface_m2,
 )

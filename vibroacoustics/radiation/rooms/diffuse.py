@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from ...base.air_attenuation import air_attenuation_per_m
 from ...base.constants import AIR_IMPEDANCE_PA_S_PER_M, SPEED_OF_SOUND_M_PER_S
 from ...base.decibel import level_of_power
 from ..arrays import Array
@@ -15,8 +16,6 @@ CROSSOVER_HZ: Final = (400.0, 630.0)
 """Crossover frequencies: below, waves alone; above, the diffuse field alone."""
 _MOST_MEAN_ABSORPTION: Final = 0.99
 _NEAREST_M: Final = 0.05
-_AIR_TEMPERATURE_K: Final = 293.15
-_AIR_HUMIDITY_RATIO: Final = 0.5
 LONGEST_S: Final = 5.0
 """Longest reverberation time, of rooms that hardly absorb."""
 
@@ -141,28 +140,6 @@ def gain_at_position_db(waves: Array, diffuse: Array) -> float:
     if not sounding.any():
         return 0.0
     return float(level_of_power(float(np.mean(waves[sounding] / diffuse[sounding]))))
-
-
-def air_attenuation_per_m(frequency_hz: Array) -> Array:
-    """Attenuation of the intensity in air at 20 °C, 50 % and 101.325 kPa, m in exp(-m x), 1/m.
-
-    ISO 9613-1:1993, equations 3 to 6.
-    """
-    temperature = _AIR_TEMPERATURE_K / 293.15
-    triple = 273.16 / _AIR_TEMPERATURE_K
-    molar = 100.0 * _AIR_HUMIDITY_RATIO * 10.0 ** (-6.8346 * triple**1.261 + 4.6151)
-    oxygen = 24.0 + 4.04e4 * molar * (0.02 + molar) / (0.391 + molar)
-    nitrogen = temperature**-0.5 * (
-        9.0 + 280.0 * molar * np.exp(-4.170 * (temperature ** (-1.0 / 3.0) - 1.0))
-    )
-    squared = np.asarray(frequency_hz, dtype=float) ** 2
-    relaxing = temperature**-2.5 * (
-        0.01275 * np.exp(-2239.1 / _AIR_TEMPERATURE_K) / (oxygen + squared / oxygen)
-        + 0.1068 * np.exp(-3352.0 / _AIR_TEMPERATURE_K) / (nitrogen + squared / nitrogen)
-    )
-    # The standard counts decibels of the pressure; m is twice the nepers of the pressure.
-    nepers: Array = squared * (1.84e-11 * temperature**0.5 + relaxing)
-    return 2.0 * nepers
 
 
 def volume_m3(room: Room) -> float:

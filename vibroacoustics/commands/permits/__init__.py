@@ -1,0 +1,1 @@
+"""Page of `permit` and its file to begin with."""

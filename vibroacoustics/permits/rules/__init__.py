@@ -1,0 +1,1 @@
+"""Rules of countries and procedures; one file each."""
