@@ -101,7 +101,8 @@ def level_of(
     lines, levels = [], []
     for name, unit in units.items():
         of_unit = windows[name].level_lines(unit)
-        lines += [line._replace(text=f"{name}: {line.text}") for line in of_unit]
+        whose = f"{name}: " if len(units) > 1 else ""
+        lines += [line._replace(text=f"{whose}{line.text}") for line in of_unit]
         levels.append(of_unit[-1].value)
     window = next(iter(windows.values()))
     level = float(energy_sum(np.array(levels), axis=0))

@@ -43,7 +43,7 @@ def analysis_of_permit(file: PermitFile) -> Analysis:
     parts = (
         Part("verdicts", "Verdicts", tuple(blocks)),
         *(
-            Part(f"calculation_{number}", f"Calculation: {name}", (_calculation(verdict, name),))
+            Part(f"calculation_{number}", f"Calculation: {name}", (_calculation(verdict),))
             for number, (name, verdict) in enumerate(verdicts.items(), start=1)
         ),
         Part("rules", "Rules and editions", (Bullets(tuple(_editions(rules))),)),
@@ -95,7 +95,7 @@ def _verdict_table(verdicts: Mapping[str, PermitVerdict], rules: Mapping[str, Pe
         )
         for name, verdict in verdicts.items()
     )
-    return Table("Level at each window", _HEAD, rows)
+    return Table("Level at each window", _HEAD, rows, frozenset({0, 1}))
 
 
 def _metres(distance_m: float) -> str:
@@ -114,15 +114,15 @@ def _label_table(labels: Mapping[str, list[LabelLimit]]) -> Table:
         for each in limits
     )  # fmt: skip
     head = ("Unit", "Law", "Limit of L_WA, dB(A)", "Met", "Probability")
-    return Table("Sound power by law", head, rows)
+    return Table("Sound power by law", head, rows, frozenset({0, 1}))
 
 
-def _calculation(verdict: PermitVerdict, name: str) -> Table:
+def _calculation(verdict: PermitVerdict) -> Table:
     rows = tuple(
-        (str(number), line.text, rounding.fixed(line.value, 2), line.unit)
+        (f"{number}. {line.text}", rounding.fixed(line.value, 2), line.unit)
         for number, line in enumerate(verdict.lines, start=1)
     )
-    return Table(f"Calculation for {name}", ("CalculationLine", "Quantity", "Value", "Unit"), rows)
+    return Table("Line by line", ("Quantity", "Value", "Unit"), rows)
 
 
 def _editions(rules: Mapping[str, PermitRule]) -> Iterator[str]:
