@@ -64,7 +64,7 @@ def _catalogue_level(results: xr.Dataset) -> Iterator[Validation]:
         return
     what = "all modelled sources" if has_sources(results) else "moving parts"
     yield Validation(
-        f"Level at {receiver}, {speed:g} rpm: {what}, beside the machine",
+        f"Level at {receiver}, {speed:g} rpm: {what}, nominal values, beside the machine",
         "dB(A)",
         simulated,
         noise["level_dba"],
