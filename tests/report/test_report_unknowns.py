@@ -91,8 +91,8 @@ def test_the_unknown_worth_a_measurement_is_named():
     text = measure_next_sentence(with_unknowns())
     assert text == (
         "No value of a parameter would change the choice of option on sound. Before an option is "
-        "chosen on sound and foot force, measure path through the shell mobility change: its value is worth 0.5 dB in "
-        "the mean, all values 0.9 dB."
+        "chosen on sound and foot force, measure path through the shell mobility change: its value "
+        "is worth 0.5 dB in the mean, all values 0.9 dB."
     )
 
 
