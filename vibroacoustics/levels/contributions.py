@@ -21,9 +21,10 @@ class PathEnergies(NamedTuple):
     ----------
     names : names of the paths
     motions : motions that radiate
-    path : energy of each path alone and what it adds to the sum of all, shape (2, path, receiver, bands,
-        all of them A-weighted, orders), Pa²
-    motion : energy of the lines of each motion likewise, A-weighted, shape (2, motion, receiver), Pa²
+    path : energy of each path alone and what it adds to the sum of all, shape (2, path, receiver,
+        bands, all of them A-weighted, orders), Pa²
+    motion : energy of the lines of each motion likewise, A-weighted, shape (2, motion, receiver),
+        Pa²
     """
 
     names: tuple[PathName, ...]
