@@ -134,8 +134,8 @@ def _chart(name: str, what: str, results: xr.Dataset, panel: Panel) -> Chart:
         name,
         f"{levels}, divided among the sources.",
         f"{levels}. The height of a bar is the level of all modelled sources{median}. Its colours "
-        f"are their shares of the energy{mean}, as of the transfer paths; sources that are not "
-        "seen, or work against the others, are omitted.",
+        f"are shares of the energy{mean}. Sources that are not seen, or work against the others, "
+        "are omitted.",
         (panel,),
     )
 

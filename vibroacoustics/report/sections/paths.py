@@ -10,7 +10,7 @@ from ...base.arrays import Array
 from ...base.decibel import power_of_level
 from ...base.registry import register
 from ...base.vocabulary import REFERENCE_OPTION
-from ...results.bands import INTERVAL, Band, band, percent
+from ...results.bands import INTERVAL, band, percent
 from ...results.estimates import has_samples
 from ...results.labels import DOF_WORDS
 from ...results.stored_study import at_catalogue, catalogue_receiver
@@ -61,24 +61,32 @@ def relation(cosine: float) -> str:
 def leading_sentence(results: xr.Dataset, receiver: str) -> str:
     """The two paths with the largest shares, and that with the most negative one."""
     share = at_path_speed(results, receiver)["path_share"].values
-    first = " and ".join(with_share(results, row, share) for row in leading(share, 2))
-    against, less = int(np.argmin(share)), ""
-    if share[against] <= -LEAST:
-        less = f" Most negative: {with_share(results, against, share)}."
+
+    def words(row: int) -> str:
+        return f"{': '.join(path_words(results, row))}, {_share(results, receiver, row)}"
+
+    first = " and ".join(map(words, leading(share, 2)))
+    against = int(np.argmin(share))
+    less = f" Most negative: {words(against)}." if share[against] <= -LEAST else ""
     return (
-        f"Dominant paths to {receiver} at {path_speed(results):g} rpm without a balancer: "
-        f"{first} of the modelled energy.{less}"
+        f"Dominant paths to {receiver} at {path_speed(results):g} rpm without a balancer: {first} "
+        f"of the modelled energy.{less}"
     )
 
 
-def with_share(results: xr.Dataset, row: int, share: Array) -> str:
-    """A path in one phrase, with its share."""
-    return f"{': '.join(path_words(results, row))}, {signed_percent(float(share[row]))}"
+def _share(results: xr.Dataset, receiver: str, row: int) -> str:
+    """Share of a path in the modelled energy with its interval, such as `−9 % (−20 % to 0 %)`."""
+    path = results["path"].values[row]
+    share = band(
+        results, "path_share", receiver=receiver, path_speed=path_speed(results), path=path
+    )
+    return share.in_percent()
 
 
-def signed_percent(share: float) -> str:
-    """A share with its sign, where it works against the others."""
-    return f"−{percent(-share)}" if share < 0.0 else percent(share)
+def _with_share(results: xr.Dataset, row: int, share: Array) -> str:
+    """A path in one phrase, with its share, which is negative where it works against the others."""
+    size = f"{'−' * bool(share[row] < 0.0)}{percent(abs(float(share[row])))}"
+    return f"{': '.join(path_words(results, row))}, {size}"
 
 
 _SHOWN: Final = 5
@@ -96,7 +104,7 @@ def paths_table(results: xr.Dataset, receiver: str) -> Table:
         (
             *path_words(results, row),
             rounding.level(float(alone[row])),
-            _share(results, receiver, row).in_percent(),
+            _share(results, receiver, row),
             relation(float(at_speed["path_cosine"].values[row])),
             f"{bands['band'].values[int(energy[row].argmax())]:g}",
         )
@@ -114,12 +122,6 @@ def paths_table(results: xr.Dataset, receiver: str) -> Table:
     return Table(caption, head, rows, frozenset({0, 1, 4}))
 
 
-def _share(results: xr.Dataset, receiver: str, row: int) -> Band:
-    """Share of a path in the modelled energy."""
-    path = results["path"].values[row]
-    return band(results, "path_share", receiver=receiver, path_speed=path_speed(results), path=path)
-
-
 def orders_table(results: xr.Dataset, receiver: str) -> Table:
     """The leading paths of each of the loudest orders."""
     shares = at_path_speed(results, receiver)["path_order_share"].transpose("path_order", "path")
@@ -129,7 +131,9 @@ def orders_table(results: xr.Dataset, receiver: str) -> Table:
     for index in sorted(index for index in loudest if level[index] >= rounding.LEVEL_FLOOR_DB):
         share = shares.values[index]
         order, first = f"{shares['path_order'].values[index]:g}×", int(np.argmax(share))
-        rows.append((order, rounding.level(float(level[index])), with_share(results, first, share)))
+        rows.append(
+            (order, rounding.level(float(level[index])), _with_share(results, first, share))
+        )
     head = ("Order", "Level, dB", "Path with the largest share")
     return Table(f"{receiver}: loudest orders", head, tuple(rows), frozenset({0, 2}))
 
