@@ -73,9 +73,8 @@ for name in none["alternative"].values:
 # Transfer paths
 # --------------
 # Source, where it acts, in which direction: shares of the modelled energy add up to one over all
-# paths, and those of opposing paths are negative (:doc:`/report`). They are those of the
-# representative sample.
-share = results["path_share"].sel(option="none", path_speed=2900.0)
+# paths, and those of opposing paths are negative (:doc:`/report`). They are means over the samples.
+share = results["path_share"].sel(path_speed=2900.0)
 for path in share["path"].values[np.argsort(-abs(share.values))[:6]]:
     print(f"{path:35s} {100.0 * share.sel(path=path).item():+6.1f} %")
 

@@ -301,8 +301,10 @@ def test_a_band_on_both_sides_of_zero_judges_nothing() -> None:
     [
         ([-9.0, 0.4, 0.4], "no measurable change"),
         ([-9.0, 0.6, 0.4], "no measurable change"),  # 5 of 11 samples up, 3 down
-        ([0.0, 0.6, 0.6], "worse"),
-        ([-0.6, -0.6, 9.0], "better"),
+        ([0.0, 0.6, 0.6], "uncertain"),  # the interval holds what cannot be measured
+        ([-0.6, -0.6, 9.0], "uncertain"),
+        ([0.6, 0.6, 0.7], "worse"),
+        ([-0.6, -0.6, -9.0], "better"),
     ],
 )
 def test_a_level_counts_if_it_could_be_measured_in_most_samples(
@@ -360,9 +362,9 @@ def test_forces_count_and_show_in_the_samples_where_they_were_sampled(results: x
     )
     sampled = restated(sampled)
     verdict = option_verdict(sampled, "idle")
-    assert verdict.judgement == "worse"
+    assert verdict.judgement == "uncertain"
     assert verdict.reason.startswith("1× force 0 to +20 % (73 % of samples)")
-    assert "40 to 48" in comparison_text(sampled)
+    assert "48 (from 40)" in comparison_text(sampled)
     row = render(sampled)["comparison.csv"].decode().splitlines()[0]
     assert "force_1x_10_percent_n" in row
     fewer = sampled.copy(deep=True)

@@ -90,23 +90,26 @@ def test_shares_are_given_only_where_their_interval_lies_above_chance():
 def test_the_unknown_worth_a_measurement_is_named():
     text = measure_next_sentence(with_unknowns())
     assert text == (
-        "No measurement would change the choice on sound. Before an option is chosen on sound and "
-        "foot force, measure path through the shell mobility change: its value is worth 0.5 dB in "
-        "the mean, all values 0.9 dB."
+        "No value of a parameter would change the choice of option on sound. Before an option is "
+        "chosen on sound and foot force, measure path through the shell mobility change: its value "
+        "is worth 0.5 dB in the mean, all values 0.9 dB."
     )
 
 
 @pytest.mark.parametrize("told", [{"votes": (4, 1, 0)}, {"gain": (0.39, 0.2, 0.0)}])
 def test_no_unknown_is_named_by_four_of_five_or_below_chance(told):
     text = measure_next_sentence(with_unknowns(**told))
-    assert "worth 0.9 dB for a choice on sound and foot force; 11 samples do not" in text
+    assert (
+        "worth 0.9 dB for the choice of option on sound and foot force; 11 samples do not" in text
+    )
     assert "Before" not in text
 
 
 def test_no_measurement_where_all_values_are_worth_nothing():
     results = with_unknowns(perfect=0.09)
     assert measure_next_sentence(results) == (
-        "No measurement would change the choice on sound or on sound and foot force."
+        "No value of a parameter would change the choice of option on sound or on sound and foot "
+        "force. Most valuable measurement for the dominant source: a third-octave spectrum."
     )
     assert measure_next_sentence(results.drop_vars("parameter_information")) == ""
 
@@ -117,7 +120,7 @@ def test_the_report_has_the_section(floors):
     section = SECTIONS["unknowns"]
     assert section.applies(results)
     first, *_ = section.blocks(results)
-    assert first.words.startswith("No measurement would")
+    assert first.words.startswith("No value of a parameter would")
     assert not section.applies(results.drop_vars("level_share"))
 
 

@@ -95,7 +95,7 @@ def test_directivity_is_drawn_where_its_directions_are():
 
 def test_a_bar_is_divided_by_shares_of_the_energy():
     # 60 dB, of which a quarter, three quarters and nothing: one works against the others
-    energy = 4e-10 * 1e6 * np.array([[0.3], [0.9], [-0.2]])
-    starts, sizes = divided(energy, 20.0)
+    share = np.array([[0.3], [0.9], [-0.2]])
+    starts, sizes = divided(share, np.array([60.0]), 20.0)
     np.testing.assert_allclose(starts[:, 0], [20.0, 30.0, 60.0])
     np.testing.assert_allclose(sizes[:, 0], [10.0, 30.0, 0.0], atol=1e-9)

@@ -70,7 +70,8 @@ class Plan:
         of_runs = f"; by runs: {', '.join(self.runs)}" if self.runs else ""
         return (
             f"{self.designs} designs, {self.pieces} pieces at {self.speeds} speeds: about "
-            f"{duration(self.seconds)}, {self.memory_bytes / 1e6:.3g} MB of memory, "
+            f"{duration(self.seconds)} after the start, "
+            f"{self.memory_bytes / 1e6:.3g} MB of memory, "
             f"{self.disk_bytes / 1e6:.3g} MB on disk{of_runs}"
         )
 

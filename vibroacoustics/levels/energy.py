@@ -1,6 +1,5 @@
 """A-weighted energy of lines and third octaves by source, and the loudest line."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -8,12 +7,9 @@ import xarray as xr
 
 from ..base.arrays import Array, ComplexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
-from ..base.decibel import level_shift, power_of_level
-from ..base.vocabulary import stamped
-from ..mechanics.received_sound import ReceivedSound
-from .axes import LevelAxes
-from .by_source import sound_by_source, weighting_power
-from .measured_points import BASELINE_BANDS, MIDDLE_HZ
+from ..base.decibel import power_of_level
+from .by_source import weighting_power
+from .measured_points import MIDDLE_HZ
 
 UNMODELLED: Final = "unmodelled"
 """Part of the energy that no source makes."""
@@ -57,57 +53,3 @@ def unmodelled_energy(level: xr.DataArray) -> Array:
     """
     square = REFERENCE_PRESSURE_PA**2 * power_of_level(level.values)
     return np.asarray(square * weighting_power("A", MIDDLE_HZ))
-
-
-def energy_variables(
-    axes: LevelAxes,
-    sound: Sequence[ReceivedSound],
-    pressure_line: xr.DataArray,
-    level: xr.DataArray,
-    medians: xr.Dataset | None = None,
-) -> xr.Dataset:
-    """Label the energies whose sums over sources are those of all sound.
-
-    Parameters
-    ----------
-    axes : axes of sources and receivers, with the shown options
-    sound : sound of each option at the receivers
-    pressure_line : (option, sound_source, receiver, line), with `tone_frequency`
-    level : level of unmodelled noise, (option, receiver, noise_band)
-    medians : `total_band_level` of all samples, which the sums of the third octaves get, and
-        `representative_total_band_level`, of the same speed and options; none with nominal values
-    """
-    parts = [sound_by_source(case, axes.bands).mutual.sum(axis=1) for case in sound]
-    noise = unmodelled_energy(level.transpose("option", "receiver", "noise_band"))[:, None]
-    lines = pressure_line.transpose("sound_source", "option", "receiver", "line")
-    of_lines = energy_of_lines(lines.values, lines["tone_frequency"].values)
-    bands = np.concatenate([np.array(parts), noise], axis=1)
-    if medians is not None:
-        bands *= _to_medians(medians)[:, None]
-    values = {
-        "line_energy": np.moveaxis(of_lines, 0, 1),
-        "band_energy": bands,
-    }
-    coords = {
-        "shown_option": list(axes.options),
-        "sound_source": list(axes.sources),
-        "energy_part": [*axes.sources, UNMODELLED],
-        "receiver": list(axes.receivers),
-        "line": lines["line"].values,
-        "noise_band": [band.nominal_hz for band in BASELINE_BANDS],
-    }
-    return stamped(values, coords)
-
-
-def _to_medians(results: xr.Dataset) -> Array:
-    """Factors from the third octaves of the representative sample to the medians of all samples.
-
-    Returns
-    -------
-    shape (option, receiver, noise band)
-    """
-    median_db, sample_db = (
-        results[name].transpose("option", "receiver", "noise_band").values
-        for name in ("total_band_level", "representative_total_band_level")
-    )
-    return np.asarray(power_of_level(level_shift(median_db, sample_db)))

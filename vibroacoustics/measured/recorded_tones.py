@@ -13,6 +13,7 @@ from ..base.errors import ParameterError
 from ..base.vocabulary import label_coordinates, stamped
 from ..results import provenance
 from ..sound.audibility import tonal_adjustment_db
+from ..sound.drift import drift_octaves
 from ..sound.loudness import recorded_loudness
 from ..sound.mean_audibility import MeanAudibility, mean_audibility
 from ..sound.recorded import narrow_bands, recorded_spectrum
@@ -57,6 +58,14 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     rate_hz = float(recording.attrs["sample_rate_hz"])
     listed, loudness, means, remarks = [], [], [], list[str]()
     for name, channel in zip(microphones["channel"].values, microphones, strict=True):
+        octaves = drift_octaves(channel.values, rate_hz)
+        if octaves:
+            way = "rise" if octaves > 0.0 else "fall"
+            remarks.append(
+                f"channel {str(name)!r}: is no steady recording: its lines {way} by about "
+                f"{abs(octaves):.1g} octaves; tones are means over time; "
+                "give a steady part, or use `orders`"
+            )
         bands = narrow_bands(channel.values, rate_hz)
         judged = tones(recorded_spectrum(bands))
         listed.append([tone for tone in judged if tone.noise_ratio_db > 0.0])

@@ -49,7 +49,7 @@ def radiate(
     if study.sound_power is not None:
         surface = radiated["surface_transfer_vector"]
         area = levels.measurement_surface_m2(study.sound_power, surface)
-        unit_power = levels.unit_sound_power(surface, study.sound_power, area)
-        radiated["unit_sound_power_level"] = unit_power
+        power = levels.unit_sound_power(surface, study.sound_power, area)
+        radiated["unit_sound_power_level"] = power
     radiated.attrs = provenance.radiation_attributes(study, radiated.attrs, was_cached)
     return check(label_coordinates(radiated))

@@ -16,6 +16,7 @@ from .shifts import Shift, shift
 BETTER: Final = "better"
 WORSE: Final = "worse"
 MIXED: Final = "mixed"
+UNCERTAIN: Final = "uncertain"
 NO_CHANGE: Final = "no measurable change"
 
 
@@ -45,8 +46,8 @@ def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
         receiver: shift(results, LINE, option, receiver) for receiver in other_receivers(results)
     }
     worse_in = _worse_in(shifts, elsewhere)
-    better = any(quantity_shift.improves for quantity_shift in shifts)
-    judgement = judge(bool(worse_in), better)
+    better = any(each.falls for each in shifts)
+    judgement = judge(bool(worse_in), better, any(each.is_uncertain for each in shifts))
     sentences = [
         *(key_impacts(results, option) if has_sources(results) else ()),
         *words(results)["sentences"][option],
@@ -56,39 +57,43 @@ def option_verdict(results: xr.Dataset, option: str) -> OptionVerdict:
     return OptionVerdict(option, judgement, reason, worse_in, tuple(filter(None, sentences)))
 
 
-def judge(worse: bool, better: bool) -> str:
-    """One word: better or worse where all changes agree, mixed where they do not."""
+def judge(worse: bool, better: bool, unsure: bool) -> str:
+    """One word: better or worse where all sure changes agree, mixed where they do not."""
     if worse and better:
         return MIXED
     if worse:
         return WORSE
-    return BETTER if better else NO_CHANGE
+    if better:
+        return BETTER
+    return UNCERTAIN if unsure else NO_CHANGE
 
 
 def _reason(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift], judgement: str) -> str:
-    """Reason for which the option is better or worse, with its size."""
+    """Reason for which the option is better or worse, with its size, and what is uncertain."""
     if judgement == NO_CHANGE:
         least = shifts[0].least
         return f"levels < {least.level_db:g} dB, forces < {100.0 * least.force_ratio:g} %"
-    louder = {} if shifts[-1].worsens else elsewhere
-    worse = [shift.short() for shift in shifts if shift.worsens]
+    louder = {} if shifts[-1].rises else elsewhere
+    worse = [shift.short(better=False) for shift in shifts if shift.rises]
     worse += [
-        f"{shift.short()} at {speed_words}"
-        for speed_words, shift in louder.items()
-        if shift.worsens
+        f"{shift.short(better=False)} at {receiver}"
+        for receiver, shift in louder.items()
+        if shift.rises
     ]
-    better = [shift.short() for shift in shifts if shift.improves]
-    parts = {BETTER: better, WORSE: worse}
-    if judgement != MIXED:
-        return ", ".join(parts[judgement])
-    return "; ".join(f"{word}: {', '.join(of_word)}" for word, of_word in parts.items())
+    better = [shift.short(better=True) for shift in shifts if shift.falls]
+    unsure = [shift.short(better=not shift.worsens) for shift in shifts if shift.is_uncertain]
+    parts = {BETTER: better, WORSE: worse, UNCERTAIN: unsure}
+    said = {word: ", ".join(of_word) for word, of_word in parts.items() if of_word}
+    if list(said) == [judgement]:
+        return said[judgement]
+    return "; ".join(f"{word}: {of_word}" for word, of_word in said.items())
 
 
 def _worse_in(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift]) -> tuple[str, ...]:
     """Quantities that the option makes worse; the line elsewhere if it is not worse here
     already."""
-    worse = [quantity_shift.quantity.words for quantity_shift in shifts if quantity_shift.worsens]
-    louder = [name for name, line_shift in elsewhere.items() if line_shift.worsens]
+    worse = [quantity_shift.quantity.words for quantity_shift in shifts if quantity_shift.rises]
+    louder = [name for name, line_shift in elsewhere.items() if line_shift.rises]
     if louder and LINE.words not in worse:
         worse.append(f"{LINE.words} at {', '.join(louder)}")
     return tuple(worse)

@@ -189,11 +189,21 @@ def _sentences(summary: xr.Dataset) -> Iterable[str]:
         before = _number(summary, "recorded_total_level", None, **selection)
         after = _number(summary, "replayed_total_level", ends, **selection)
         count = sum(each == channel for each, _ in _changed(summary))
-        orders = "1 order" if count == 1 else f"{count} orders"
-        yield (
-            f"{channel}: {before} {unit} before, {after} {unit} with {summary.attrs['option']}; "
-            f"{orders} changed."
-        )
+        option, reasons = summary.attrs["option"], _unchanged(summary).get(channel, {})
+        if count:
+            orders = "1 order" if count == 1 else f"{count} orders"
+            yield (
+                f"{channel}: {before} {unit} before, {after} {unit} with {option}; "
+                f"{orders} changed."
+            )
+        elif reasons:
+            why = ", ".join(dict.fromkeys(reasons.values()))
+            yield (
+                f"{channel}: {before} {unit}; the effect of {option} cannot be determined: none of "
+                f"{len(reasons)} lines can be changed ({why})."
+            )
+        else:
+            yield f"{channel}: {before} {unit}; {option} changes no order of it."
 
 
 def _line_data(summary: xr.Dataset) -> DataTable:

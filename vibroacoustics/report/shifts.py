@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 import xarray as xr
@@ -14,7 +14,7 @@ from ..base.decibel import amplitude_of_level
 from ..base.remembered import remembered
 from ..base.vocabulary import REFERENCE_OPTION
 from ..results.bands import FINEST_RATIO, Band, band, hull, written
-from ..results.estimates import Estimate, effective_samples, estimate, is_sampled
+from ..results.estimates import QUANTILES, Estimate, effective_samples, estimate, is_sampled
 from ..results.stored_study import catalogue_receiver, parameters, speeds
 from ..study.scoring import Measurable
 from .columns import column
@@ -22,6 +22,8 @@ from .quantities import Quantity
 
 _ALL: Final = 0.995
 """Probability that reads as one."""
+UNSURE: Final = QUANTILES[0]
+"""Probability of a measurable change from which on it is not said that there is none."""
 
 
 @dataclass(frozen=True)
@@ -58,17 +60,57 @@ class Shift:
         """Whether it falls by what could be measured in most samples, at a speed at least."""
         return self.fallen > self.least.samples_ratio
 
-    def short(self) -> str:
-        """`1× force +22 to +24 %`, `total level +2.2 to +25.2 dB`, how often it is measurable."""
+    @property
+    def rises(self) -> bool:
+        """Whether it worsens, and where it grows most all of the interval can be measured."""
+        return self.worsens and not self.bands[self._most].lowest < self._measurable
+
+    @property
+    def falls(self) -> bool:
+        """Whether it improves, and where it falls most all of the interval can be measured."""
+        return self.improves and not self.bands[self._least].highest > -self._measurable
+
+    @property
+    def is_uncertain(self) -> bool:
+        """Whether most samples change measurably, but the interval holds smaller changes."""
+        return (self.worsens or self.improves) and not (self.rises or self.falls)
+
+    @property
+    def largest(self) -> int:
+        """Number of the speed at which it changes most, in the way that is said.
+
+        A quantity that worsens is shown where it grows most, one that improves where it falls most.
+        """
+        if self.worsens != self.improves:
+            return self._most if self.worsens else self._least
+        return int(np.argmax(np.abs(np.nan_to_num(self.gain_db))))
+
+    @property
+    def band(self) -> Band:
+        """Interval of the change at the speed where it is largest."""
+        return self.bands[self.largest]
+
+    @property
+    def _most(self) -> int:
+        return int(np.argmax(np.nan_to_num(self.gain_db)))
+
+    @property
+    def _least(self) -> int:
+        return int(np.argmin(np.nan_to_num(self.gain_db)))
+
+    @property
+    def _measurable(self) -> float:
+        is_level = self.quantity.is_level
+        return self.least.level_db if is_level else 100.0 * self.least.force_ratio
+
+    def short(self, *, better: bool) -> str:
+        """`1× force +22 to +24 %` where it changes most to the better or worse, and how often."""
         if self.before.min() < self.quantity.floor:
             return f"{self.quantity.words} appears"
-        size = f"{self.quantity.words} {self.size()}"
-        share = self.grown if self.worsens else self.fallen
-        return size if share > _ALL else f"{size} ({100.0 * share:.0f} % of samples)"
-
-    def size(self) -> str:
-        """`+22 to +24 %` of forces, `+2.2 to +25.2 dB` of levels: over samples and speeds."""
-        return f"{self.written(extent([self]))} {self.unit}"
+        size = self.written(self.bands[self._least if better else self._most])
+        share = self.fallen if better else self.grown
+        text = f"{self.quantity.words} {size} {self.unit}"
+        return text if share > _ALL else f"{text} ({100.0 * share:.0f} % of samples)"
 
     def written(self, changes: Band) -> str:
         """`+22 to +24`, of changes in their unit."""
@@ -79,6 +121,15 @@ class Shift:
     def unit(self) -> str:
         """Unit of a change."""
         return "dB" if self.quantity.is_level else "%"
+
+
+def level_word(of_total: Shift) -> Literal["louder", "quieter", "uncertain", "no change"]:
+    """Return what an option does to the level: the verdict of every part of a report."""
+    if of_total.rises and not of_total.improves:
+        return "louder"
+    if of_total.falls and not of_total.worsens:
+        return "quieter"
+    return "uncertain" if max(of_total.grown, of_total.fallen) > UNSURE else "no change"
 
 
 @remembered
@@ -132,8 +183,8 @@ def _changes(
 
 
 def extent(shifts: Sequence[Shift]) -> Band:
-    """Band of a change over the speeds and microphones of shifts of one quantity."""
-    return hull([band for shifted in shifts for band in shifted.bands])
+    """Band over the microphones of shifts of one quantity, each where its change is largest."""
+    return hull([shifted.band for shifted in shifts])
 
 
 def measurable(results: xr.Dataset) -> Measurable:

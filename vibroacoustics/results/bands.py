@@ -39,14 +39,27 @@ class Band(NamedTuple):
         """`44.7 to 51.2`."""
         return rounding.span((self.lowest, self.highest), write, self.units[::2])
 
-    def middle_and_ends(self, write: Callable[[float], str]) -> str:
-        """`48.9 (44.7 to 51.2)`; the value alone where both ends read the same."""
+    def around_middle(self, write: Callable[[float], str]) -> str:
+        """`44.7 to 51.2`; `to 51.2` or `from 44.7` where one end reads as the value, empty for two.
+
+        The value is never given as an end of its own interval because of rounding.
+        """
         low, high = (
             rounding.to_unit(end, unit, write)
             for end, unit in ((self.lowest, self.units[0]), (self.highest, self.units[2]))
         )
+        if low == high:
+            return ""
         middle = self.middle_text(write)
-        return middle if low == high else f"{middle} ({self.ends(write)})"
+        lowest, value, highest = map(_rounded, self[:3], self.units)
+        if low == middle or lowest > value:
+            return f"to {high}"
+        return f"from {low}" if high == middle or highest < value else self.ends(write)
+
+    def middle_and_ends(self, write: Callable[[float], str]) -> str:
+        """`48.9 (44.7 to 51.2)`; the value alone where both ends read the same."""
+        around, middle = self.around_middle(write), self.middle_text(write)
+        return f"{middle} ({around})" if around else middle
 
     def middle_text(self, write: Callable[[float], str]) -> str:
         """`48.9`."""

@@ -10,6 +10,8 @@ from .estimates import Estimate, estimate
 
 LISTED_FROM: Final = 0.5
 """A tone is listed if its probability of being audible and prominent is larger."""
+_ORDER: Final = "order "
+"""Begins the names of lines that are shaft orders."""
 
 
 class ProminentTone(NamedTuple):
@@ -19,7 +21,7 @@ class ProminentTone(NamedTuple):
     ----------
     name, frequency_hz : name and frequency of its strongest line
     microphone : name
-    level_db : with the weaker lines that belong to it, median, re 20 µPa
+    level_db : level of this line, median, re 20 µPa
     excess_db : over its criterion
     probability : probability that it is audible and prominent
     """
@@ -67,7 +69,15 @@ def _tone(results: xr.Dataset, name: str, case: dict[str, Any]) -> ProminentTone
         name,
         float(results["judged_tone_frequency"].sel(speed=case["speed"], judged_tone=name)),
         str(case["receiver"]),
-        estimate(results, "tone_level", **where).value,
+        _line_level(results, name, case),
         estimate(results, "tone_excess", **where),
         estimate(results, "tone_probability", **where).value,
     )
+
+
+def _line_level(results: xr.Dataset, name: str, case: dict[str, Any]) -> float:
+    """Level of the strongest line of a tone, dB: of an order as everywhere in the results."""
+    order = float(name.removeprefix(_ORDER)) if name.startswith(_ORDER) else np.nan
+    if order in results["order"].values:
+        return estimate(results, "order_level", order=order, weighting="Z", **case).value
+    return estimate(results, "tone_level", judged_tone=name, **case).value

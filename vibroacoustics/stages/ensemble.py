@@ -47,10 +47,9 @@ class PosteriorEnsemble(Stage):
         evidence = Evidence(weighing[NominalSound])
 
         def sounds_at_evidence(batch: list[Sample], before: int, expected: int) -> list[Sound]:
-            def done(number: int) -> None:
-                chain.progress(_WEIGHTED, before + number, expected)
-
-            return sounds_of(weighing, batch, done)
+            return sounds_of(
+                weighing, batch, lambda done: chain.progress(_WEIGHTED, before + done, expected)
+            )
 
         test = chain.get(HammerTest)
         ensemble, results = posterior(evidence, sounds_at_evidence, test, chain.progress)

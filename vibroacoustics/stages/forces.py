@@ -60,7 +60,6 @@ class Forces(Stage):
 def motion_of(study: Study, progress: Progress) -> tuple[xr.Dataset, Cases]:
     """Compute the forces of all sources and the motion that follows, with the nominal values.
 
-
     Returns
     -------
     forces, orders, motion and reported figures; every speed with every option

@@ -1,8 +1,9 @@
 """Paths from the loads of every case to the receivers, measured ones too, and sound by path."""
 
 from ..base.registry import register
+from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.contribution_choice import chosen_speeds, loudest_orders
-from ..levels.contributions import MEDIANS, contribution_variables, with_gain
+from ..levels.contributions import Row, path_rows
 from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
 from ..measured.sound_functions import force_sound_of
@@ -13,8 +14,14 @@ from ..transfer.contributions import Transmission
 from ..transfer.force_sound import ForceSound
 from ..transfer.observers import Observers
 from ..transfer.path import ShellPath
+from ..uncertainty.alternative_sounds import ComputedSamples
+from ..uncertainty.every_sample import in_every_sample
+from ..uncertainty.evidence import Evidence
+from ..uncertainty.path_variables import path_variables
+from ..uncertainty.prior_ensemble import PriorEnsemble
 from .chain import Chain
-from .representative import Representative
+from .forces import PublishedCases, with_published
+from .sampled import deviating
 from .stage import Given, Stage
 
 
@@ -51,20 +58,32 @@ class MeasuredForceSound(Stage):
 
 @register
 class ContributionsByPath(Stage):
-    """Pressure and shares of the transfer paths; with samples of one of them, at median levels."""
+    """Levels and shares of the transfer paths without an option, over the weighted samples."""
 
     name = "contributions"
-    reads = (Cases, Transmission, NominalSound, Representative, *MEDIANS)
+    reads = (
+        Cases, PublishedCases, Transmission, NominalSound, PriorEnsemble, Evidence, ComputedSamples,
+        "order_level",
+    )  # fmt: skip
     gives = ("path_*", "motion_*", "modelled_band_level")
 
     def run(self, chain: Chain) -> Given:
-        speeds, nominal, split = chosen_speeds(chain.study), chain[Cases], {}
-        chosen = chain.get(Representative)
-        every = nominal if chosen is None else chosen.cases
-        cases = every.some(key for key in nominal.cases if key[0] in speeds)
-        chain.progress("sound by path", 0, len(cases.cases))
-        for key, of_case in chain[Transmission].contributions(cases):
-            split[key] = of_case if chosen is None else with_gain(of_case, chosen.gain[key])
-            chain.progress("sound by path", len(split), len(cases.cases))
-        orders, medians = loudest_orders(chain.results), chain.results if chosen else None
-        return Given(contribution_variables(chain[NominalSound].axes, split, orders, medians))
+        study, axes, computed = chain.study, chain[NominalSound].axes, chain.get(ComputedSamples)
+        keys = [(speed, REFERENCE_OPTION) for speed in chosen_speeds(study)]
+        split, orders = chain[Transmission].contributions, loudest_orders(chain.results)
+        without = chain.having(chain[Cases].some(keys))
+        if computed is None:
+            nominal = path_rows(split(without[Cases]), {}, axes, orders)
+            return Given(path_variables(axes, orders, [nominal]))
+        published, ensemble = with_published(without), chain[PriorEnsemble]
+
+        def of_sample(number: int) -> list[Row]:
+            sample, _, cases, _ = deviating(published, ensemble, number)
+            return path_rows(split(cases.some(keys)), sample.gain, axes, orders)
+
+        def done(number: int) -> None:
+            chain.progress("sound by path", number, len(computed.numbers))
+
+        nothing: list[Row] = []
+        every = in_every_sample(computed.numbers, of_sample, nothing, done, self.name, study)
+        return Given(path_variables(axes, orders, every, computed.counts))

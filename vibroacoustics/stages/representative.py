@@ -28,8 +28,6 @@ from .forces import PublishedCases, motion_of, with_published
 from .sampled import deviating
 from .stage import Given, Stage
 
-_BANDS = ("noise_band_level", "total_band_level", "unmodelled_band_level")
-
 
 @dataclass(frozen=True)
 class Representative:
@@ -96,7 +94,7 @@ class RepresentativeSample(Stage):
 def _motion(chain: Chain, chosen: Representative) -> xr.Dataset:
     """Forces and motion of the representative sample, at the median amplitudes."""
     study = chain.study.model_copy(update={"machine": chosen.machine})
-    motion, _ = motion_of(study, no_progress)
+    motion = motion_of(study, no_progress)[0]
     loads = at_medians(motion, chain.results, ("force_order", "moment_order"))
     motion = loads.assign(housing_variables(study, loads))
     names = [name for name in motion.data_vars if name in RepresentativeSample.estimates]
@@ -112,8 +110,9 @@ def _sound(
         key: with_discrepancy(of_case, chosen.gain[key]) for key, of_case in sample.received.items()
     }
     unmodelled = remaining(chain.study, axes, sample.machine, sample.unmodelled[chosen.pair])
-    noise = noise_levels(axes, received, unmodelled)
-    lines = line_pressure(axes, received, chain.results["line"].values.tolist())
-    return with_order_levels(lines, chain.results["order_level"]), noise[list(_BANDS)].rename(
-        {name: f"representative_{name}" for name in _BANDS}
+    noise = noise_levels(axes, received, unmodelled).drop_vars(
+        ["sources_band_level", "total_band_level"], errors="ignore"
     )
+    lines = line_pressure(axes, received, chain.results["line"].values.tolist())
+    names = {name: f"representative_{name}" for name in map(str, noise.data_vars)}
+    return with_order_levels(lines, chain.results["order_level"]), noise.rename(names)

@@ -65,12 +65,11 @@ class Samples(Stage):
         index, count = ensemble.chosen(chain.study.uncertainty.seed)
         numbers = list(zip(index.tolist(), count.tolist(), strict=True))
 
-        def done(number: int) -> None:
-            chain.progress("sources", number, len(numbers))
-
-        values = values_of(with_published(chain), ensemble, numbers, done)
-        counted = zip(numbers, values, strict=True)
-        solved = {key: value for key, value in counted if value is not None}
+        values = values_of(
+            with_published(chain), ensemble, numbers,
+            lambda done: chain.progress("sources", done, len(numbers)),
+        )  # fmt: skip
+        solved = {key: of for key, of in zip(numbers, values, strict=True) if of is not None}
         if not solved:
             return Given()
         statistics, kept = sample_variables(

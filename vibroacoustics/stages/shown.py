@@ -1,7 +1,7 @@
-"""Cases that pictures show, without an option and with the first in rank; energies, deflection."""
+"""Cases that pictures show, without an option and with the first in rank; deflection."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 import xarray as xr
@@ -10,14 +10,12 @@ from ..base.arrays import Array
 from ..base.registry import register
 from ..base.vocabulary import REFERENCE_OPTION, stamp
 from ..levels.contribution_choice import chosen_speeds
-from ..levels.energy import energy_variables, loudest_line
-from ..levels.nominal import NominalSound
+from ..levels.energy import loudest_line
 from ..levels.sample_levels import loads_with_gain, with_discrepancy
 from ..machine.cases import Cases
 from ..machine.machine import Machine
 from ..machine.source import CaseKey, Shared
 from ..mechanics.received_sound import ReceivedSound
-from ..study.study import Study
 from ..transfer.contributions import Transmission
 from ..transfer.deflection import MovingCase, deflection_variables, section_variables
 from .chain import Chain
@@ -60,8 +58,7 @@ class Shown:
     def of(cls, chain: Chain) -> "Shown":
         """Choose the cases of a study."""
         study, chosen = chain.study, chain.get(Representative)
-        published = study.catalogue_speed_rpm
-        speed = min(chosen_speeds(study), key=lambda speed: abs(speed - published))
+        speed = min(chosen_speeds(study), key=lambda rpm: abs(rpm - study.catalogue_speed_rpm))
         options = tuple(dict.fromkeys([REFERENCE_OPTION, *_first_ranked(chain.results)]))
         every = chain[Cases] if chosen is None else chosen.cases
         return cls(
@@ -92,34 +89,8 @@ class Shown:
 
 def _first_ranked(results: xr.Dataset) -> list[str]:
     """Name of the option that ranks first; empty in a trial, which has no scores."""
-    if "rank" not in results:
-        return []
-    rank = results["rank"].isel(scoring_method=0)
-    return [str(rank["option"].values[rank.argmin("option").item()])]
-
-
-@register
-class Energies(Stage):
-    """Energies that each source and unmodelled noise add to lines and third octaves.
-
-    Sums are medians of all samples. None with a measured baseline, which replaces the sources.
-    """
-
-    name = "energies"
-    reads = (*SHOWN, NominalSound, "pressure_line", "*total_band_level")
-    gives = ("line_energy", "band_energy")
-
-    def applies(self, study: Study) -> bool:
-        return study.baseline is None
-
-    def run(self, chain: Chain) -> Given:
-        shown = Shown.of(chain)
-        axes = replace(chain[NominalSound].axes, options=shown.options)
-        case = {"speed": shown.speed_rpm, "option": list(shown.options)}
-        pressure = chain.results["pressure_line"].sel(case)
-        sound = shown.received(chain[Transmission])
-        medians = chain.results.sel(case) if shown.gain else None
-        return Given(energy_variables(axes, sound, pressure, shown.unmodelled, medians))
+    ranks = [results["rank"].isel(scoring_method=0)] if "rank" in results else []
+    return [str(rank["option"].values[rank.argmin("option").item()]) for rank in ranks]
 
 
 @register
@@ -131,20 +102,18 @@ class Deflection(Stage):
     gives = ("shown_speed", "deflection*", "section_force")
 
     def run(self, chain: Chain) -> Given:
-        shown, transmission, cases = Shown.of(chain), chain[Transmission], {}
+        shown, transmission = Shown.of(chain), chain[Transmission]
         pressure = chain.results["pressure_line"].sel(receiver=chain.study.catalogue_receiver)
+        cases, louder = {}, {}
         for (speed, option), case in shown.cases.cases.items():
-            key = speed, option
-            cases[option] = MovingCase(
-                transmission.path(Shared(), case.machine, shown.cases.loads[key]),
-                transmission.lines(key, shown.cases),
-                loudest_line(pressure.sel(speed=speed, option=option)),
-            )
-        louder = {
-            option: case._replace(lines=loads_with_gain(case.lines, gain[:, shown.receiver]))
-            for option, case in cases.items()
-            if (gain := shown.gain.get((shown.speed_rpm, option))) is not None
-        }
-        results = deflection_variables(louder or cases, shown.machine.shell)
+            key, loads = (speed, option), shown.cases.loads[speed, option]
+            lines, gain = transmission.lines(key, shown.cases), shown.gain.get(key)
+            path = transmission.path(Shared(), case.machine, loads)
+            loudest = loudest_line(pressure.sel(speed=speed, option=option))
+            cases[option] = MovingCase(path, lines, loudest)
+            if gain is not None:
+                lines = loads_with_gain(lines, gain[:, shown.receiver])
+            louder[option] = cases[option]._replace(lines=lines)
+        results = deflection_variables(louder, shown.machine.shell)
         results = results.merge(section_variables(cases, shown.machine))
         return Given(results.assign(shown_speed=stamp("shown_speed", shown.speed_rpm)))

@@ -68,8 +68,7 @@ class Sliders(Stage):
 
 def _axes(chain: Chain, options: Sequence[str]) -> LevelAxes:
     """Axes of some options at the speed nearest to that of the published level."""
-    published = chain.study.catalogue_speed_rpm
-    axes = chain[NominalSound].axes
+    axes, published = chain[NominalSound].axes, chain.study.catalogue_speed_rpm
     speed = min(axes.speeds, key=lambda speed: abs(speed - published))
     return replace(axes, speeds=[speed], options=options)
 
@@ -94,7 +93,7 @@ def _computing(chain: Chain, chosen: Representative, axes: LevelAxes) -> Compute
 def _at_sample(chain: Chain, chosen: Representative, axes: LevelAxes) -> Chain:
     """The chain whose nominal values are those of the representative sample."""
     options = {name: chain.study.options[name] for name in axes.options}
-    study = at_speeds(chain.study, axes.speeds, options)
     cases = chosen.cases.some((speed, name) for speed in axes.speeds for name in options)
-    sampled = study.model_copy(update={"machine": chosen.machine})
-    return replace(chain, study=sampled).having(cases)
+    study = at_speeds(chain.study, axes.speeds, options)
+    study = study.model_copy(update={"machine": chosen.machine})
+    return replace(chain, study=study).having(cases)

@@ -29,9 +29,8 @@ class Stopping(Stage):
         chosen, path = chain.get(Representative), chain.get(ShellPath)
         machine = chain.study.machine if chosen is None else chosen.machine
         with stage(chain.progress, "switching off"):
-            return Given(
-                stopping_variables(chain.study, machine, on_mounts(machine), chain.results, path)
-            )
+            mounted, results = on_mounts(machine), chain.results
+            return Given(stopping_variables(chain.study, machine, mounted, results, path))
 
     def tried(self, chain: Chain, study: Study) -> Trial:
         return timed(chain, self, len(study.operation.speed_rpm))

@@ -129,7 +129,13 @@ def _by_motion(
     )
     if path.shell is None:
         return rigid
-    of_shell = by_motion(path.shell, microphones, in_shell(lines.loads[source]), lines.frequency_hz)
+    loads = in_shell(lines.loads[source])
+    loaded = np.flatnonzero(sum(load.any(axis=0) for load in loads.values()))
+    of_shell = np.zeros((len(path.shell.path.modes) + 6, *silent.shape), dtype=complex)
+    if loaded.size:
+        at_lines = {port: load[:, loaded] for port, load in loads.items()}
+        hertz = lines.frequency_hz[loaded]
+        of_shell[..., loaded] = by_motion(path.shell, microphones, at_lines, hertz)
     return np.concatenate([rigid + of_shell[-6:], of_shell[:-6]])
 
 

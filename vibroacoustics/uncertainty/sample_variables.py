@@ -133,14 +133,17 @@ def sample_variables(
     forces = {
         name: np.array([sample.forces[name] for sample in values]) for name in values[0].forces
     }
-    of_pairs, of_samples = Weighted(weight[0]), Weighted(weight[0].reshape(-1, PAIRS).sum(axis=1))
+    of_pairs = Weighted(weight[0])
     coords = {str(name): array.values for name, array in nominal.coords.items()}
     parts = [
         of_pairs.statistics(name, array, coords)
         for name, array in levels.items()
         if name not in _SHARES
     ]
-    parts += [of_samples.statistics(name, array, coords) for name, array in forces.items()]
+    parts += [
+        of_pairs.statistics(name, np.repeat(array, PAIRS, axis=0), coords)
+        for name, array in forces.items()
+    ]
     parts += _changes(study, levels, forces, of_pairs, coords)
     kept = _by_sample(levels, forces, weight, {**coords, "prior": list(prior_names)})
     kept = kept.merge(_repeated(sampled_values(study.ranges, samples), kept))

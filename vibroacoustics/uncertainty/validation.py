@@ -66,7 +66,7 @@ def _catalogue_level(results: xr.Dataset) -> Iterator[Validation]:
     what = "all modelled sources" if has_sources(results) else "moving parts"
     bias, spread = level_bias_db(results)
     yield Validation(
-        f"Level at {receiver}, {speed:g} rpm: {what}, beside the machine",
+        f"Level at {receiver}, {speed:g} rpm: {what}, nominal values, beside the machine",
         "dB(A)",
         simulated,
         noise["level_dba"] - bias,

@@ -258,7 +258,7 @@ def test_memory_of_all_workers_counts(study, monkeypatch):
 def test_plan_tells_designs_time_and_size():
     plan = Plan(10, 640, 8, 7300.0, 2e8, 3e6, {"options.a.length_mm": "no"})
     assert plan.text == (
-        "10 designs, 640 pieces at 8 speeds: about 2.0 h, 200 MB of memory, "
+        "10 designs, 640 pieces at 8 speeds: about 2.0 h after the start, 200 MB of memory, "
         "3 MB on disk; by runs: options.a.length_mm"
     )
 

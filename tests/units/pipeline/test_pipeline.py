@@ -35,7 +35,6 @@ OF_SOURCES = {
     "alternative_effective",
     "representative_value",
     "representative_noise_band_level",
-    "representative_total_band_level",
     "representative_unmodelled_band_level",
     "rating_level",
     "rating_adjustment",

@@ -486,7 +486,7 @@ def test_sources_do_not_change_the_moving_parts(results, without):
     heard |= {"evidence_simulation", "evidence_inputs", "decisive_audibility", "tonal_adjustment"}
     heard |= {name for name in map(str, without.data_vars) if "tone_" in name}
     heard |= {"decisive_audibility", "tonal_adjustment", "order_change"}
-    shown = ("run_up_", "polar_", "deflection", "line_energy", "band_energy", "section_force")
+    shown = ("run_up_", "polar_", "deflection", "section_force")
     heard |= {name for name in map(str, without.data_vars) if name.startswith(shown)}
     heard |= {name for name, array in without.data_vars.items() if "path_speed" in array.dims}
     same = set(without.data_vars) - heard

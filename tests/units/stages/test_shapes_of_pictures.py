@@ -21,7 +21,7 @@ from vibroacoustics.stages.chain import Chain
 from vibroacoustics.stages.directivity import Directivity
 from vibroacoustics.stages.run_up import RunUp
 from vibroacoustics.stages.samples import Samples
-from vibroacoustics.stages.shown import Deflection, Energies
+from vibroacoustics.stages.shown import Deflection
 from vibroacoustics.stages.stage import Given, advanced, applying
 from vibroacoustics.study.loading import load_study
 from vibroacoustics.transfer.contributions import Transmission, velocities
@@ -38,7 +38,7 @@ def chain(tmp_path_factory):
     chain = Chain(study, lambda study, *_: (made_up_modes(study), False))
     with patch.object(Samples, "run", lambda *_: Given()):
         for stage in applying(study):
-            if stage.name not in ("deflection", "directivity", "energies", "run-up", "stopping"):
+            if stage.name not in ("deflection", "directivity", "run-up", "stopping"):
                 chain = advanced(chain, stage)
     return chain
 
@@ -178,44 +178,6 @@ def test_directions_under_the_floor_have_no_level(chain):
 
 def test_given_radiation_has_no_directivity(chain):
     assert "polar_level" not in advanced(chain, Directivity()).results
-
-
-def test_energies_of_the_sources_add_to_the_total(chain):
-    """Of third octaves with unmodelled noise to the level of the machine, of lines to theirs."""
-    results = advanced(chain, Energies()).results
-    at = {"speed": 2900.0, "option": results["shown_option"].values}
-    total = results["band_energy"].sum(("energy_part", "noise_band")).values
-    level = results["level_total"].sel(at).values
-    assert level_of(total) == pytest.approx(level, abs=1e-9)
-    modelled = results["band_energy"].drop_sel(energy_part="unmodelled")
-    expected = results["level_modelled"].sel(at).sel(weighting="A").values
-    assert level_of(modelled.sum(("energy_part", "noise_band")).values) == pytest.approx(
-        expected, abs=1e-9
-    )
-    orders = np.isin(results["line_order"].values, results["order"].values[1:])
-    lines = results["line_energy"].sum("sound_source").values[..., orders]
-    expected = results["order_level"].sel(at).sel(weighting="A").sel(order=slice(1, None)).values
-    heard = expected > -100.0
-    assert heard.any()
-    assert level_of(lines[heard]) == pytest.approx(expected[heard], abs=1e-9)
-
-
-def level_of(square):
-    return 10.0 * np.log10(square / 4e-10)
-
-
-def test_energies_of_a_source_have_its_interference(chain):
-    """Half of what two sources add to each other belongs to either."""
-    results = advanced(chain, Energies()).results
-    at = {"speed": 2900.0, "option": "none"}
-    alone = 10.0 ** (results["source_level"].sel(at) / 10.0) * 4e-10
-    shares = results["source_share"].sel(at)
-    total = 10.0 ** (results["level_total"].sel(at) / 10.0) * 4e-10
-    parts = results["band_energy"].sel(shown_option="none").sum("noise_band")
-    parts = parts.drop_sel(energy_part="unmodelled")
-    expected = (shares * total).transpose("sound_source", "receiver").values
-    assert parts.values == pytest.approx(expected, rel=1e-9, abs=1e-20)
-    assert abs(parts.values - alone.transpose("sound_source", "receiver").values).max() > 0.0
 
 
 def test_run_up_at_the_speed_of_the_study_is_its_level(chain):

@@ -1,11 +1,17 @@
 """Choice of the representative sample, by hand and in a run."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 import xarray as xr
 from sources_study import sources_run
 
 from vibroacoustics.base.weighting import a_weighting
+from vibroacoustics.levels.bands import Band
+from vibroacoustics.levels.contributions import PathEnergies
+from vibroacoustics.mechanics.contributions import PathName
+from vibroacoustics.uncertainty.path_variables import path_variables
 from vibroacoustics.uncertainty.representative import nearest_row
 
 OPTIONS = ["none", "loud"]
@@ -98,50 +104,48 @@ def test_sound_of_a_run_is_that_of_its_row_but_for_the_orders(results):
     assert 10.0 * np.log10(level) == pytest.approx(motor.item(), abs=1e-6)
 
 
-def test_paths_have_the_levels_of_the_medians(results):
-    """Each order, each third octave and in all; shares add up to one."""
-    paths = results.sel(option="none").transpose("path_speed", "receiver", ...)
-    medians = results.sel(option="none", speed=paths["path_speed"].values).transpose(
-        "speed", "receiver", ...
-    )
-    order = medians["order_level"].sel(weighting="Z", order=paths["path_order"].values).values
-    pressure = np.abs(paths["path_pressure"].sum("path").values)
-    np.testing.assert_allclose(20.0 * np.log10(pressure / np.sqrt(8.0) / 1e-5), order, atol=1e-6)
-    bands = [band for band in paths["band"].values if band in medians["noise_band"]]
-    expected = medians["sources_band_level"].sel(noise_band=bands).values
-    found = paths["modelled_band_level"].sel(band=bands).values
+def test_paths_are_those_of_the_samples(results):
+    """Levels of third octaves are medians of all samples; shares of each order add up to one."""
+    speeds = results["path_speed"].values
+    medians = results["sources_band_level"].sel(option="none", speed=speeds)
+    bands = [band for band in results["band"].values if band in medians["noise_band"]]
+    expected = medians.sel(noise_band=bands).transpose("speed", "receiver", "noise_band").values
+    found = results["modelled_band_level"].sel(band=bands)
+    found = found.transpose("path_speed", "receiver", "band").values
     sounds = expected > -200.0
     np.testing.assert_allclose(found[sounds], expected[sounds], atol=1e-4)
-    np.testing.assert_allclose(paths["path_share"].sum("path"), 1.0, rtol=1e-9)
-    np.testing.assert_allclose(paths["motion_share"].sum("radiating_motion"), 1.0, rtol=1e-9)
+    for name in ("path_share", "path_order_share", "path_band_share"):
+        total = results[name].sum("path").values
+        np.testing.assert_allclose(total[total != 0.0], 1.0, rtol=1e-5)
+    low, high = (results[f"path_share_{end}_percent"] for end in (10, 90))
+    assert (low <= results["path_share"]).mean() > 0.9
+    assert (results["path_share"] <= high).mean() > 0.9
 
 
-def test_parts_of_third_octaves_add_up_to_the_median_of_the_machine(results):
-    """The stack of the picture, A-weighted within a band, beside the level of the machine."""
-    at = {"speed": float(results["shown_speed"]), "option": results["shown_option"].values}
-    energy = results["band_energy"].sum("energy_part").rename(shown_option="option")
-    level = 10.0 * np.log10(np.maximum(energy, 1e-40) / 4e-10)
-    total = results["total_band_level"].sel(at)
-    hertz = 10.0 ** (np.rint(10.0 * np.log10(total["noise_band"])) / 10.0)
-    ends = [a_weighting(hertz * 10.0**end) for end in (-0.05, 0.05)]  # a line lies in its band
-    apart = (level - total).where((total > -100.0) & (hertz < 2000.0))
-    assert apart.count() > 40
-    assert not (apart < ends[0] - 0.01).any()
-    assert not (apart > ends[1] + 0.01).any()
+def test_a_single_path_is_in_phase_with_the_sum():
+    """Of one path the share is one and the cosine +1; opposite ones have -1."""
+    rows = [{2900.0: energies_of([2.0 + 1.0j])}]
+    axes = NominalAxes(("front_1m",), ())
+    alone = path_variables(axes, [1], [rows])
+    assert alone["path_share"].item() == pytest.approx(1.0)
+    assert alone["path_cosine"].item() == pytest.approx(1.0)
+    two = [{2900.0: energies_of([3.0, -1.0])}]
+    both = path_variables(axes, [1], [two])
+    np.testing.assert_allclose(both["path_cosine"].values.ravel(), [1.0, -1.0], rtol=1e-6)
+    np.testing.assert_allclose(both["path_share"].values.ravel(), [1.5, -0.5], rtol=1e-6)
+    mixed = path_variables(axes, [1], [rows, two], [3, 1])
+    np.testing.assert_allclose(mixed["path_share"].values.ravel(), [1.125, -0.125], rtol=1e-6)
 
 
-def test_shares_by_source_are_those_of_its_paths(results):
-    """One machine: what a picture gives each source, its transfer paths give it, too."""
-    at = {"receiver": "front_1m"}
-    energy = results["line_energy"].sel(at).sel(shown_option="none")
-    speed = float(results["shown_speed"])
-    pressure = results["path_pressure"].sel(at).sel(option="none", path_speed=speed)
-    part = (pressure * np.conj(pressure.sum("path"))).real
-    for number, order in enumerate(pressure["path_order"].values):
-        line = energy.sel(line=energy["line_order"] == order).squeeze("line")
-        if float(line.sum()) == 0.0:
-            continue
-        share = part.isel(path_order=number).groupby("path_source").sum()
-        share = share / share.sum()
-        expected = (line / line.sum()).sel(sound_source=share["path_source"].values)
-        np.testing.assert_allclose(share.values, expected.values, atol=1e-6)
+class NominalAxes(NamedTuple):
+    receivers: tuple[str, ...]
+    bands: tuple[Band, ...]
+
+
+def energies_of(pressure):
+    """Energies of paths of one line at one microphone."""
+    phasor = np.array(pressure)[:, None, None]
+    part = (phasor * phasor.sum(axis=0).conj()).real
+    path = 0.5 * np.stack([np.abs(phasor) ** 2, part])
+    names = tuple(PathName("gas", "housing", f"t{n}") for n in range(len(pressure)))
+    return PathEnergies(names, ("tx",), np.concatenate([path, path], axis=-1), path[:, :1, :, 0])

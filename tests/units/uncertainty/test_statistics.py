@@ -109,11 +109,10 @@ def test_changes_of_forces_are_medians_in_db(results, weight):
 
 
 def test_forces_are_medians_of_samples(results, weight):
-    of_sample = weight.reshape(-1, PAIRS).sum(axis=1)
     for name, variable in (("force", "force_amplitude"), ("moment", "moment_amplitude"),
                            ("foot_force", "largest_foot_force")):  # fmt: skip
-        force = by_sample(results, f"{name}_1x", "speed", "option")[::PAIRS]
-        assert_statistics(results, variable, force, of_sample, lambda one: one.sel(order=1))
+        force = by_sample(results, f"{name}_1x", "speed", "option")
+        assert_statistics(results, variable, force, weight, lambda one: one.sel(order=1))
     largest = results["foot_force_amplitude_nominal"].max("foot")
     np.testing.assert_allclose(results["largest_foot_force_nominal"], largest)
 

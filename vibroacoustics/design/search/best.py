@@ -53,7 +53,7 @@ def search_best(
     def advance(intermediate_result: Any) -> None:
         nonlocal done
         done += 1
-        progress("designs", done, generations)
+        progress("generations", done, generations)
 
     differential_evolution(
         lambda designs: comparable(history(_rounded(problem, designs.T))),

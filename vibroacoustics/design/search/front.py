@@ -46,7 +46,7 @@ def search_front(
         evaluation = history(designs)
         _advance(algorithm, infills, evaluation, outline)
         done += 1
-        progress("designs", done, generations)
+        progress("generations", done, generations)
     return history.searched()
 
 

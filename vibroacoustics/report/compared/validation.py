@@ -68,11 +68,11 @@ def _of_study(result: xr.Dataset, option: str, channel: str, speed: float) -> Le
     receiver = channel.removeprefix(PRESSURE)
     total = float(result["level_total"].sel(option=option, receiver=receiver, speed=speed))
     nothing = np.zeros(0)
-    if "modelled_band_level" not in result or speed not in result["path_speed"].values:
+    if "sources_band_level" not in result:
         return Levels(total, float("nan"), nothing, nothing, nothing)
-    bands = result["modelled_band_level"].sel(option=option, receiver=receiver, path_speed=speed)
+    bands = result["sources_band_level"].sel(option=option, receiver=receiver, speed=speed)
     is_audible = bands.values > rounding.LEVEL_FLOOR_DB
-    hertz = bands["band"].values[is_audible]
+    hertz = bands["noise_band"].values[is_audible]
     return Levels(total, float("nan"), hertz, bands.values[is_audible], np.full(hertz.size, np.nan))
 
 

@@ -30,10 +30,10 @@ def path_speed(results: xr.Dataset) -> float:
 
 
 @remembered
-def at_path_speed(results: xr.Dataset, receiver: str, option: str = REFERENCE_OPTION) -> xr.Dataset:
+def at_path_speed(results: xr.Dataset, receiver: str) -> xr.Dataset:
     """Paths to a microphone at the speed that is shown."""
     names = [name for name in results.data_vars if "path_speed" in results.variables[name].dims]
-    return results[names].sel(path_speed=path_speed(results), option=option, receiver=receiver)
+    return results[names].sel(path_speed=path_speed(results), receiver=receiver)
 
 
 def path_words(results: xr.Dataset, row: int) -> tuple[str, str]:

@@ -1,16 +1,15 @@
 """A-weighted levels of the sources: parts of third octaves and lines, and over a run-up."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
 from ...base.arrays import Array
-from ...base.constants import REFERENCE_PRESSURE_PA
-from ...base.decibel import level_of_power
-from ...base.units import shaft_frequency_hz
 from ...base.vocabulary import REFERENCE_OPTION
+from ...results.estimates import has_samples
 from ...results.stored_study import catalogue_receiver, source_name
 from ...results.titles import chosen
 from ..charts.axes import level_image
@@ -18,6 +17,7 @@ from ..charts.layout import COLOURS
 from ..charts.marks import Axis, Bars, Chart, Line, Panel
 from ..charts.needs import needs
 from ..sections.sources.words import UNMODELLED
+from .paths import at_path_speed, path_speed
 
 DEPTH_DB: Final = 40.0
 """Depth from the highest bar down to the foot of all."""
@@ -26,59 +26,65 @@ _THINNEST_DB: Final = 0.3
 _GREY: Final = "#b8bfc6"
 
 
-@needs("band_energy")
+@needs("path_band_share")
 def stacked_third_octaves(results: xr.Dataset, receiver: str | None = None) -> Chart:
-    """A-weighted third octaves, divided among sources and unmodelled noise: a panel an option.
+    """Third octaves of all modelled sources, divided among these; unmodelled noise beside them.
 
     Parameters
     ----------
-    results : results of `run`; needs `band_energy` (shown_option, energy_part, receiver,
-        noise_band), Pa²
+    results : results of `run`; needs `path_band_share` (path_speed, path, receiver, band)
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    energy = results["band_energy"].sel(receiver=mic)
-    energy = energy.transpose("shown_option", "energy_part", "noise_band")
-    bands = energy["noise_band"].values
+    shown = at_path_speed(results, mic)
+    bands, level = shown["band"].values, shown["modelled_band_level"].values
     words = (f"{band / 1000.0:g}k" if band >= 1000.0 else f"{band:g}" for band in bands)
     ticks = tuple((float(row), word) for row, word in enumerate(words) if row % 3 == 2)
-    axis = Axis("Third-octave band, Hz", ticks=ticks)
-    panels = _panels(results, energy, np.arange(len(bands), dtype=float), axis, 0.9)
-    return _chart("stacked_third_octaves", f"third octaves at {mic}", results, panels)
+    axis, position = Axis("Third-octave band, Hz", ticks=ticks), np.arange(len(bands), dtype=float)
+    case = {"speed": path_speed(results), "option": REFERENCE_OPTION, "receiver": mic}
+    noise = results["unmodelled_band_level"].sel(case).reindex(noise_band=bands).values
+    share = shown["path_band_share"].transpose("path", "band")
+    panel = _panel(results, share, level, position, axis, 0.9, Axis("Level, dB"), noise)
+    return _chart("stacked_third_octaves", f"Third octaves at {mic}", results, panel)
 
 
-@needs("line_energy")
+@needs("path_order_share")
 def stacked_lines(results: xr.Dataset, receiver: str | None = None) -> Chart:
-    """A-weighted lines of the shaft orders, divided among the sources: a panel an option.
+    """A-weighted lines of the loudest shaft orders, divided among the sources.
 
     Parameters
     ----------
-    results : results of `run`; needs `line_energy` (shown_option, sound_source, receiver, line),
-        Pa²
+    results : results of `run`; needs `path_order_share` (path_speed, path, receiver, path_order)
     receiver : one of the results' microphones; default: that of the catalogue's noise
     """
     mic = chosen(results, "receiver", receiver or catalogue_receiver(results))
-    energy = results["line_energy"].sel(receiver=mic)
-    energy = energy.isel(line=np.flatnonzero(results["line_order"].values > 0.0))
-    energy = energy.transpose("shown_option", "sound_source", "line")
-    shaft_hz = shaft_frequency_hz(float(results["shown_speed"]))
-    frequency = shaft_hz * energy["line_order"].values
-    panels = _panels(results, energy, frequency, Axis("Frequency, Hz"), 0.8 * shaft_hz)
-    return _chart("stacked_lines", f"lines of the shaft orders at {mic}", results, panels)
+    share = at_path_speed(results, mic)["path_order_share"].transpose("path", "path_order")
+    orders = share["path_order"].values
+    case = {"speed": path_speed(results), "option": REFERENCE_OPTION, "receiver": mic}
+    level = results["order_level"].sel(case).sel(weighting="A", order=orders).values
+    axis, y = Axis("Order"), Axis("Level, dB(A)")
+    panel = _panel(results, share, level, orders, axis, 0.8, y)
+    return _chart(
+        "stacked_lines", f"A-weighted lines of the loudest orders at {mic}", results, panel
+    )
 
 
-def divided(energy: Array, bottom_db: float) -> tuple[Array, Array]:
-    """Return where the parts of each bar begin and how long they are, dB, from Pa², (part, bar).
+def divided(share: Array, level_db: Array, bottom_db: float) -> tuple[Array, Array]:
+    """Return where the parts of each bar begin and how long they are, dB.
 
     A bar is as high as the level of the sum; its parts are the shares of the sources in the
     energy, without those that work against the others.
+
+    Parameters
+    ----------
+    share : shares of the energy, shape (source, bar)
+    level_db : levels of the sums, shape (bar,), dB
+    bottom_db : foot of all bars
     """
-    total = np.maximum(energy.sum(axis=0), 1e-30)
-    height = np.maximum(level_of_power(total / REFERENCE_PRESSURE_PA**2) - bottom_db, 0.0)
-    share = np.maximum(energy, 0.0)
-    share = share / np.maximum(share.sum(axis=0), 1e-30)
-    ends = np.cumsum(share, axis=0) * height
-    return bottom_db + ends - share * height, share * height
+    height, parts = np.maximum(level_db - bottom_db, 0.0), np.maximum(share, 0.0)
+    parts = parts / np.maximum(parts.sum(axis=0), 1e-30)
+    ends = np.cumsum(parts, axis=0) * height
+    return bottom_db + ends - parts * height, parts * height
 
 
 def part_colours(results: xr.Dataset, parts: Sequence[str]) -> list[tuple[str, str]]:
@@ -92,44 +98,46 @@ def part_colours(results: xr.Dataset, parts: Sequence[str]) -> list[tuple[str, s
     ]
 
 
-def _panels(
-    results: xr.Dataset, energy: xr.DataArray, position: Array, axis: Axis, thickness: float
-) -> tuple[Panel, ...]:
-    """Bars of energy (option, part, bar), on one scale."""
-    named = part_colours(results, [str(part) for part in energy[energy.dims[1]].values])
-    loudest = max(float(energy.sum(str(energy.dims[1])).max()), 1e-30)
-    top = float(level_of_power(loudest / REFERENCE_PRESSURE_PA**2))
-    panels = []
-    for option, values in zip(energy["shown_option"].values, energy.values, strict=True):
-        starts, sizes = divided(values, top - DEPTH_DB)
-        bars = tuple(
-            Bars(position, size, start, words, colour=colour, thickness=thickness, upright=True)
-            for (words, colour), start, size in zip(named, starts, sizes, strict=True)
-            if size.max() > _THINNEST_DB
-        )
-        y = Axis("Level, dB(A)", limits=(top - DEPTH_DB, top + 2.0))
-        panels.append(Panel(axis, y, bars, f"Option {option}", 2.4))
-    return tuple(panels)
+def _panel(
+    results: xr.Dataset,
+    share: xr.DataArray,
+    level_db: Array,
+    position: Array,
+    axis: Axis,
+    thickness: float,
+    y: Axis,
+    noise_db: Array | None = None,
+) -> Panel:
+    """Bars of the level of the sum, with the shares of the sources (path, bar) in it."""
+    of_sources = share.groupby("path_source").sum()
+    named = part_colours(results, [str(source) for source in of_sources["path_source"].values])
+    top = float(np.max(level_db))
+    shares, foot = of_sources.transpose("path_source", ...).values, top - DEPTH_DB
+    starts, sizes = divided(shares, level_db, foot)
+    bars = tuple(
+        Bars(position, size, start, words, colour=colour, thickness=thickness, upright=True)
+        for (words, colour), start, size in zip(named, starts, sizes, strict=True)
+        if size.max() > _THINNEST_DB
+    )
+    noise: tuple[Line, ...] = ()
+    if noise_db is not None and np.max(noise_db) > foot:
+        levels = np.where(noise_db > foot, noise_db, np.nan)
+        noise = (Line(position, levels, UNMODELLED, colour=_GREY),)
+        top = max(top, float(np.max(noise_db)))
+    return Panel(axis, replace(y, limits=(foot, top + 2.0)), (*bars, *noise), height=2.4)
 
 
-def _chart(name: str, what: str, results: xr.Dataset, panels: tuple[Panel, ...]) -> Chart:
-    levels = f"A-weighted {what}, {float(results['shown_speed']):g} rpm"
+def _chart(name: str, what: str, results: xr.Dataset, panel: Panel) -> Chart:
+    levels = f"{what}, {path_speed(results):g} rpm, without a balancer"
+    median, mean = (", a median", ", means") if has_samples(results) else ("", "")
     return Chart(
         name,
         f"{levels}, divided among the sources.",
-        f"{levels}. The height of a bar is the level of the sum{_median(results)}. Its colours are "
-        f"shares of the energy{_sample(results)}; sources that are not seen, or work against the "
-        "others, are omitted.",
-        panels,
+        f"{levels}. The height of a bar is the level of all modelled sources{median}. Its colours "
+        f"are shares of the energy{mean}. Sources that are not seen, or work against the others, "
+        "are omitted.",
+        (panel,),
     )
-
-
-def _median(results: xr.Dataset) -> str:
-    return ", the median of the samples" if "representative_value" in results else ""
-
-
-def _sample(results: xr.Dataset) -> str:
-    return " of the representative sample" if "representative_value" in results else ""
 
 
 @needs("run_up_level", "run_up_source_level", from_="`run` of a study with few speeds")

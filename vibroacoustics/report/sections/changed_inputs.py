@@ -80,9 +80,7 @@ def rows_of(results: xr.Dataset) -> list[Row]:
         _row(with_alternative(headlines, name), name, effective_sizes(headlines, name))
         for name in alternatives(results)
     ]
-    claimed = [
-        row._replace(claims={LEVEL: _level_claim(reported, row), **row.claims}) for row in others
-    ]
+    claimed = [row._replace(claims=_level_claim(reported, row) | row.claims) for row in others]
     return [reported._replace(claims={LEVEL: "", **reported.claims}), *claimed]
 
 
@@ -106,7 +104,9 @@ def _row(results: xr.Dataset, name: str, sizes: tuple[float, float]) -> Row:
     if of_changes and balancers(results):
         changes = _extremes(results)
         lower, higher = by_effect(results)
-        claims[OPTIONS] = f"{_names(lower)} lowers the level, {_names(higher)} raises it"
+        claims[OPTIONS] = (
+            f"{_names(lower)} is likely to lower the level, {_names(higher)} to raise it"
+        )
         best, _ = best_for_feet(results)
         claims[VIBRATION] = f"{best or 'no option'} reduces the foot force most"
     return Row(name, sizes, level, source, share, changes, claims)
@@ -133,16 +133,13 @@ def _extremes(results: xr.Dataset) -> tuple[tuple[str, Estimate], ...]:
     return ranked[0], ranked[-1]
 
 
-def _level_claim(reported: Row, row: Row) -> str:
-    """Say that the level leaves the interval of the report; empty where it does not."""
+def _level_claim(reported: Row, row: Row) -> dict[str, str]:
+    """Say that the level leaves the interval of the report; nothing without a level."""
     if row.level is None or reported.level is None:
-        return ""
+        return {}
     low, _, high = reported.level
-    return (
-        ""
-        if low <= row.level.value <= high
-        else (f"{_written_level(row.level, row).middle_text(rounding.level)} dB(A)")
-    )
+    written_level = _written_level(row.level, row).middle_text(rounding.level)
+    return {LEVEL: "" if low <= row.level.value <= high else f"{written_level} dB(A)"}
 
 
 def _written_level(level: Estimate, row: Row) -> Band:
@@ -177,13 +174,18 @@ def flip_list(results: xr.Dataset, rows: Sequence[Row]) -> Definitions:
         if name not in reported.claims:
             continue
         changed: dict[str, list[str]] = {}
-        for row in others:
+        tested = [row for row in others if name in row.claims]
+        for row in tested:
             if name in flips(reported, row):
                 inputs = changed.setdefault(row.claims[name], [])
                 inputs.append(alternative_words(results, row.name))
         said = [f"{' or '.join(inputs)}: {claim}" for claim, inputs in changed.items()]
-        words = f"{_capital('; '.join(said))}." if said else "No input or law below flips it."
-        entries.append(Definition(term, "flips" if said else "holds", words))
+        verdict = "flips" if said else "holds" if tested else "not tested"
+        untested = len(others) - len(tested)
+        words = f"{_capital('; '.join(said))}." if said else ""
+        words = words or (f"None of the {len(tested)} tested flips it." if tested else "")
+        words += f" {untested} of {len(others)} cannot be tested." if untested else ""
+        entries.append(Definition(term, verdict, words.strip()))
     return Definitions(tuple(entries))
 
 

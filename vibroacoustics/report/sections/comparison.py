@@ -25,11 +25,10 @@ from ..columns import Column
 from ..kept_columns import columns_of
 from ..quantities import TOTAL
 from ..remainder import total_sentence
-from ..shifts import shift
+from ..shifts import level_word, shift
 from ..shown_speeds import few_speeds, few_speeds_words
 from ..tables import Cell, DataTable, Table, data_table
 from . import Section
-from .verdict.words import word
 
 _DIMENSIONS = ("option", "speed", "receiver")
 _UNITS = {"dba": "dB(A)", "dbc": "dB(C)"}
@@ -132,7 +131,7 @@ def _cell(
 
 def level_words(results: xr.Dataset) -> dict[str, str]:
     """Return what every option does to the level, in the word of the first screen."""
-    changed = {name: word(shift(results, TOTAL, name)) for name in balancers(results)}
+    changed = {name: level_word(shift(results, TOTAL, name)) for name in balancers(results)}
     return {REFERENCE_OPTION: rounding.NOTHING, **changed}
 
 

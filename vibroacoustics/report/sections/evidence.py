@@ -39,7 +39,7 @@ def agreement_sentence(results: xr.Dataset) -> str:
         UNDECIDED: f"is too uncertain to be compared with the published {published}",
     }[level.verdict]
     return (
-        f"The modelled level before any published datum {words}. Error E = "
+        f"The modelled level with nominal values {words}. Error E = "
         f"{rounding.signed(level.error)} dB, u = {rounding.fixed(level.uncertainty)} dB."
     )
 
@@ -101,7 +101,7 @@ def conflict_table(results: xr.Dataset) -> Table:
         word = "conflict" if tail < CONFLICT else "no conflict"
         rows.append((name, published, expected, rounding.fixed(tail, 3), word))
     head = ("Datum", "Published or measured", "Expected by the model", "Tail of the prior", "")
-    caption = "Data beside the prior predictive distribution, median (80 % interval)"
+    caption = "Data beside the prior predictive without discrepancy, median (80 % interval)"
     return Table(caption, head, tuple(rows), frozenset({0, 4}))
 
 

@@ -197,7 +197,11 @@ def measure_next_sentence(results: xr.Dataset) -> str:
         else:
             others.append(f"{_most_valuable(here)}.")
     if worthless:
-        others.insert(0, f"No measurement would change the choice on {' or on '.join(worthless)}.")
+        choices = " or on ".join(worthless)
+        others.insert(0, f"No value of a parameter would change the choice of option on {choices}.")
+    wanted = most_valuable(results)
+    if wanted is not None and not wanted[0].startswith("choice"):
+        others.append(f"Most valuable measurement for the {wanted[0]}: {wanted[1]}.")
     return " ".join(others)
 
 
@@ -213,7 +217,7 @@ def _most_valuable(results: xr.Dataset) -> str:
             f"{rounding.fixed(float(gain[best]))} dB in the mean, all values {everything}"
         )
     return (
-        f"All unknown values together are worth {everything} for a choice on {choice}; "
+        f"All unknown values together are worth {everything} for the choice of option on {choice}; "
         f"{sample_numbers(results).computed} samples do not show which one to measure"
     )
 

@@ -133,7 +133,9 @@ def _blocks(results: xr.Dataset) -> list[Block]:
 def _further(results: xr.Dataset) -> list[Chart]:
     """Third octaves and lines divided among the sources, and what options can be heard to do."""
     charts: dict[str, Callable[[xr.Dataset], Chart]]
-    charts = {"band_energy": stacked_third_octaves, "line_energy": stacked_lines}
+    charts = {}
+    if "path_share" in results and "baseline_band_level" not in results:
+        charts = {"path_band_share": stacked_third_octaves, "path_order_share": stacked_lines}
     if "total_band_level" in results and changing_options(results):
         charts["total_band_level"] = option_third_octaves
     return [make(results) for name, make in charts.items() if name in results]

@@ -7,27 +7,26 @@ import numpy as np
 import xarray as xr
 
 from ....base.registry import register
-from ....results.estimates import QUANTILES, has_samples
+from ....results.estimates import has_samples
 from ....results.left_out import lines_of
 from ....results.stored_study import balancers, catalogue_receiver, other_receivers, parameters
 from ...blocks import Beside, Block, Bullets, Details, Light, LightRow, Lights, Pictures, Text
 from ...drawing.picture import machine_picture
-from ...option_verdict import BETTER, MIXED, NO_CHANGE, WORSE, judge, option_verdicts
+from ...option_verdict import BETTER, MIXED, NO_CHANGE, UNCERTAIN, WORSE, judge, option_verdicts
 from ...quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
-from ...shifts import Shift, extent, measurable, shift
+from ...shifts import UNSURE, Shift, extent, level_word, measurable, shift
 from .. import Section, text
 from ..example import example_words
 from ..scores import ranking_sentence
-from .words import changes, contributions, word
+from .words import changes, contributions
 
 FULL_SCALE: Final = {"%": 100.0, "dB": 20.0}
 """Change at which a bar reaches the end of its cell."""
-_SURE: Final = QUANTILES[0]
-"""Share of the samples with a measurable change from which on it is not said that there is none."""
 
 Word: TypeAlias = Literal["better", "worse", "mixed", "uncertain", "no change"]
 _WORDS: Final[dict[str, Word]] = {
-    BETTER: "better", WORSE: "worse", MIXED: "mixed", NO_CHANGE: "no change",
+    BETTER: "better", WORSE: "worse", MIXED: "mixed", UNCERTAIN: "uncertain",
+    NO_CHANGE: "no change",
 }  # fmt: skip
 
 
@@ -80,12 +79,10 @@ def _row(results: xr.Dataset, option: str) -> tuple[Light, ...]:
 
 def _word(shifts: Sequence[Shift]) -> Word:
     if shifts[0].quantity == TOTAL:
-        return _OF_TOTAL[word(shifts[0])]
-    judgement = judge(
-        any(shift.worsens for shift in shifts), any(shift.improves for shift in shifts)
-    )
-    unsure = any(max(shift.grown, shift.fallen) > _SURE for shift in shifts)
-    return "uncertain" if judgement == NO_CHANGE and unsure else _WORDS[judgement]
+        return _OF_TOTAL[level_word(shifts[0])]
+    unsure = any(max(shift.grown, shift.fallen) > UNSURE for shift in shifts)
+    rises = any(shift.rises for shift in shifts)
+    return _WORDS[judge(rises, any(shift.falls for shift in shifts), unsure)]
 
 
 def _change(shifts: Sequence[Shift]) -> str:
@@ -100,11 +97,11 @@ def _change(shifts: Sequence[Shift]) -> str:
 
 def _note(results: xr.Dataset) -> str:
     least = measurable(results)
-    scope = "80 % intervals at all speeds" if has_samples(results) else "all speeds, nominal"
+    scope = "80 % intervals" if has_samples(results) else "nominal values"
     return (
-        f"Numbers and bars: {scope}; bars end at ±100 % and ±20 dB. Grey: less than "
-        f"{100.0 * least.force_ratio:g} % or {least.level_db:g} dB, not measurable. Mixed: better "
-        "at some microphones or speeds, worse at others."
+        f"Numbers and bars: {scope} at the speed of the largest change; bars end at ±100 % and "
+        f"±20 dB. Grey: less than {100.0 * least.force_ratio:g} % or {least.level_db:g} dB, not "
+        "measurable. Mixed: better at some microphones or speeds, worse at others."
     )
 
 

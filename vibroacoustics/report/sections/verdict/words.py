@@ -14,7 +14,7 @@ import xarray as xr
 from ....base import rounding
 from ....base.vocabulary import REFERENCE_OPTION
 from ....results.bands import Band, band
-from ....results.estimates import QUANTILES, effective_samples, has_samples
+from ....results.estimates import effective_samples, has_samples
 from ....results.stored_study import (
     at_catalogue,
     balancers,
@@ -29,13 +29,11 @@ from ....results.stored_study import (
 )
 from ...blocks import Interval, Intervals, IntervalWord
 from ...quantities import FOOT_FORCE, NO_BREAK, TOTAL
-from ...shifts import Shift, measurable, shift
+from ...shifts import Shift, level_word, measurable, shift
 from ..rating import rating_sentence, windows, worst_window
 from ..sources.words import UNMODELLED, dominant_source, ranked, source_share
 from ..unknowns import most_valuable
 
-_UNCERTAIN: Final = QUANTILES[0]
-"""Probability of a measurable change from which on there may be one."""
 _FEW_SAMPLES: Final = 30
 """Effective samples below which their number is said."""
 _QUIETEST_DB: Final = 30.0
@@ -114,42 +112,17 @@ def _contribution(name: str, level: Band, word: IntervalWord) -> Interval:
 
 def _change(results: xr.Dataset, option: str, least: float) -> Interval:
     of_total = shift(results, TOTAL, option)
-    change = _at_largest(of_total)
+    change = of_total.band
     text = change.middle_and_ends(rounding.signed)
-    return Interval(option, text, change.lowest, change.middle, change.highest, word(of_total))
-
-
-def word(of_total: Shift) -> IntervalWord:
-    """Return what an option does to the level: louder, quieter, uncertain, no change.
-
-    Louder and quieter are changes whose interval is outside of what can be measured.
-    """
-    change, least = _at_largest(of_total), of_total.least.level_db
-    if of_total.worsens and not of_total.improves and change.lowest >= least:
-        return "louder"
-    if of_total.improves and not of_total.worsens and change.highest <= -least:
-        return "quieter"
-    return "uncertain" if max(of_total.grown, of_total.fallen) > _UNCERTAIN else "no change"
-
-
-def largest(of_quantity: Shift) -> int:
-    """Return the number of the speed at which a quantity changes most, in the way that is said.
-
-    A quantity that is said to grow is shown where it grows most, one that falls where it falls.
-    """
-    gain_db = np.nan_to_num(of_quantity.gain_db)
-    if of_quantity.worsens and not of_quantity.improves:
-        return int(np.argmax(gain_db))
-    if of_quantity.improves and not of_quantity.worsens:
-        return int(np.argmin(gain_db))
-    return int(np.argmax(np.abs(gain_db)))
+    ends = change.lowest, change.middle, change.highest
+    return Interval(option, text, *ends, level_word(of_total))
 
 
 def _level(results: xr.Dataset) -> str:
     speed = nearest_speed(results)
     level = band(results, "level_total", **at_catalogue(results, speed=speed))
-    ends = level.ends(rounding.level)
-    interval = f" (80{NO_BREAK}% interval {ends})" if has_samples(results) else ""
+    around = level.around_middle(rounding.level)
+    interval = f" (80{NO_BREAK}% interval {around})" if around else ""
     return (
         f"{parameters(results)['machine']['name']} at {speed:g} rpm: "
         f"{level.middle_text(rounding.level)} dB(A) at {catalogue_receiver(results)}{interval}, "
@@ -233,7 +206,7 @@ def _options(results: xr.Dataset) -> str:
 def by_effect(results: xr.Dataset) -> tuple[list[str], list[str]]:
     """Return the options that lower the total, and those that raise it, the largest first."""
     shifts = {option: shift(results, TOTAL, option) for option in balancers(results)}
-    by_change = sorted(shifts, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
+    by_change = sorted(shifts, key=lambda name: shifts[name].gain_db[shifts[name].largest])
     lower = [name for name in by_change if shifts[name].improves and not shifts[name].worsens]
     return lower, [name for name in reversed(by_change) if shifts[name].worsens]
 
@@ -248,7 +221,7 @@ def _claim(
     if shifts[first].improves and shifts[first].worsens:  # at different speeds
         does = "may raise or lower"
     else:
-        does = f"may {verb}" if word(shifts[first]) == "uncertain" else f"{verb}s"
+        does = f"may {verb}" if level_word(shifts[first]) == "uncertain" else f"{verb}s"
     too = f"{len(others)} others" if len(others) > 1 else "".join(others)
     too = f"; also {too}" if too else ""
     others_given = "rating_level" in results or "room_level" in results
@@ -278,11 +251,11 @@ def best_for_feet(results: xr.Dataset) -> tuple[str, bool]:
     shifts = {option: shift(results, FOOT_FORCE, option) for option in balancers(results)}
     better = [name for name, of_force in shifts.items() if of_force.improves]
     better = [name for name in better if not shifts[name].worsens]
-    sure = [name for name in better if _at_largest(shifts[name]).highest < 0.0]
+    sure = [name for name in better if shifts[name].falls]
     candidates = sure or better
     if not candidates:
         return "", False
-    best = min(candidates, key=lambda name: shifts[name].gain_db[largest(shifts[name])])
+    best = min(candidates, key=lambda name: shifts[name].gain_db[shifts[name].largest])
     return best, bool(sure)
 
 
@@ -294,15 +267,11 @@ def _measurement(results: xr.Dataset) -> str:
     return f"Most valuable measurement for the {purpose}: {measurement}."
 
 
-def _at_largest(of_quantity: Shift) -> Band:
-    return of_quantity.bands[largest(of_quantity)]
-
-
 def _largest_change(results: xr.Dataset, of_quantity: Shift, unit: str) -> str:
     """Return the largest change, with its speed where that is not the speed of the headline."""
-    speed = speeds(results)[largest(of_quantity)]
+    speed = speeds(results)[of_quantity.largest]
     where = "" if speed == nearest_speed(results) else f" at {speed:g} rpm"
-    return f"{_with_unit(_at_largest(of_quantity), unit)}{where}"
+    return f"{_with_unit(of_quantity.band, unit)}{where}"
 
 
 def _with_unit(change: Band, unit: str) -> str:
@@ -312,6 +281,5 @@ def _with_unit(change: Band, unit: str) -> str:
     def write(value: float) -> str:
         return rounding.signed(value, decimals)
 
-    middle, ends = change.middle_text(write), change.ends(write)
-    value = f"{middle}{NO_BREAK}{unit}"
-    return value if ends == middle else f"{value} ({ends})"
+    value, around = f"{change.middle_text(write)}{NO_BREAK}{unit}", change.around_middle(write)
+    return f"{value} ({around})" if around else value
