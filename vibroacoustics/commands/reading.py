@@ -114,17 +114,32 @@ class Reading:
                 pass
             raise
 
-    def at_once(self, file: Path, plugins: list[Path] | None) -> "xr.Dataset":
-        """Read all that is asked for of a file, by built-in readers and those of plug-ins."""
+    def at_once(
+        self, file: Path, plugins: list[Path] | None, speed: "SpeedOptions | None" = None
+    ) -> "xr.Dataset":
+        """Read all that is asked for of a file, by built-in readers and those of plug-ins.
+
+        Channels of the speed may be of a second file.
+        """
         from ..recordings import read_recording
 
         load_plugins(plugins)
-        return read_recording(file, **self.arguments(file))
+        recording = read_recording(file, **self.arguments(file))
+        if speed is None or speed.speed_file is None:
+            return recording
+        from ..recordings.second_file import with_second_file
 
-    def in_blocks(self, file: Path, plugins: list[Path] | None) -> "RecordingBlocks":
+        names = [name for name in (speed.speed_channel, speed.index) if name is not None]
+        return with_second_file(recording, speed.speed_file, names)
+
+    def in_blocks(
+        self, file: Path, plugins: list[Path] | None, speed: "SpeedOptions"
+    ) -> "RecordingBlocks":
         """Hold the same in memory as the file stores it; what is too large stays in the file."""
-        from ..recordings.blocks import recording_blocks
+        from ..recordings.blocks import LabelledBlocks, recording_blocks
 
+        if speed.speed_file is not None:
+            return LabelledBlocks(self.at_once(file, plugins, speed))
         load_plugins(plugins)
         return recording_blocks(file, **self.arguments(file))
 
@@ -238,6 +253,9 @@ class SpeedOptions:
     speed_channel: Annotated[
         str | None, "Channel of the tacho, or of the speed in rpm; with --tacholess, of the signal."
     ] = None
+    speed_file: Annotated[
+        Path | None, "Second file, which holds the channels of --speed-channel and --index."
+    ] = None
     pulses: Annotated[float, "Pulses of the tacho per revolution, whole or not."] = 1
     index: Annotated[str | None, "Channel with one pulse a revolution: crank angle zero."] = None
     threshold: Annotated[
@@ -303,6 +321,8 @@ class SpeedOptions:
             raise ParameterError(
                 "--index, --pulses, --threshold, --edge: belong to a tacho, --speed-channel CHANNEL"
             )
+        if self.speed_file is not None and not by_channel:
+            raise ParameterError("--speed-file: belongs to --speed-channel CHANNEL")
         if self.tacholess_machine is not None:
             return self._of_machine(self.tacholess_machine)
         if (self.comb is not None or self.mains is not None) and not any(without_tacho):
@@ -316,7 +336,10 @@ class SpeedOptions:
         if self.rpm is not None:
             return NominalSpeed(self.rpm)
         edge = None if self.edge is None else chosen("--edge", self.edge, EDGES)
-        return SpeedChannel(str(self.speed_channel), self.pulses, self.index, self.threshold, edge)
+        names = [self.speed_channel, self.index]
+        if self.speed_file is not None:
+            names = [name and f"{self.speed_file.name} {name}" for name in names]
+        return SpeedChannel(str(names[0]), self.pulses, names[1], self.threshold, edge)
 
     def _of_machine(self, file: Path) -> "SpeedSource":
         """Make the source of the speed that the motor of a machine file gives."""

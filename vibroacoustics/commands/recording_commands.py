@@ -56,8 +56,8 @@ def orders_command(
         from ..measured.campaign import analyse_campaign
         from ..results.order_limits import with_limits
 
-        if listen is not None or orders.with_map:
-            raise ParameterError("--listen, --map: need one recording: give one file")
+        if listen is not None or orders.with_map or speed.speed_file is not None:
+            raise ParameterError("--speed-file, --listen, --map: need one recording: give one file")
         target = printing.target(folder)
         load_plugins(plugin)
         run_of = partial(reading.run, speed, replace(orders, with_map=False), plugin)
@@ -66,7 +66,7 @@ def orders_command(
     else:
         source = reading.source(speed, files[0], plugin)
         settings = orders.analysis(source, LOUDEST | reading.stated_analysis())
-        recording = reading.in_blocks(files[0], plugin)
+        recording = reading.in_blocks(files[0], plugin, speed)
         from .. import report
         from ..measured.recorded_orders import analyse_orders
         from ..measured.run_up_sound import check_listen, listened
@@ -103,7 +103,7 @@ def track_command(
 
     source = reading.source(speed, recording_file, plugin)
     numbers = None if orders is None else order_numbers(orders)
-    recording = reading.at_once(recording_file, plugin)
+    recording = reading.at_once(recording_file, plugin, speed)
     from .. import report
     from ..measured.recorded_orders import track_orders
 
@@ -126,7 +126,7 @@ def map_command(
 ) -> Outcome:
     """Draw a recording over speed and frequency, its level over the speed: page, figures."""
     source = reading.source(speed, recording_file, plugin)
-    recording = reading.at_once(recording_file, plugin)
+    recording = reading.at_once(recording_file, plugin, speed)
     from .. import report
     from ..measured.recorded_orders import speed_frequency_map
 

@@ -46,7 +46,7 @@ def replay_command(
     from . import arguments
 
     source, pairs = speed.source(), arguments.assignments("--pair", pair)
-    recording = reading.at_once(recording_file, plugin)
+    recording = reading.at_once(recording_file, plugin, speed)
     from ..measured.replay import replay
     from . import outputs
     from .replaying import analysis_with_sounds

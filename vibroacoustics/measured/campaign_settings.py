@@ -115,7 +115,7 @@ class SpeedSettings(Parameters):
 class AnalysisSettings(Parameters):
     """Orders and bands that are analysed, as in `OrderAnalysis`."""
 
-    orders: tuple[float, ...] = (1.0, 2.0, 3.0, 4.0)
+    orders: tuple[float, ...] | None = None
     maximum_order: float | None = Field(default=None, gt=0.0, le=1e5)
     resolution_order: float | None = Field(default=None, gt=0.0, le=100.0)
     speed_step_rpm: float = Field(default=100.0, gt=0.0, le=1e5)

@@ -58,7 +58,7 @@ def sorted_out(analysed: Sequence[AnalysedRun]) -> list[AnalysedRun]:
     Omitted are those that cannot be analysed, have a dead or impossible channel that not all have,
     repeat an earlier one, or lack a channel, band or speed that more than half of them have.
     """
-    for reasons in (_other_channels, _suspected, _repeated, _far_below, _fewer_bands, _other_speed):
+    for reasons in (_other_channels, _suspected, _repeated, _far_below, _lower_rate, _other_speed):
         omitted = reasons([each for each in analysed if not each.reason])
         analysed = [each._replace(reason=each.reason or omitted.get(each.file, ""))
                     for each in analysed]  # fmt: skip
@@ -122,18 +122,25 @@ def _far_below(runs: Sequence[AnalysedRun]) -> dict[Path, str]:
     return omitted
 
 
-def _fewer_bands(runs: Sequence[AnalysedRun]) -> dict[Path, str]:
-    bands = {run.file: run.results["band"].values.tolist() for run in runs
-             if run.results is not None and "band" in run.results}  # fmt: skip
-    usual = _most_have(bands.values())
-    rates = {run.file: run.results.attrs["sample_rate_hz"] for run in runs
-             if run.results is not None}  # fmt: skip
-    return {
-        file: f"sample rate = {rates[file]:g} Hz: lacks the third octaves from "
-        f"{min(usual - set(each)):g} Hz, which most recordings have"
-        for file, each in bands.items()
-        if usual - set(each)
-    }
+def _lower_rate(runs: Sequence[AnalysedRun]) -> dict[Path, str]:
+    """Recordings whose sample rate does not hold the third octaves or default orders of most."""
+    omitted: dict[Path, str] = {}
+    for name, words in (("band", "third octaves from {:g} Hz"), ("order", "orders from {:g}")):
+        labels = {
+            run.file: (run.results[name].values.tolist(), run.results.attrs["sample_rate_hz"])
+            for run in runs
+            if run.results is not None
+            and name in run.results
+            and (name == "band" or run.run.analysis.orders is None)
+        }
+        usual = _most_have(each for each, _ in labels.values())
+        for file, (each, rate_hz) in labels.items():
+            if lacking := usual - set(each):
+                omitted[file] = (
+                    f"sample rate = {rate_hz:g} Hz: lacks the {words.format(min(lacking))}, "
+                    "which most recordings have"
+                )
+    return omitted
 
 
 def _other_speed(runs: Sequence[AnalysedRun]) -> dict[Path, str]:

@@ -9,10 +9,10 @@ from ..base.arrays import Array
 from ..base.errors import ParameterError
 from ..study.order_analysis import (
     DEFAULT_MAXIMUM_ORDER,
-    DEFAULT_ORDERS,
     DEFAULT_RESOLUTION_ORDER,
     FIRST_ORDERS,
     OrderAnalysis,
+    default_orders,
 )
 from .angular_plan import HIGHEST_PASS_BAND_RATIO, AngularPlan, known_samples
 from .block_orders import WINDOW
@@ -30,11 +30,8 @@ _SPARE: Final = 1.5
 
 def highest_order(settings: OrderAnalysis) -> float:
     """Highest order that settings need: that of the spectra, or of the band of an order."""
-    resolution = settings.resolution_order or DEFAULT_RESOLUTION_ORDER
-    return max(
-        settings.maximum_order or DEFAULT_MAXIMUM_ORDER,
-        max(settings.orders or FIRST_ORDERS) + _HALF_LOBE * resolution,
-    )
+    greatest = max(settings.orders or FIRST_ORDERS)
+    return max(settings.maximum_or_default, greatest + _HALF_LOBE * settings.resolution_or_default)
 
 
 def with_defaults(
@@ -58,7 +55,7 @@ def with_defaults(
     """
     limit = _rate_limit(rate_hz, samples, motion, highest_order(settings))
     is_held = max(FIRST_ORDERS) + _HALF_LOBE * DEFAULT_RESOLUTION_ORDER <= limit
-    if settings.orders is DEFAULT_ORDERS or not (settings.orders or is_held):
+    if settings.orders is None or not (settings.orders or is_held):
         settings = replace(settings, orders=_orders_below(limit, rate_hz))
     if settings.maximum_order is None:
         _check_orders(settings, limit)
@@ -92,7 +89,7 @@ def _rate_limit(rate_hz: float, samples: int, motion: CrankMotion, needed: float
 
 def _orders_below(limit: float, rate_hz: float) -> tuple[float, ...]:
     room = _HALF_LOBE * DEFAULT_RESOLUTION_ORDER
-    held = tuple(order for order in DEFAULT_ORDERS if order + room <= limit)
+    held = default_orders(limit - room)
     if not held:
         raise ParameterError(
             f"sample_rate_hz = {rate_hz:g} Hz: holds orders up to {limit:.3g} at the highest "
@@ -102,11 +99,11 @@ def _orders_below(limit: float, rate_hz: float) -> tuple[float, ...]:
 
 
 def _check_orders(settings: OrderAnalysis, limit: float) -> None:
-    resolution = settings.resolution_order or DEFAULT_RESOLUTION_ORDER
-    highest = limit - (0.0 if settings.is_fit else _HALF_LOBE * resolution)
-    if max(settings.orders, default=0.0) > highest:
+    highest = limit - (0.0 if settings.is_fit else _HALF_LOBE * settings.resolution_or_default)
+    greatest = max(settings.orders or (0.0,))
+    if greatest > highest:
         raise ParameterError(
-            f"orders = {max(settings.orders):g}: must be at most {highest:.4g} at the highest speed"
+            f"orders = {greatest:g}: must be at most {highest:.4g} at the highest speed"
         )
 
 

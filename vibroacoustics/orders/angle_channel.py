@@ -66,5 +66,7 @@ def is_sawtooth(samples: Array) -> bool:
     """
     highest = float(np.quantile(samples, 0.999))
     is_turn = any(abs(highest / turn - 1.0) < _TURN_ERROR for turn in (2.0 * np.pi, 360.0, 1.0))
+    if not is_turn:
+        return False
     quarters = np.histogram(samples, bins=4, range=(0.0, highest))[0] / samples.size
-    return bool(is_turn and np.all(np.abs(quarters - 0.25) < _UNEVEN))
+    return bool(np.all(np.abs(quarters - 0.25) < _UNEVEN))

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
-from ..study.order_analysis import DEFAULT_RESOLUTION_ORDER, OrderAnalysis
+from ..study.order_analysis import OrderAnalysis
 from .angular import AngularSignal, joined
 from .angular_plan import AngularPlan
 from .block_spectra import block_hop, block_starts
@@ -75,7 +75,7 @@ class BlockOrders:
 
     def __init__(self, plan: AngularPlan, channels: int, settings: OrderAnalysis) -> None:
         self._settings = settings
-        self._resolution = settings.resolution_order or DEFAULT_RESOLUTION_ORDER
+        self._resolution = settings.resolution_or_default
         revolutions, blocks, lines = map_size(plan, settings)
         self._length = revolutions * plan.samples_per_revolution
         if settings.with_map:
@@ -168,7 +168,7 @@ def map_size(plan: AngularPlan, settings: OrderAnalysis) -> tuple[int, int, int]
     """
     samples, per_revolution = plan.grid[1] + 1 - plan.grid[0], plan.samples_per_revolution
     try:
-        resolution = settings.resolution_order or DEFAULT_RESOLUTION_ORDER
+        resolution = settings.resolution_or_default
         revolutions = block_revolutions(
             window_by_name(WINDOW), resolution, samples / per_revolution
         )

@@ -1,7 +1,7 @@
 """A speed beside the sound: a lag is corrected, a speed that the lines contradict is named."""
 
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -87,10 +87,10 @@ def confirmed(
         return shaft
     if np.ptp(speeds_hz) < _VARIES * highest_hz:
         if shaft.kind == "nominal":
-            signals, rate_hz = _decimated(recording, names, highest_hz)
-            notes = [note for each in signals for note in _scale_notes(each, rate_hz, motion)][:1]
+            signals = _signals(recording, names, highest_hz)
+            notes = [note for each in signals for note in _scale_notes(*each, motion)][:1]
     else:
-        lags = list(_lags(recording, names, motion))
+        lags = list(_lags(_signals(recording, names, highest_hz), motion))
         if lags:
             lag = max(lags, key=lambda pair: pair[0])[1]
             motion, notes = _corrected(shaft, lag)
@@ -103,39 +103,43 @@ def confirmed(
 
 
 def _lags(
-    recording: RecordingBlocks, names: Sequence[str], motion: CrankMotion
+    signals: Iterable[tuple[Array, float]], motion: CrankMotion
 ) -> Iterator[tuple[float, SpeedLag]]:
     """Sharpness of the lines and lag of a motion by channel, up to one in which it is sure."""
     highest_hz = float(_speeds_hz(motion).max())
-    for name in names[:MOST_CHANNELS]:
-        signals, rate_hz = _decimated(recording, [name], highest_hz)
-        lag, sharpness = speed_lag(signals[0], rate_hz, motion)
+    for signal, rate_hz in signals:
+        lag, sharpness = speed_lag(*_decimated(signal, rate_hz, highest_hz), motion)
         if lag is not None:
             yield sharpness, lag
             if lag.is_sure:
                 return
 
 
-def _decimated(
+def _signals(
     recording: RecordingBlocks, names: Sequence[str], highest_hz: float
-) -> tuple[list[Array], float]:
-    """Some channels at a rate that holds the orders, and that rate, Hz."""
-    chosen = list(names[:MOST_CHANNELS])
+) -> Iterator[tuple[Array, float]]:
+    """The first channels at rates, Hz, that hold the orders of a speed; each is read once."""
     down = int(recording.sample_rate_hz / (_OVERSAMPLING * HIGHEST_ORDER * highest_hz))
     coarse = max(down // 8, 1)  # a mean is enough of a filter far below its first zero
-    fine = max(down // coarse, 1)
-    kept: Array = np.empty((len(chosen), 0))
-    parts, added = [], 0
-    for block in block_by_block(recording, chosen):
-        joined = np.concatenate([kept, block], axis=1)
-        complete = joined.shape[1] // coarse * coarse
-        parts.append(joined[:, :complete].reshape(len(chosen), -1, coarse).mean(axis=2))
-        kept, added = joined[:, complete:], added + block.size
-        if added > _MOST_SAMPLES:
-            break
-    means = np.concatenate(parts, axis=1)
-    rate_hz = recording.sample_rate_hz / (coarse * fine)
-    return [scipy.signal.resample_poly(row - row.mean(), 1, fine) for row in means], rate_hz
+    for name in names[:MOST_CHANNELS]:
+        kept: Array = np.empty(0)
+        parts, added = [], 0
+        for (block,) in block_by_block(recording, [name]):
+            joined = np.concatenate([kept, block])
+            complete = joined.size // coarse * coarse
+            parts.append(joined[:complete].reshape(-1, coarse).mean(axis=1))
+            kept, added = joined[complete:], added + block.size
+            if added > _MOST_SAMPLES:
+                break
+        means = np.concatenate(parts)
+        rate_hz = recording.sample_rate_hz / coarse
+        yield _decimated(means - means.mean(), rate_hz, highest_hz)
+
+
+def _decimated(signal: Array, rate_hz: float, highest_hz: float) -> tuple[Array, float]:
+    """A signal, shape (time,), at the lowest rate that holds the orders, and that rate, Hz."""
+    down = max(int(rate_hz / (_OVERSAMPLING * HIGHEST_ORDER * highest_hz)), 1)
+    return scipy.signal.resample_poly(signal, 1, down), rate_hz / down
 
 
 def _corrected(shaft: RecordedSpeed, lag: SpeedLag) -> tuple[CrankMotion, list[str]]:
@@ -213,12 +217,16 @@ def _unit_notes(
     recording: RecordingBlocks, names: Sequence[str], motion: CrankMotion, least_lines: int
 ) -> list[str]:
     """Name the unit in which a recorded speed has lines at its orders, and else none."""
-    for unit, factor in _UNITS.items():
-        geared = motion.geared(factor)
-        highest_hz = float(_speeds_hz(geared).max())
-        if not _LEAST_HZ < highest_hz < recording.sample_rate_hz / (2.0 * _LEAST_LINES):
-            continue
-        for _, lag in _lags(recording, names, geared):
+    most_hz = recording.sample_rate_hz / (2.0 * _LEAST_LINES)
+    highest_hz = float(_speeds_hz(motion).max())
+    factors = {
+        unit: each for unit, each in _UNITS.items() if _LEAST_HZ < each * highest_hz < most_hz
+    }
+    if not factors:
+        return []
+    signals = list(_signals(recording, names, max(factors.values()) * highest_hz))
+    for unit, factor in factors.items():
+        for _, lag in _lags(signals, motion.geared(factor)):
             if np.isfinite(lag.error_s) and np.sum(_in_place(lag.lines)) >= least_lines:
                 lines = ", ".join(f"{order:.4g}" for order in np.sort(lag.lines))
                 return [

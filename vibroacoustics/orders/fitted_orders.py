@@ -14,7 +14,7 @@ import numpy as np
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
-from ..study.order_analysis import DEFAULT_MAXIMUM_ORDER, OrderAnalysis
+from ..study.order_analysis import DEFAULT_ORDERS, OrderAnalysis
 from .angular_plan import HIGHEST_PASS_BAND_RATIO, known_samples
 from .block_orders import OrdersOfBlocks
 from .crank_motion import CrankMotion
@@ -87,8 +87,9 @@ class FittedOrders:
         self._known = known_samples(motion, rate_hz, samples)
         self._settings = settings
         self._blocks: list[Array] = []
-        spacing = common_spacing(settings.orders)
-        highest = max(settings.maximum_order or DEFAULT_MAXIMUM_ORDER, *settings.orders)
+        self._orders: Array = np.array(settings.orders or DEFAULT_ORDERS)
+        spacing = common_spacing(self._orders.tolist())
+        highest = max(settings.maximum_or_default, float(self._orders[-1]))
         count = int(highest / spacing * (1.0 + 1e-9))
         self._lines: Array = spacing * np.arange(1, count + 1, dtype=float)
         used = self._known[1] - self._known[0]
@@ -120,13 +121,13 @@ class FittedOrders:
         signal = np.concatenate(self._blocks, axis=1)[:, first:last]
         fitted = fit_orders(signal, self._angle_rad, self._lines, self.is_tapered)
         spacing = float(self._lines[0])
-        positions = np.rint(np.array(self._settings.orders) / spacing).astype(int)
+        positions = np.rint(self._orders / spacing).astype(int)
         phasor = fitted[:, None, positions]
         rms = np.abs(fitted) / np.sqrt(2.0)
         rms[:, 0] = np.abs(fitted[:, 0])
         duration_s = self._time_s[-1] - self._time_s[0]
         return OrdersOfBlocks(
-            order=np.array(self._settings.orders),
+            order=self._orders,
             phasor=phasor,
             rms=np.abs(phasor) / np.sqrt(2.0),
             mean_spectrum=rms,

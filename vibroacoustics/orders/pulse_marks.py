@@ -27,6 +27,8 @@ _SIZES: Final = (0.3, 2.3)
 _MOST_JOINTS: Final = 3
 _FALL: Final = 0.5
 """Deviation of the largest interval that is no joint, over that of the smallest joint."""
+_ONE_PULSE: Final = 0.5
+"""Deviation of an interval from that of its mark, in pitches, by a pulse missing or too much."""
 _ALIKE: Final = 0.1
 _REPEATED: Final = 0.8
 """Share of the revolutions in which a joint has its size, within a tenth of a pitch."""
@@ -53,6 +55,8 @@ def joint_sizes(time_s: Array, marks: int) -> Array | None:
     ratio = np.diff(time_s)[half : half + mean.size] / mean
     folded = ratio[: revolutions * marks].reshape(revolutions, marks)
     middle = np.median(folded, axis=0)
+    if np.max(np.abs(folded - middle)) > _ONE_PULSE:
+        return None
     scatter = 1.4826 * np.median(np.abs(folded - middle), axis=0)
     size = middle / median_filter(middle, _NEIGHBOURS, mode="wrap")
     least = np.maximum(_LEAST_SIZE, _CLEAR * scatter / np.sqrt(revolutions))

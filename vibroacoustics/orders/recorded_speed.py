@@ -43,7 +43,7 @@ MOST_SPEED_SAMPLES: Final = 2**26
 
 _PARTS: Final = 3
 """Parts without pulses, and faults of a speed, that are listed."""
-RPM_PER_UNIT: Final = {"rpm": 1.0, "rad/s": 30.0 / np.pi, "Hz": 60.0, "rev/s": 60.0, "1/s": 60.0}
+RPM_PER_UNIT: Final = {"rpm": 1.0, "rad/s": 30.0 / np.pi}
 """Units of a channel that is a speed."""
 
 
@@ -70,7 +70,7 @@ def check_speed_channels(names: Sequence[str], speed: SpeedSource) -> None:
 
 
 def recorded_speed(recording: RecordingBlocks, speed: SpeedSource) -> RecordedSpeed:
-    """Crank angle over the time of a recording, of which one channel is read.
+    """Crank angle over the time of a recording, confirmed by its first channels of sound.
 
     Warns
     -----

@@ -8,7 +8,7 @@ import xarray as xr
 from ..base.allowed import check_range
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
-from ..study.order_analysis import DEFAULT_ORDERS, ORDERS
+from ..study.order_analysis import FIRST_ORDERS, ORDERS, default_orders
 from .angular_plan import known_samples
 from .crank_motion import CrankMotion
 from .vold_kalman import Track, vold_kalman
@@ -41,7 +41,7 @@ def tracked_orders(
         first, last = known_samples(motion, sample_rate_hz, signal.sizes["time"])
         fastest_hz = float(np.max(motion.frequency_hz(np.arange(first, last) / sample_rate_hz)))
         limit = (0.5 * sample_rate_hz - bandwidth_hz) / fastest_hz
-        orders = [order for order in DEFAULT_ORDERS if order <= limit] or DEFAULT_ORDERS[:1]
+        orders = default_orders(limit) or FIRST_ORDERS[:1]
     numbers = [float(order) for order in orders]
     for order in numbers:
         check_range("orders", order, *ORDERS)

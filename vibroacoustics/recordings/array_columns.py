@@ -10,6 +10,7 @@ from ..base.errors import ParameterError, StorageError
 from .named_arrays import UNIT_NAMES, NamedArray, Part, as_text, attribute_text, is_time
 from .packing import PACKING_NAMES, is_packed, missing, unsigned
 from .recorded import Samples, by_channel, check_size, numbered
+from .time_line import TimeLine
 
 MAXIMUM_COLUMNS: Final = 10_000
 
@@ -169,8 +170,14 @@ def check_present(column: Column, stored: Samples, first: int, rate_hz: float) -
         )
 
 
-def limits(column: Column, stored: Samples) -> tuple[float, float] | None:
-    """Range of a recorder's whole numbers; packed values fill theirs by intent."""
-    if stored.dtype.kind != "i" or is_packed(column.array.attributes):
-        return None
-    return float(np.iinfo(stored.dtype).min), float(np.iinfo(stored.dtype).max)
+def stored_limits(
+    columns: Sequence[Column], stored: Sequence[Samples], line: TimeLine
+) -> list[tuple[float, float] | None]:
+    """Range of a recorder's whole numbers by channel; packed values fill theirs by intent."""
+    kinds = [values.dtype for values in stored]
+    return [
+        (float(np.iinfo(kind).min), float(np.iinfo(kind).max))
+        if kind.kind == "i" and not is_packed(column.array.attributes) and not line.is_resampled(n)
+        else None
+        for n, (column, kind) in enumerate(zip(columns, kinds, strict=True))
+    ]

@@ -11,9 +11,9 @@ from .array_columns import (
     check_claims,
     check_present,
     columns_of,
-    limits,
     own_columns,
     samples_of_parts,
+    stored_limits,
 )
 from .array_times import axes_of, coordinates, leading_time, stated_rate_hz, time_of
 from .axes import Axis, line_of
@@ -64,21 +64,14 @@ def recorded(
         check_present(column, values, first, line.rate_hz)
     samples = [unpacked(v, c.array.attributes) for c, v in zip(columns, stored, strict=True)]
     start = as_text(attributes.get("start_time", "")) or date
-    return Recorded(
-        names=[column.name for column in columns],
-        units=[column.unit for column in columns],
-        samples=line.on_grid(samples),
-        sample_rate_hz=line.rate_hz,
-        line=line.key,
-        start_time=line.later(start),
-        first_sample=line.first,
-        total_samples=line.total,
-        limits=[
-            None if line.is_resampled(n) else limits(c, v)
-            for n, (c, v) in enumerate(zip(columns, stored, strict=True))
-        ],
+    return line.recorded(
+        [column.name for column in columns],
+        [column.unit for column in columns],
+        samples,
+        start,
+        remarks,
+        limits=stored_limits(columns, stored, line),
         counts=[_counts(column, values) for column, values in zip(columns, stored, strict=True)],
-        remarks=[*remarks, *line.remarks([column.unit for column in columns], samples)],
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from .recorded import Request, check_rate, check_size
+from .recorded import MissingError, Request, check_rate, check_size
 from .time_axis import (
     MAXIMUM_TIME_DEVIATION,
     Times,
@@ -91,9 +91,8 @@ def line_of_times(
     request : its sample rate overrides that of the times
     origin_s : time of the recording's first sample, where that is not of the times
     """
-    every = Request(request.path, sample_rate_hz=request.sample_rate_hz, line=request.line)
     axis = Axis(time_s.size, times=lambda first, last: time_s[first:last], origin_s=origin_s)
-    return line_of(names, [axis] * len(names), every)
+    return line_of(names, [axis] * len(names), request.every)
 
 
 def _may_be_even(axis: Axis, request: Request) -> bool:
@@ -125,8 +124,10 @@ def _channel_time(axis: Axis, request: Request) -> ChannelTime:
     """Time of a channel without its name."""
     rate_hz = request.sample_rate_hz or axis.rate_hz
     if axis.times is None:
-        check_rate(float(rate_hz or 0.0))
-        return ChannelTime("", axis.samples, float(rate_hz or 0.0), axis.start_s)
+        if rate_hz is None:
+            raise MissingError("has no time axis and no sample rate: give sample_rate_hz")
+        check_rate(rate_hz)
+        return ChannelTime("", axis.samples, rate_hz, axis.start_s)
     check_size(0, axis.samples)
     time_s = np.asarray(axis.times(0, axis.samples), dtype=float)
     check_growing(time_s, 0)

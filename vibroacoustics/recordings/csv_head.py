@@ -28,8 +28,6 @@ _DECIMAL_WORD: Final = re.compile(r"\b(?:comma|point|dot|period)\b", re.IGNORECA
 _DECIMALS: Final = {"comma": ",", "point": ".", "dot": ".", "period": "."}
 MISSING_TIME: Final = "has no column 'time [s]': add one or give sample_rate_hz"
 _TIME_NAMES: Final = {"time", "t", "zeit", "timestamp", "timestamps", "elapsed time", "x_value"}
-_LONG: Final = ("min", "h")
-"""Units of times that a column may have which is no time axis, as a duration."""
 
 
 @dataclass(frozen=True)
@@ -189,23 +187,17 @@ def _is_unit(field: str) -> bool:
     return not plain or is_time or find_quantity(plain) is not None
 
 
-def _is_time_unit(unit: str) -> bool:
-    return find_time_factor(unit) is not None and unit not in _LONG
-
-
 def time_column(head: Head) -> int | None:
-    """The column named time, or whose unit is that of a time, or the one of time stamps.
+    """The column named time, else the one whose unit is that of a time, or that of time stamps.
 
     Raises
     ------
     ParameterError
         There are several.
     """
-    time_columns = [
-        column
-        for column, (name, unit) in enumerate(zip(head.names, head.units, strict=True))
-        if column != head.stamps and (name.lower() in _TIME_NAMES or _is_time_unit(unit))
-    ]
+    others = [column for column in range(len(head.names)) if column != head.stamps]
+    time_columns = [c for c in others if head.names[c].lower() in _TIME_NAMES]
+    time_columns = time_columns or [c for c in others if find_time_factor(head.units[c])]
     if len(time_columns) > 1:
         raise ParameterError(
             f"columns {[head.names[column] for column in time_columns]} are all times"

@@ -88,6 +88,11 @@ class Request:
         return part.part(samples, sample_rate_hz)
 
     @property
+    def every(self) -> "Request":
+        """All of the recording, for what is read in full and cut later."""
+        return Request(self.path, sample_rate_hz=self.sample_rate_hz, line=self.line)
+
+    @property
     def wants_all(self) -> bool:
         """Whether no part is asked for."""
         return self.from_s is None and self.to_s is None and self.samples is None

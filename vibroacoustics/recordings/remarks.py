@@ -35,13 +35,16 @@ def remark(
         warnings.warn(f"{path}: {line}", kind, stacklevel=3)
 
 
+def may_be_full(unit: str, between: float) -> bool:
+    """Whether a channel of a unit may have samples at its extremes, by the share between them."""
+    return unit in MAY_STAY or (unit == MAY_BE_PULSES and between < _LEAST_BETWEEN)
+
+
 def overload_lines(header: Mapping[str, Any], units: Iterable[str]) -> list[str]:
     """A line for each channel with samples at full scale."""
     lines = []
     for name, unit, overload in zip(header["names"], units, header["overloads"], strict=True):
-        if overload is None or str(unit) in MAY_STAY:
-            continue
-        if str(unit) == MAY_BE_PULSES and overload["between"] < _LEAST_BETWEEN:
+        if overload is None or may_be_full(str(unit), overload["between"]):
             continue
         time_s = (header["first_sample"] + overload["first"]) / header["sample_rate_hz"]
         lines.append(

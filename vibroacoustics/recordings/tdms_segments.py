@@ -107,9 +107,12 @@ def check_constant(
     """
     for sample, before, now in changes_of(pieces, name):
         if part[0] < sample < part[1]:
+            advice = "choose a part before or after it"
+            if name == INCREMENT:  # of which a part is known by one increment
+                advice = "save the parts before and after it as files"
             raise ParameterError(
                 f"channel {channel!r}: {name} changes from {before} to {now} at sample "
-                f"{sample + 1} ({sample / rate_hz:.9g} s): choose a part before or after it"
+                f"{sample + 1} ({sample / rate_hz:.9g} s): {advice}"
             )
     return [properties for sample, properties in pieces if sample <= part[0]][-1].get(name)
 

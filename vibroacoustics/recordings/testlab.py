@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 
 from ..base.errors import ParameterError, StorageError
-from .array_columns import Column, limits, samples_of_parts
+from .array_columns import Column, samples_of_parts, stored_limits
 from .axes import Axis, line_of
 from .named_arrays import NamedArray
 from .quantities import find_quantity, find_time_factor
@@ -97,20 +97,13 @@ def recorded_signals(structs: Sequence[Struct], request: Request) -> Recorded:
     columns = [signal.column for signal in signals]
     stored = samples_of_parts(columns, line.parts)
     units = [column.unit for column in columns]
-    return Recorded(
-        names=names,
-        units=units,
-        samples=line.on_grid(stored),
-        sample_rate_hz=line.rate_hz,
-        line=line.key,
-        first_sample=line.first,
-        total_samples=line.total,
-        limits=[
-            None if line.is_resampled(n) else limits(column, values)
-            for n, (column, values) in enumerate(zip(columns, stored, strict=True))
-        ],
+    return line.recorded(
+        names,
+        units,
+        stored,
+        remarks=[*omissions, *_remarks(names, signals)],
+        limits=stored_limits(columns, stored, line),
         calibration=[signal.factor for signal in signals],
-        remarks=[*omissions, *_remarks(names, signals), *line.remarks(units, stored)],
     )
 
 

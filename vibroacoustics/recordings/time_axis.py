@@ -70,19 +70,6 @@ def even_part(
     return first, last, float(rate_hz)
 
 
-def even_rate_hz(time_s: Samples, request: Request, origin_s: float | None = None) -> float:
-    """Sample rate of a time axis that is read in full; see `even_part`.
-
-    Parameters
-    ----------
-    time_s : shape (time,), s
-    request : its sample rate overrides that of the axis
-    origin_s : time of the recording's first sample, where that is not of the axis
-    """
-    every = Request(request.path, sample_rate_hz=request.sample_rate_hz)
-    return even_part(lambda first, last: time_s[first:last], len(time_s), every, origin_s)[2]
-
-
 def _between(
     times: Times, samples: int, start: float, end: float, request: Request
 ) -> tuple[int, int]:

@@ -4,15 +4,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from math import ceil, floor
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
 from .overload import overload
-from .recorded import MINIMUM_SAMPLES, Request, Samples, check_rate, listed
+from .recorded import MINIMUM_SAMPLES, Recorded, Request, Samples, check_rate, listed
+from .remarks import may_be_full
 from .resampling import HALF_LENGTH, band_limited, cubic, prediction_error, spline
+from .scaling import check_finite
 
 LEAST_SHIFT: Final = 1e-3
 """Sampling intervals that count as none: 0.1° at a quarter of the sample rate."""
@@ -124,6 +126,33 @@ class TimeLine:
             lines += self._interpolated(time, unit, part[0], samples)
         return lines
 
+    def recorded(
+        self, names: Sequence[str], units: Sequence[str], stored: Sequence[Samples],
+        origin: str = "", remarks: Sequence[str] = (), **further: Any,
+    ) -> Recorded:  # fmt: skip
+        """Recording of the part that is wanted.
+
+        Parameters
+        ----------
+        names, units : names of the channels, and their units in the file
+        stored : samples of the `parts`, shape (time,) each
+        origin : date of the origin of the channels, ISO 8601; empty where it is unknown
+        remarks : remarks on the file
+        further : fields of `Recorded`
+        """
+        return Recorded(
+            names=names,
+            units=units,
+            samples=self.on_grid(stored),
+            sample_rate_hz=self.rate_hz,
+            start_time=self.later(origin),
+            first_sample=self.first,
+            total_samples=self.total,
+            line=self.key,
+            remarks=[*remarks, *self.remarks(units, stored)],
+            **further,
+        )
+
     def later(self, start_time: str) -> str:
         """Start time of the line, ISO 8601, from that of the origin; what is no date stays."""
         try:
@@ -161,6 +190,7 @@ class TimeLine:
             return samples
         wanted = np.arange(self.first, self.last, dtype=float)
         values = samples.astype(float)
+        check_finite(time.name, values)
         if time.uneven_s is not None:
             return spline(time.uneven_s, values, self.start_s + wanted / self.rate_hz)
         position = self._position(time, wanted) - part[0]
@@ -188,7 +218,8 @@ class TimeLine:
         if self._is_even_copy(time):
             return []
         full = overload(samples)
-        lines = [] if full is None or _is_slow(time, self.rate_hz) else [
+        is_usual = full is None or may_be_full(unit, full.between)
+        lines = [] if full is None or is_usual or _is_slow(time, self.rate_hz) else [
             f"channel {time.name!r}: {full.samples} samples are at full scale before the "
             "interpolation: the recorder may have been overloaded"
         ]  # fmt: skip

@@ -65,7 +65,7 @@ def radiation_attributes(
 
 def recording_attributes(recording: Mapping[str, Any], settings: "OrderAnalysis") -> dict[str, Any]:
     """Global attributes of the orders of a recording: its file and the settings."""
-    parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders]}
+    parameters = asdict(settings) | {"orders": [float(order) for order in settings.orders or ()]}
     return {**of_recording(recording, "orders"), "analysis": canonical_json(parameters)}
 
 

@@ -195,7 +195,7 @@ class OrderAnalysis:
     Attributes
     ----------
     speed : where the speed comes from
-    orders : wanted, rising; default: of 1 to 4 those that the sample rate holds; empty: 1, 2 and
+    orders : wanted, rising; None: of 1 to 4 those that the sample rate holds; empty: 1, 2 and
         the loudest of each channel, at most six
     maximum_order : maximum order of spectra and map; default: 20, or the highest that the sample
         rate holds
@@ -221,8 +221,7 @@ class OrderAnalysis:
     """
 
     speed: SpeedSource
-    orders: tuple[float, ...] = DEFAULT_ORDERS
-    """Rising."""
+    orders: tuple[float, ...] | None = None
     maximum_order: float | None = None
     """Maximum order of spectra and map."""
     resolution_order: float | None = None
@@ -235,7 +234,7 @@ class OrderAnalysis:
     is_fit: bool = False
 
     def __post_init__(self) -> None:
-        if self.orders or self.is_fit:
+        if self.orders is not None and (self.orders or self.is_fit):
             _check_rising("orders", self.orders, *ORDERS)
         if self.maximum_order is not None:
             check_range("maximum_order", self.maximum_order, *ORDERS)
@@ -244,6 +243,21 @@ class OrderAnalysis:
         check_range("speed_step_rpm", self.speed_step_rpm, *SPEED_STEPS_RPM, "rpm")
         if self.bands not in BAND_METHODS:
             raise ParameterError(f"bands = {self.bands!r}: must be one of sums, filters")
+
+    @property
+    def maximum_or_default(self) -> float:
+        """Maximum order, 20 where none is stated."""
+        return self.maximum_order or DEFAULT_MAXIMUM_ORDER
+
+    @property
+    def resolution_or_default(self) -> float:
+        """Coarsest resolution, 0.25 orders where none is stated."""
+        return self.resolution_order or DEFAULT_RESOLUTION_ORDER
+
+
+def default_orders(highest: float) -> tuple[float, ...]:
+    """Orders of 1 to 4 up to the highest that a sample rate holds."""
+    return tuple(order for order in DEFAULT_ORDERS if order <= highest)
 
 
 def _check_comb(comb: tuple[float, ...], mains_hz: float | None) -> None:

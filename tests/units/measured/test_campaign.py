@@ -140,3 +140,28 @@ def test_warnings_name_the_file(files: list[Path], tmp_path: Path) -> None:
     with pytest.warns(va.RecordingWarning, match=r"a_9\.csv: .*last row"):
         mean = va.analyse_campaign([files[0], cut], CAMPAIGN.run_of)
     assert "last row" in mean.attrs["runs"]
+
+
+def low_rate(file: Path, rate_hz: float) -> Path:
+    tone = np.cos(2.0 * np.pi * 1000.0 / 60.0 * np.arange(int(20.0 * rate_hz)) / rate_hz)
+    noise = 1e-3 * np.random.default_rng(len(file.stem)).standard_normal(tone.size)
+    recording = va.label_recording([tone + noise], rate_hz, ["front"], ["m/s²"])
+    return va.export_recording(recording, file)
+
+
+def test_default_orders_are_those_that_the_rate_holds_in_other_processes(tmp_path: Path) -> None:
+    """At 100 Hz and 1000 rpm order 2 is the highest; the settings reach each process by a copy."""
+    campaign = va.Campaign(speed={"nominal_rpm": 1000.0})
+    files = [low_rate(tmp_path / f"{'a' * n}.nc", 100.0) for n in (1, 2)]
+    mean = va.analyse_campaign(files, campaign.run_of)
+    assert mean["order"].values.tolist() == [1.0, 2.0]
+
+
+def test_a_recording_of_lower_rate_takes_no_order_from_the_mean(tmp_path: Path) -> None:
+    campaign = va.Campaign(speed={"nominal_rpm": 1000.0})
+    files = [
+        low_rate(tmp_path / f"{'a' * n}.nc", rate) for n, rate in ((1, 400), (2, 400), (3, 100))
+    ]
+    with pytest.warns(LeftOutWarning, match="sample rate = 100 Hz: lacks the orders from 3, which"):
+        mean = va.analyse_campaign(files, campaign.run_of)
+    assert mean["order"].values.tolist() == [1.0, 2.0, 3.0, 4.0]

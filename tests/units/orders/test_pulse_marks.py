@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vibroacoustics as va
+from vibroacoustics.orders.angle_channel import is_sawtooth
 from vibroacoustics.orders.pulse_edges import pulse_times
 from vibroacoustics.orders.pulse_marks import joint_sizes, mark_angles
 from vibroacoustics.orders.tacho import tacho_motion
@@ -104,3 +105,16 @@ def test_an_inverted_index_has_the_phase_of_an_upright_one():
         settings = va.OrderAnalysis(va.SpeedChannel("e", 40, "i"), (1.0,))
         phases.append(np.angle(va.analyse_orders(recording, settings)["channel_order"].item()))
     assert phases == pytest.approx([0.0, 0.0], abs=np.radians(1.0))
+
+
+def test_a_missing_pulse_is_no_learnt_joint():
+    """A pulse that fails in one revolution must be named as before."""
+    times = pulse_times(taped(revolutions("run-up"), 1.6), RATE_HZ)
+    tracked = tacho_motion(np.delete(times, 30 * MARKS + 7), MARKS)
+    assert tracked.faults
+
+
+def test_a_tacho_below_zero_is_no_angle():
+    pulses = np.where((25.0 * TIME_S) % 1.0 < 0.1, -0.1, -5.0)
+    assert not is_sawtooth(pulses)
+    assert is_sawtooth(360.0 * ((25.0 * TIME_S) % 1.0))

@@ -341,7 +341,8 @@ def test_time_stamps_of_loggers(tmp_path, form, start):
     ("head", "factor"),
     [
         ("Time (sec)", 1.0), ("time [ns]", 1e9), ("time [min]", 1.0 / 60.0), ("t (msec)", 1e3),
-        ("Elapsed Time (seconds)", 1.0), ("Timestamp [us]", 1e6), ("time (h)", 1.0 / 3600.0),
+        ("duration [min]", 1.0 / 60.0), ("Elapsed Time (seconds)", 1.0), ("Timestamp [us]", 1e6),
+        ("time (h)", 1.0 / 3600.0),
     ],
 )  # fmt: skip
 def test_units_of_time_columns(tmp_path, head, factor):
@@ -349,6 +350,15 @@ def test_units_of_time_columns(tmp_path, head, factor):
     (tmp_path / "a.csv").write_text("\n".join([f"{head},mic [Pa]", *rows]) + "\n")
     read = read_recording(tmp_path / "a.csv")
     assert read.attrs["sample_rate_hz"] == pytest.approx(RATE_HZ, rel=1e-6)
+
+
+def test_a_column_named_time_comes_before_one_with_its_unit(tmp_path):
+    rows = [f"{t:.12g},{x:.6f},{0.2 + t / 3600.0:.9g}" for t, x in zip(TIME_S, SINE, strict=True)]
+    (tmp_path / "a.csv").write_text("\n".join(["time [s],mic [Pa],run time [h]", *rows]) + "\n")
+    with pytest.warns(RecordingWarning, match="channel 'run time' is omitted: its unit 'h'"):
+        read = read_recording(tmp_path / "a.csv")
+    assert read.attrs["sample_rate_hz"] == pytest.approx(RATE_HZ, rel=1e-6)
+    assert read["channel"].values.tolist() == ["mic"]
 
 
 def test_clocks_of_time_stamps():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from trade_files import RATE_HZ, SIGNALS, mf4
 
-from vibroacoustics.base.errors import StorageError
+from vibroacoustics.base.errors import ParameterError, StorageError
 from vibroacoustics.recordings import open_recording, read_recording
 
 pytest.importorskip("asammdf")
@@ -61,3 +61,15 @@ def test_texts_are_not_read_in_silence(tmp_path):
         file.save(tmp_path / "a.mf4")
     with pytest.warns(UserWarning, match="channel 'state' holds no numbers and is not read"):
         assert read_recording(tmp_path / "a.mf4")["channel"].values.tolist() == ["a"]
+
+
+def test_a_file_without_numbers_lists_its_channels(tmp_path):
+    from asammdf import MDF, Signal
+
+    with MDF() as file:
+        file.append(
+            [Signal(np.array([b"a", b"b"]), np.array([0.0, 1.0]), name="note", encoding="utf-8")]
+        )
+        file.save(tmp_path / "a.mf4")
+    with pytest.raises(ParameterError, match="no channel of numbers; its channels: 'note'"):
+        read_recording(tmp_path / "a.mf4")

@@ -33,7 +33,7 @@ from vibroacoustics.recordings.recorded import Request
 from vibroacoustics.recordings.remarks import RecordingWarning
 from vibroacoustics.recordings.riff import with_comment
 from vibroacoustics.recordings.stated_scale import scale_comment, stated_scales
-from vibroacoustics.recordings.time_axis import even_part, even_rate_hz
+from vibroacoustics.recordings.time_axis import even_part
 from vibroacoustics.results import storage
 
 MOTOR = ROOT / "data" / "recordings" / "electric_motor_vibration.uff"
@@ -138,6 +138,10 @@ def test_the_si_unit_of_each_unit_is_in_the_list_with_factor_one():
 
 
 # --- time axes -----------------------------------------------------------------------------------
+
+
+def even_rate_hz(time_s, request):
+    return even_part(lambda first, last: time_s[first:last], len(time_s), request)[2]
 
 
 def test_rate_is_that_of_the_end_points_and_not_rounded():

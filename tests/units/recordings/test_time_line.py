@@ -5,6 +5,7 @@ import offset_channels
 import pytest
 from offset_channels import FREQUENCY_HZ, RATE_HZ, SAMPLES, WRITERS, sine
 
+from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.recordings import open_recording, read_recording
 from vibroacoustics.recordings.blocks import hold_recording
 from vibroacoustics.recordings.resampling import HALF_LENGTH, band_limited, cubic, spline
@@ -103,10 +104,11 @@ def test_channels_of_lvm_have_their_own_interval(tmp_path):
 # --- slow channels -------------------------------------------------------------------------------
 
 
-def run_up(path, suffix):
+def run_up(path, suffix, fault=0.0):
     """A microphone at 51.2 kHz and a speed at 100 Hz: 8 times the shaft, amplitude 1."""
     time, slow = np.arange(4 * 51200) / 51200.0, np.arange(400) / 100.0
     speed_rpm = 900.0 + 525.0 * slow
+    speed_rpm[30] += fault
     angle = 2.0 * np.pi * (15.0 * time + 0.5 * 8.75 * time**2)
     sound = np.cos(8.0 * angle)
     if suffix == "mf4":
@@ -141,6 +143,15 @@ def test_the_order_of_a_run_up_with_a_slow_speed(tmp_path, suffix):
     orders = va.analyse_orders(recording, settings)
     peak = np.abs(orders["block_order"].sel(channel="mic", order=8.0).values)
     np.testing.assert_allclose(peak, 1.0, atol=0.01)
+
+
+@pytest.mark.parametrize("suffix", ["mf4", "tdms"])
+def test_what_is_no_number_in_a_slow_channel_is_named(tmp_path, suffix):
+    file = run_up(tmp_path, suffix, np.nan)
+    with pytest.raises(
+        ParameterError, match=r"'speed': 1 of .* not finite, the first is sample 31"
+    ):
+        read_recording(file)
 
 
 def test_a_cubic_is_exact_for_cubics():

@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import BinaryIO, Final
 
@@ -62,38 +62,27 @@ def read(request: Request) -> Recorded:
     head, rows = segments[0].head, segments[0].rows
     names = numbered(head.names)
     chosen = segments[0].channels
-    line = line_of([names[c] for c in chosen], _axes(segments, request), _every(request))
     values = np.concatenate([part.values for part in segments])
+    axes = _axes(segments, values, request)
+    line = line_of([names[c] for c in chosen], axes, request.every)
     stored = [
         values[: rows[n] if len(segments) == 1 else None, len(segments[0].times) + n][slice(*part)]
         for n, part in enumerate(line.parts)
     ]
     units = [head.units[c] for c in chosen]
     omissions = request.omissions(names, head.units)
-    return Recorded(
-        names=[names[c] for c in chosen],
-        units=units,
-        samples=line.on_grid(stored),
-        sample_rate_hz=line.rate_hz,
-        line=line.key,
-        start_time=line.later(head.start_time),
-        remarks=[*_remarks(segments, request), *omissions, *line.remarks(units, stored)],
-    )
+    remarks = [*_remarks(segments, request), *omissions]
+    every = line.recorded([names[c] for c in chosen], units, stored, head.start_time, remarks)
+    return replace(every, first_sample=None, total_samples=None)  # the part is cut later
 
 
-def _every(request: Request) -> Request:
-    """All of the recording, which is cut later."""
-    return Request(request.path, sample_rate_hz=request.sample_rate_hz, line=request.line)
-
-
-def _axes(segments: list[_Rows], request: Request) -> list[Axis]:
-    """Time axis of each channel.
+def _axes(segments: list[_Rows], values: Samples, request: Request) -> list[Axis]:
+    """Time axis of each channel, from the numbers of all segments, shape (row, column).
 
     The interval of the header counts where the times agree with it.
     """
     first = segments[0]
     head, chosen = first.head, first.channels
-    values = np.concatenate([part.values for part in segments])
     if not first.times:
         origin_s = min(head.starts_s)
         made: dict[tuple[float, float, int], Axis] = {}

@@ -58,17 +58,8 @@ def read(request: Request) -> Recorded:
         if file.identification.program_identification.startswith(b"amdf") and not request.is_block:
             remarks += _interleaved(names, stored)
     units = [channel.unit for channel in channels]
-    return Recorded(
-        names=names,
-        units=units,
-        samples=line.on_grid(stored),
-        sample_rate_hz=line.rate_hz,
-        line=line.key,
-        start_time="" if start is None else line.later(start.isoformat()),
-        first_sample=line.first,
-        total_samples=line.total,
-        remarks=[*remarks, *line.remarks(units, stored)],
-    )
+    date = "" if start is None else start.isoformat()
+    return line.recorded(names, units, stored, date, remarks)
 
 
 def _interleaved(names: Sequence[str], stored: Sequence[Samples]) -> list[str]:
@@ -94,9 +85,9 @@ def _channels_of(file: Any, request: Request) -> tuple[list[_Channel], list[str]
         return [_probed(file, channels[c])[0] for c in request.chosen(names)], []
     probed = [_probed(file, channel) for channel in channels]
     numbers = [channel for channel, is_number in probed if is_number]
-    names, units = [each.name for each in numbers], [each.unit for each in numbers]
     if not numbers:
         raise ParameterError(f"holds no channel of numbers; its channels: {listed(names)}")
+    names, units = [each.name for each in numbers], [each.unit for each in numbers]
     remarks = [
         f"channel {channel.name!r} "
         + (

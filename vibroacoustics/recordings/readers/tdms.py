@@ -39,8 +39,8 @@ def read(request: Request) -> Recorded:
         parts = line.planned(request).parts
         about = list(zip(names, channels, pieces, parts, strict=True))
         units = [
-            str(segments.check_constant(name, piece, segments.UNIT, part, line.rate_hz) or "")
-            for name, _, piece, part in about
+            str(segments.check_constant(name, piece, segments.UNIT, part, time.rate_hz) or "")
+            for (name, _, piece, part), time in zip(about, line.times, strict=True)
         ]
         stored = [
             segments.scaled(channel, file, piece, *part)
@@ -57,18 +57,8 @@ def read(request: Request) -> Recorded:
             else count_words(unit, values, channel.properties)
             for channel, unit, values in zip(channels, units, stored, strict=True)
         ]
-    return Recorded(
-        names=names,
-        units=units,
-        samples=line.on_grid(stored),
-        sample_rate_hz=line.rate_hz,
-        line=line.key,
-        start_time=line.later(origin),
-        first_sample=line.first,
-        total_samples=line.total,
-        counts=counts,
-        remarks=[*remarks, *dict.fromkeys(filter(None, gaps)), *line.remarks(units, stored)],
-    )
+    remarks += dict.fromkeys(filter(None, gaps))
+    return line.recorded(names, units, stored, origin, remarks, counts=counts)
 
 
 def _channels(file: Any, request: Request) -> tuple[list[str], list[Any], list[str]]:
@@ -112,8 +102,8 @@ def _axes(
     for name, channel, piece, factor, start in zip(
         names, channels, pieces, factors, starts, strict=True
     ):
-        segments.check_constant(name, piece, segments.INCREMENT, (0, len(channel)), 1.0)
-        rate_hz = request.sample_rate_hz or _rate_hz(file, name, channel, factor)
+        rate_hz = request.sample_rate_hz or _rate_hz(file, name, channel, piece[0][1], factor)
+        segments.check_constant(name, piece, segments.INCREMENT, (0, len(channel)), rate_hz)
         offset_s = factor * float(piece[0][1].get(segments.OFFSET, 0.0))
         axes.append(Axis(len(channel), rate_hz, offset_s if start is None else start))
     dated = next((p for p, s in zip(firsts, starts, strict=True) if s is not None), None)
@@ -137,9 +127,9 @@ def _time_factor(name: str, properties: Mapping[str, Any]) -> float:
     )
 
 
-def _rate_hz(file: Any, name: str, channel: Any, factor: float) -> float:
-    """Rate from the waveform's increment, or from a property of channel, group or file."""
-    increment = channel.properties.get("wf_increment")
+def _rate_hz(file: Any, name: str, channel: Any, first: Mapping[str, Any], factor: float) -> float:
+    """Rate from the first increment, or from a property of channel, group or file."""
+    increment = first.get("wf_increment")
     if increment is None:
         return _stated_rate_hz(file, name, channel)
     if not float(increment) > 0.0:

@@ -1,6 +1,7 @@
 """UFF dataset 58 (ASCII and binary), time responses."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import BinaryIO, Final
 
 import numpy as np
@@ -16,6 +17,8 @@ from ..uff58_values import values
 
 TIME_RESPONSE: Final = 1
 """Function type in record 6, field 1."""
+_KEPT: Final = 4
+"""Parts of an axis that are kept: its ends, and what is looked at and then read."""
 _INFINITE: Final = 1.797e308
 _TIMES: Final = (0, 1, 17)
 """Specific data types of an abscissa that may be a time: unknown, general, time."""
@@ -48,17 +51,7 @@ def read(request: Request) -> Recorded:
             _with_infinity(values(file, header, *part)[0])
             for header, part in zip(responses, line.parts, strict=True)
         ]
-    return Recorded(
-        names=names,
-        units=units,
-        samples=line.on_grid(stored),
-        sample_rate_hz=line.rate_hz,
-        line=line.key,
-        start_time=line.later(responses[0].start_time),
-        first_sample=line.first,
-        total_samples=line.total,
-        remarks=[*remarks, *line.remarks(units, stored)],
-    )
+    return line.recorded(names, units, stored, responses[0].start_time, remarks)
 
 
 def _with_infinity(samples: Samples) -> Samples:
@@ -109,6 +102,7 @@ def _axis(file: BinaryIO, name: str, header: Header) -> Axis:
         rate_hz = _rate_hz(factor * header.increment)
         return Axis(header.points, rate_hz, factor * header.minimum)
 
+    @lru_cache(_KEPT)
     def times(first: int, last: int) -> Samples:
         _, abscissas = values(file, header, first, last)
         assert abscissas is not None  # noqa: S101 - the abscissa is uneven
