@@ -60,9 +60,9 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     for name, channel in zip(microphones["channel"].values, microphones, strict=True):
         octaves = drift_octaves(channel.values, rate_hz)
         if octaves:
-            way = "rise" if octaves > 0.0 else "fall"
+            direction = "rise" if octaves > 0.0 else "fall"
             remarks.append(
-                f"channel {str(name)!r}: is no steady recording: its lines {way} by about "
+                f"channel {str(name)!r}: is no steady recording: its lines {direction} by about "
                 f"{abs(octaves):.1g} octaves; tones are means over time; "
                 "give a steady part, or use `orders`"
             )

@@ -1,10 +1,9 @@
 """Sound at the receivers by path: what makes it, where that acts, along or about which axis."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..base.arrays import Array, ComplexArray
-from .added import InsertionLoss
 
 
 class PathName(NamedTuple):
@@ -64,16 +63,3 @@ class Contributions:
     motions: tuple[str, ...]
     sources: tuple[str, ...]
     by_motion: ComplexArray
-
-    def behind(self, loss: InsertionLoss | None) -> "Contributions":
-        """Return the contributions behind an insertion loss."""
-        if loss is None:
-            return self
-        factors = [loss.power_factor(noise.frequency_hz) for noise in self.noise]
-        noise = [
-            replace(noise, alone=factor * noise.alone, part=factor * noise.part)
-            for noise, factor in zip(self.noise, factors, strict=True)
-        ]
-        factor = loss.amplitude_factor(self.frequency_hz)
-        pressure, by_motion = factor * self.pressure, factor * self.by_motion
-        return replace(self, pressure=pressure, noise=tuple(noise), by_motion=by_motion)

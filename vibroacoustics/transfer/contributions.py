@@ -246,13 +246,12 @@ class Transmission:
         return sound
 
     def contributions(self, cases: Cases) -> Iterator[tuple[CaseKey, Contributions]]:
-        """Compute the sound by path behind the option's insertion loss, one case at a time."""
+        """Compute the sound by path, without insertion loss, one case at a time."""
         shared = Shared()
         for key, case in cases.cases.items():
             path = self.path(shared, case.machine, cases.loads[key])
             lines = self.lines(key, cases)
-            split = contributions(path, self.microphones, lines, cases.loads[key])
-            yield key, split.behind(self.study.option_of(key).insertion_loss())
+            yield key, contributions(path, self.microphones, lines, cases.loads[key])
 
     def path(self, shared: Shared, machine: Machine, loads: Mapping[str, Loads]) -> LoadPath:
         """Return the path of a machine, shared by those that differ in no table its ports read."""
