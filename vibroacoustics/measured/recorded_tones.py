@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array
+from ..base.decibel import level_of_amplitude
 from ..base.errors import ParameterError
 from ..base.vocabulary import label_coordinates, stamped
 from ..results import provenance
@@ -28,6 +29,13 @@ FIELDS: Final = {
     "recorded_tone_swing": "swing_db",
 }
 """Variable and attribute of a tone."""
+_FAST_S: Final = 0.125
+"""Blocks of a level, s: the time constant F of IEC 61672-1."""
+_LEAST_BLOCKS: Final = 8
+_QUANTILES: Final = (0.05, 0.95)
+_VARIES_DB: Final = 4.0
+"""Range of the levels of a sound that varies. Assumed, 3 to 6 dB: of broadband noise the blocks are
+within 2 dB. Loudness of the 25 such sounds of ISO 532-1 is 4 to 41 % below their N5."""
 
 
 def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
@@ -48,7 +56,7 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     Warns
     -----
     UserWarning
-        A channel is too loud for a loudness.
+        A channel is too loud for a loudness, or its level varies.
     """
     signal = recording["signal"]
     microphones = signal.isel(channel=signal["channel_unit"].values == "Pa")
@@ -66,6 +74,7 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
                 f"{abs(octaves):.1g} octaves; tones are means over time; "
                 "give a steady part, or use `orders`"
             )
+        remarks += _variation(str(name), channel.values, rate_hz)
         bands = narrow_bands(channel.values, rate_hz)
         judged = tones(recorded_spectrum(bands))
         listed.append([tone for tone in judged if tone.noise_ratio_db > 0.0])
@@ -99,6 +108,23 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         older = [recording.attrs[key] for key in ("reading_remarks",) if key in recording.attrs]
         results.attrs["reading_remarks"] = "; ".join([*older, *remarks])
     return label_coordinates(results)
+
+
+def _variation(name: str, pressure_pa: Array, rate_hz: float) -> list[str]:
+    """A line on a channel whose level varies: ISO 532-1 has another method for such sound."""
+    samples = round(_FAST_S * rate_hz)
+    blocks = pressure_pa[: pressure_pa.size // samples * samples].reshape(-1, samples)
+    if len(blocks) < _LEAST_BLOCKS or not blocks.any():
+        return []
+    rms = np.sqrt(np.mean(blocks**2, axis=1))
+    lowest, highest = np.quantile(level_of_amplitude(rms), _QUANTILES)
+    if highest - lowest < _VARIES_DB:
+        return []
+    return [
+        f"channel {name!r}: its level varies by {highest - lowest:.0f} dB (L5 - L95 of "
+        f"{1e3 * _FAST_S:.0f} ms): loudness and sharpness are those of steady sound (ISO 532-1), "
+        "N5 may be 1.7 times as high: analyse a steady part"
+    ]
 
 
 def _audibility(means: Sequence[MeanAudibility]) -> dict[str, Array]:

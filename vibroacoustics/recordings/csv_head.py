@@ -5,6 +5,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Final
 
 from ..base.csv_form import (
@@ -26,7 +27,13 @@ from .time_stamps import is_stamp
 _DECIMAL: Final = re.compile(r"(decimal[ _-]?(?:separator|sign|symbol|mark))", re.IGNORECASE)
 _DECIMAL_WORD: Final = re.compile(r"\b(?:comma|point|dot|period)\b", re.IGNORECASE)
 _DECIMALS: Final = {"comma": ",", "point": ".", "dot": ".", "period": "."}
+BLANK: Final = " "
+"""Separator of columns between which there are blanks."""
+COMMENTS: Final = (COMMENT, "%")
+_BLANK_CELL: Final = re.compile(r"[^\s\[(]\S*(?:\s*(?:\[[^\]]*\]|\([^)]*\)))?|\[[^\]]*\]|\([^)]*\)")
 MISSING_TIME: Final = "has no column 'time [s]': add one or give sample_rate_hz"
+_EVEN: Final = 1.5
+"""Largest step of a column of times without a name, over the smallest."""
 _TIME_NAMES: Final = {"time", "t", "zeit", "timestamp", "timestamps", "elapsed time", "x_value"}
 
 
@@ -42,6 +49,7 @@ class Head:
     stamps : column of time stamps; None without one
     sample : first rows of numbers
     decimal : decimal sign that a line above states; None without one
+    is_headless : whether there are no names
     """
 
     names: Sequence[str]
@@ -51,6 +59,13 @@ class Head:
     stamps: int | None
     sample: Sequence[Sequence[str]]
     decimal: str | None = None
+    is_headless: bool = False
+
+    @cached_property
+    def is_count(self) -> bool:
+        """Whether the first column counts the rows."""
+        first = [row[0] for row in self.sample]
+        return all(cell.isdigit() for cell in first) and _steps(first) == {1.0}
 
     @cached_property
     def form(self) -> NumberForm:
@@ -90,8 +105,13 @@ class Head:
         return [c if n == self.stamps else self.form.python(c) for n, c in enumerate(cells)]
 
 
-def read_head(lines: Sequence[str]) -> Head:
+def read_head(lines: Sequence[str], is_text: bool = False) -> Head:
     """Find names, units and separator above the numbers of a table.
+
+    Parameters
+    ----------
+    lines : first lines of the file
+    is_text : whether blanks may separate the columns, and names may be missing
 
     Raises
     ------
@@ -101,16 +121,23 @@ def read_head(lines: Sequence[str]) -> Head:
         There is no row of numbers.
     """
     stated = STATED.fullmatch(lines[0].strip("\ufeff \r\n")) if lines else None
-    for separator in (stated[1],) if stated else SEPARATORS:
+    separators = (*SEPARATORS[:-1], BLANK, SEPARATORS[-1]) if is_text else SEPARATORS
+    for separator in (stated[1],) if stated else separators:
         rows = [_row(line, separator) for line in lines]
         for number, fields in enumerate(rows):
             if (len(fields) > 1 or separator == ",") and _are_numbers(fields):
-                names, units = _parse_names(rows[:number], len(fields))
+                above = _with_date(rows[:number], lines[number], separator, len(fields))
+                is_headless = is_text and not _named(above, len(fields))
+                if is_headless:
+                    columns = range(1, len(fields) + 1)
+                    names, units = [f"column {c}" for c in columns], [""] * len(fields)
+                else:
+                    names, units = _parse_names(above, len(fields))
                 stamps = [column for column, field in enumerate(fields) if is_stamp(field)]
                 sample = [row for row in rows[number:] if _are_numbers(row)]
                 first = stamps[0] if stamps else None
                 decimal = _stated_decimal(lines[:number])
-                return Head(names, units, separator, number, first, sample, decimal)
+                return Head(names, units, separator, number, first, sample, decimal, is_headless)
     words = f" of cells between {stated[1]!r}, as it states" if stated else ""
     raise StorageError(f"has no row of numbers{words} in its first {len(lines)} lines")
 
@@ -140,10 +167,54 @@ def _row(line: str, separator: str) -> list[str]:
 
 
 def _cells(line: str, separator: str) -> list[str]:
+    """Cells of a line; a date and the clock beside it are one."""
+    return _with_stamps(_plain_cells(line, separator))
+
+
+def _plain_cells(line: str, separator: str) -> list[str]:
+    if separator == BLANK:
+        marks = "".join(COMMENTS) if line[:1] in COMMENTS else ""
+        cells = _BLANK_CELL.findall(line.lstrip(f"{marks} "))
+        return [line[0] + cells[0], *cells[1:]] if marks and cells else cells
     try:
         return cells_of(line, separator, strict=False)
     except csv.Error as error:
         raise ValueError(f"cannot be split: {error}") from None
+
+
+def _with_stamps(cells: list[str]) -> list[str]:
+    for index, (first, second) in enumerate(pairwise(cells)):
+        if (":" in first) == (":" in second) or not is_stamp(first if ":" in first else second):
+            continue
+        stamp = f"{second} {first}" if ":" in first else f"{first} {second}"
+        if is_stamp(stamp):
+            return [*cells[:index], stamp, *cells[index + 2 :]]
+    return cells
+
+
+def _with_date(above: list[list[str]], line: str, separator: str, columns: int) -> list[list[str]]:
+    """Rows above, with one name for the date and the clock of a row of numbers."""
+    cells = _plain_cells(line, separator)
+    if _with_stamps(cells) == cells:
+        return above
+    first = next(n for n, c in enumerate(_with_stamps(cells)) if c != cells[n])
+    return [
+        [*row[:first], " ".join(row[first : first + 2]).strip(), *row[first + 2 :]]
+        if len(row) == columns + 1
+        else row
+        for row in above
+    ]
+
+
+def _steps(cells: Sequence[str]) -> set[float]:
+    return {float(b) - float(a) for a, b in pairwise(cells)}
+
+
+def _named(above: list[list[str]], columns: int) -> bool:
+    """Whether a row above has names: any that is no comment, or a comment of as many cells."""
+    is_comment = [row[0].startswith(COMMENTS) for row in above if row]
+    last = next((row for row in reversed(above) if row), [])
+    return not all(is_comment) or len(last) == columns
 
 
 def _are_numbers(fields: Sequence[str]) -> bool:
@@ -162,10 +233,10 @@ def _is_number(field: str) -> bool:
 
 def _parse_names(rows: list[list[str]], columns: int) -> tuple[list[str], list[str]]:
     """Names and units from the last rows above the numbers; a row of units may stand below."""
-    remarks = [row for row in rows if row and row[0].startswith(COMMENT)]
+    remarks = [row for row in rows if row and row[0].startswith(COMMENTS)]
     above = [row for row in rows if row and row not in remarks]
     if remarks and (not above or len(above[-1]) < columns == len(remarks[-1])):
-        above = [[remarks[-1][0].lstrip(f"{COMMENT} "), *remarks[-1][1:]]]
+        above = [[remarks[-1][0].lstrip(f"{''.join(COMMENTS)} "), *remarks[-1][1:]]]
     if not above:
         raise ParameterError("has no header row: write 'time [s]' and 'name [unit]' above")
     units = None
@@ -202,4 +273,12 @@ def time_column(head: Head) -> int | None:
         raise ParameterError(
             f"columns {[head.names[column] for column in time_columns]} are all times"
         )
-    return time_columns[0] if time_columns else head.stamps
+    if time_columns or head.stamps is not None:
+        return time_columns[0] if time_columns else head.stamps
+    return 0 if head.is_headless and len(head.names) > 1 and _grows(head) else None
+
+
+def _grows(head: Head) -> bool:
+    """Whether the first column of a table without names grows by nearly equal steps."""
+    steps = _steps([head.form.python(row[0]) for row in head.sample])
+    return bool(steps) and min(steps) > 0.0 and max(steps) < _EVEN * min(steps)

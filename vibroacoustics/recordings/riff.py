@@ -126,6 +126,14 @@ def _wave(block: bytes, order: ByteOrder, start: int, size: int, comment: str) -
     if channels == 0 or frame_bytes < channels:
         raise StorageError(f"claims {channels} channels in {frame_bytes} bytes a sample")
     width = frame_bytes // channels
+    (bits,) = struct.unpack(f"{order}H", block[14:16])
+    needed = -(-bits // 8)
+    is_padded = (needed, width) == (3, 4)  # 24 bits in words of 32
+    if bits and (width * channels != frame_bytes or (width != needed and not is_padded)):
+        raise StorageError(
+            f"claims {channels} channels of {bits} bits in {frame_bytes} bytes a sample: "
+            f"must be {channels * needed}"
+        )
     return Wave(order, kind, channels, float(rate), width, start, size // frame_bytes, comment)
 
 

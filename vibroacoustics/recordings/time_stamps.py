@@ -23,6 +23,7 @@ _MONTHS: Final = (
     "jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec",
 )  # fmt: skip
 _MONTHS_A_YEAR: Final = 12
+DAY_NS: Final = 86_400 * 10**9
 
 
 class Stamp(NamedTuple):

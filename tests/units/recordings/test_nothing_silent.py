@@ -10,7 +10,7 @@ import pytest
 import scipy.io
 from scipy.io import wavfile
 
-from vibroacoustics.base.errors import ParameterError
+from vibroacoustics.base.errors import ParameterError, StorageError
 from vibroacoustics.recordings import read_recording
 from vibroacoustics.recordings.overload import overload
 from vibroacoustics.recordings.remarks import RecordingWarning
@@ -278,3 +278,14 @@ def test_a_gap_in_the_times(tmp_path, given):
     behind = read_recording(tmp_path / "a.mat", units={"mic": "Pa"}, from_s=1.2, **given)
     np.testing.assert_array_equal(before["signal"].values[0], TONE[:700])
     np.testing.assert_array_equal(behind["signal"].values[0], TONE[700:])
+
+
+@pytest.mark.parametrize(("place", "value", "words"), [(12, 2, "must be 4"), (14, 32, "must be 8")])
+def test_a_wav_whose_block_contradicts_its_channels_is_refused(tmp_path, place, value, words):
+    """Bytes of a sample, or bits, beside two channels of 16 bits in 4 bytes."""
+    wavfile.write(tmp_path / "a.wav", 1000, np.zeros((100, 2), "int16"))
+    content = bytearray((tmp_path / "a.wav").read_bytes())
+    content[content.index(b"fmt ") + 8 + place] = value
+    (tmp_path / "a.wav").write_bytes(content)
+    with pytest.raises(StorageError, match=words):
+        read_recording(tmp_path / "a.wav", units={"*": "Pa"}, calibration={"*": 1.0})

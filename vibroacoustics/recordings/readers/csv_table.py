@@ -11,12 +11,12 @@ import numpy as np
 from ...base.errors import ParameterError, StorageError
 from ...base.registry import register
 from ..axes import line_of_times
-from ..csv_head import MISSING_TIME, Head, read_head, time_column
+from ..csv_head import BLANK, MISSING_TIME, Head, read_head, time_column
 from ..quantities import time_factor
 from ..reader import Reader
 from ..recorded import MissingError, Recorded, Request, Samples, check_rate, check_size
 from ..text_lines import MAXIMUM_LINE_BYTES, last_lines, lines, may_be_cut, opened, reached, text
-from ..time_stamps import stamp_ns, stamp_text
+from ..time_stamps import DAY_NS, stamp_ns, stamp_text
 
 MAXIMUM_HEAD_LINES: Final = 200
 
@@ -34,9 +34,13 @@ class _Table:
 def read(request: Request) -> Recorded:
     """Columns of a table; its time column gives the sample rate."""
     with opened(request.path) as file:
-        head = read_head([text(line) for line in islice(lines(file), MAXIMUM_HEAD_LINES)])
+        head = read_head([text(line) for line in islice(lines(file), MAXIMUM_HEAD_LINES)], True)
         table, remarks = _complete(_Table(file, head, *_rows(file, head)))
         time = time_column(head)
+        if time is not None and time != head.stamps and not head.units[time]:
+            if head.is_headless and head.is_count and request.sample_rate_hz is None:
+                raise MissingError("its first column counts the rows: give sample_rate_hz")
+            remarks.append(f"{head.names[time]!r} states no unit and is taken as the time in s")
         names = [n for c, n in enumerate(head.names) if c not in (time, head.stamps)]
         columns = [c for c in range(len(head.names)) if c not in (time, head.stamps)]
         units = [head.units[column] for column in columns]
@@ -118,7 +122,11 @@ def _with_time(table: _Table, time: int, columns: Sequence[int], request: Reques
         wanted = _between(table, lambda line: seconds(_field(line, table, time)), start, request)
     is_stamped = time == table.head.stamps
     values = _numbers(wanted, [time, *columns], {time: seconds} if is_stamped else {}, None)
-    times = values[:, 0] * (1.0 if is_stamped else time_factor(table.head.units[time]))
+    times: Samples = values[:, 0] * (
+        1.0 if is_stamped else time_factor(table.head.units[time] or "s")
+    )
+    if is_stamped and stamp_ns(_field(_first_line(table), table, time)) < DAY_NS:
+        times = np.unwrap(times, period=1e-9 * DAY_NS)  # a clock alone begins again at midnight
     names = [table.head.names[column] for column in columns]
     line = line_of_times(names, times, request, start)
     first = round((times[0] - start) * line.rate_hz)
@@ -158,7 +166,7 @@ def _without_time(table: _Table, columns: Sequence[int], request: Request) -> _P
 def _clock(table: _Table, time: int) -> Callable[[str], float]:
     """Seconds of a field of the time column; of time stamps since the first."""
     if time != table.head.stamps:
-        factor = time_factor(table.head.units[time])
+        factor = time_factor(table.head.units[time] or "s")
         return lambda field: float(field) * factor
     origin = stamp_ns(_field(_first_line(table), table, time))
     return lambda field: 1e-9 * (stamp_ns(field) - origin)
@@ -174,7 +182,7 @@ def _numbers(
     chosen = _row_texts(table) if rows is None else islice(_row_texts(table), *rows)
     try:
         values: Samples = np.loadtxt(
-            chosen, delimiter=table.head.separator, comments=None, ndmin=2, usecols=list(columns),
+            chosen, delimiter=_joint(table.head), comments=None, ndmin=2, usecols=list(columns),
             converters=dict(converters) or None,
         )  # fmt: skip
     except ValueError as error:
@@ -182,6 +190,11 @@ def _numbers(
         raise StorageError(f"below its {table.head.lines} header lines: {reason}") from None
     check_size(len(columns), len(values))
     return values
+
+
+def _joint(head: Head) -> str:
+    """Separator of the cells that are read; a date and its clock have a blank between them."""
+    return "\t" if head.separator == BLANK and not head.is_plain else head.separator
 
 
 def _row_texts(table: _Table) -> Iterator[str]:
@@ -195,6 +208,8 @@ def _row_texts(table: _Table) -> Iterator[str]:
         position += len(line)
         row += 1
         plain = line.decode("latin-1")
+        if separator == BLANK and table.head.is_plain:
+            plain = BLANK.join(plain.split())
         if not plain.strip():
             continue
         is_plain = table.head.is_plain and plain.count(separator) == separators
@@ -202,7 +217,7 @@ def _row_texts(table: _Table) -> Iterator[str]:
             cells = table.head.cells(text(line))
             if len(cells) != separators + 1:
                 raise ValueError(f"row {row} has {len(cells)} columns, not {separators + 1}")
-            plain = separator.join(cells)
+            plain = _joint(table.head).join(cells)
         elif decimal == ",":
             plain = plain.replace(",", ".")
         yield plain
