@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from ..study.toml_files import read_toml
 from .blocked_settings import load_blocked_forces
-from .faults import FAULTS
+from .fault import FAULTS
 from .files import naming_settings
 from .in_situ import read_in_situ
 from .library import Library

@@ -11,7 +11,8 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.errors import ParameterError, VibroacousticsError
 from ..recordings import MeasuredFunction, Node
-from .faults import Fault, function_faults, operating_faults, point_measures, refuse
+from .fault import Fault, refuse
+from .faults import function_faults, operating_faults, point_measures
 from .grouped import Key, by_key, read_each, unsigned
 from .scatter import error_of_coherence, error_of_repeats
 from .settings import Measured
