@@ -52,12 +52,13 @@ CASES: Final = {
     "balance": ("balancing.toml",),
     "permit": ("permit.toml",),
     "blocked-forces": ("in_situ/in_situ.toml",),
+    "check-functions": ("bench.toml",),
     "cache": (),
     "doctor": (),
     "schema": (),
 }  # fmt: skip
 """Arguments of each command; a name with an ending is a file of `write_inputs`."""
-PRINTS_ONLY: Final = {"check", "cache", "doctor"}
+PRINTS_ONLY: Final = {"check", "check-functions", "cache", "doctor"}
 """Commands that write no file; all others have `--out`."""
 FILE_OUT: Final = {"export": "copy.csv"}
 """Names of the files of the commands whose `--out` is a file."""

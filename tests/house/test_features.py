@@ -101,6 +101,7 @@ FEATURES = {
     "an option played in a recording, in Python": "va.replay",
     "change of mounts from measurements": "command predict",
     "change of mounts from measurements, in Python": "va.predict",
+    "faults of hammer tests": "command check-functions",
     "blocked forces": "command blocked-forces",
     "blocked forces, in Python": "va.blocked_forces",
     "blocked forces, for arrays": "va.inverted_forces",

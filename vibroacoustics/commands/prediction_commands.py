@@ -7,12 +7,17 @@ from .command import command
 from .options import FileOut, Printing
 from .outcome import Outcome
 
+Despite = Annotated[
+    list[str] | None, "Fault of the measurements that is accepted; no bands are stated then."
+]
+
 
 @command("predict", "Measurements", "softer_mounts.toml")
 def predict_command(
     file: Annotated[Path, "FILE: File, .toml, of measurements, mounts and changes."],
     out: FileOut = None,
     *,
+    despite: Despite = None,
     printing: Printing,
 ) -> Outcome:
     """Predict a change of mounts, masses or absorbers from measurements alone, with a band."""
@@ -20,7 +25,7 @@ def predict_command(
     from ..measured.prediction import predict
 
     target = printing.target(out or Path("reports") / file.stem)
-    predicted = predict(file)
+    predicted = predict(file, despite or ())
     return target.outcome(report.analysis_of_prediction(predicted), predicted, "prediction.nc")
 
 
@@ -29,6 +34,7 @@ def blocked_forces_command(
     file: Annotated[Path, "FILE: File, .toml, of measurements and interface."],
     out: FileOut = None,
     *,
+    despite: Despite = None,
     printing: Printing,
 ) -> Outcome:
     """Find the blocked forces of an installed source (ISO 20270), with on-board validation."""
@@ -38,9 +44,28 @@ def blocked_forces_command(
     from . import outputs
 
     target = printing.target(out or Path("reports") / file.stem)
-    blocked = blocked_forces(file)
+    blocked = blocked_forces(file, despite or ())
     with outputs.naming(file):
         orders = blocked_orders_csv(blocked)
     further = {} if orders is None else {"orders.csv": orders}
     analysis = report.analysis_of_blocked_forces(blocked, further)
     return target.outcome(analysis, blocked, "blocked_forces.nc")
+
+
+@command("check-functions", "Measurements", "softer_mounts.toml")
+def check_functions_command(
+    file: Annotated[Path, "FILE: File, .toml, of `predict` or `blocked-forces`."],
+) -> Outcome:
+    """Test measured functions against physics; each fault names its point and what to do."""
+    from ..measured.function_check import check_functions
+    from .outcome import columns
+
+    checked = check_functions(file)
+    words = [
+        f"{row['point']}: passivity {row['passivity']:.2f}, causality {row['causality']:.2f}, "
+        f"reciprocity residual {row['reciprocity_residual']:.3f}"
+        for row in checked.rows
+    ]
+    verdict = "no fault was found" if not checked.faults else f"faults: {len(checked.faults)}"
+    text = "\n".join([*words, f"{file}: {verdict}"])
+    return Outcome(text, tables={"points": columns(checked.rows)}, broken=checked.faults)

@@ -26,6 +26,7 @@ class Bench:
     response : response of each point, shape (point,)
     pressure : pressure of each microphone, shape (receiver,)
     sign : sign of each point's direction, shape (point,)
+    faults : a line for each fault that was accepted
     """
 
     frequency_hz: Array
@@ -36,11 +37,28 @@ class Bench:
     response: IndexArray
     pressure: IndexArray
     sign: Array
+    faults: tuple[str, ...] = ()
 
 
-def assemble(settings: Measured, names: Sequence[str], folder: Path) -> Bench:
-    """The functions that a change at some points needs."""
-    library = Library(settings, folder)
+def assemble(
+    settings: Measured,
+    names: Sequence[str],
+    folder: Path,
+    interfaces: Sequence[Sequence[str]] = (),
+    despite: Sequence[str] = (),
+) -> Bench:
+    """The functions that a change at some points needs.
+
+    Parameters
+    ----------
+    settings : files and nodes
+    names : points of the change
+    folder : folder of the files
+    interfaces : points at either end of the mounts; the source is beyond one of them
+    despite : names of faults that are accepted
+
+    """
+    library = Library(settings, folder, despite)
     points = [node_of(settings.points[name]) for name in names]
     nodes = [unsigned(point) for point in points]
     microphones = [node_of(microphone) for microphone in settings.microphones.values()]
@@ -51,6 +69,8 @@ def assemble(settings: Measured, names: Sequence[str], folder: Path) -> Bench:
     response = [library.operating(node, "m") for node in nodes]
     pressure = [library.operating(node, "Pa") for node in microphones]
     values, errors = library.estimates
+    sides = [[names.index(name) for name in side] for side in interfaces]
+    library.compare_operating(np.array(compliance), np.array(response), nodes, sides)
     return Bench(
         frequency_hz=library.frequency_hz,
         values=values,
@@ -60,6 +80,7 @@ def assemble(settings: Measured, names: Sequence[str], folder: Path) -> Bench:
         response=np.array(response),
         pressure=np.array(pressure),
         sign=signs(points),
+        faults=tuple(library.remarks),
     )
 
 

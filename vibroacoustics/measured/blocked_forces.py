@@ -1,5 +1,6 @@
 """Blocked forces of a source where it stands, with on-board validation, as labelled arrays."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from ..base.vocabulary import check, label_coordinates
 from .band import TRIED, chosen_truncation
 from .blocked_settings import BlockedForces, load_blocked_forces
 from .blocked_variables import force_variables, inversion_variables, validation_variables
-from .files import attributes, naming_settings
+from .files import attributes, naming_settings, without_bands
 from .in_situ import InSitu, Measurement, read_in_situ, unit_of, wrench_per_force
 from .inversion import condition_number, inverted_forces, left_out_responses
 from .scatter import measured_again
@@ -35,12 +36,13 @@ class Inverted:
     measured: ComplexArray
 
 
-def blocked_forces(path: str | Path) -> xr.Dataset:
+def blocked_forces(path: str | Path, despite: Sequence[str] = ()) -> xr.Dataset:
     """Blocked forces of a source from operating responses and frequency responses (ISO 20270).
 
     Parameters
     ----------
     path : TOML file with the tables `measured` and `blocked_forces`; docs/blocked_forces.md
+    despite : names of faults of the measurements that are accepted; no bands are stated then
 
     Returns
     -------
@@ -55,7 +57,8 @@ def blocked_forces(path: str | Path) -> xr.Dataset:
     ------
     ParameterError
         Anything in the file or in the files that it names is missing, unknown, or outside its
-        range; there are fewer responses than forces.
+        range; there are fewer responses than forces; or the measurements have a fault that is not
+        accepted.
     StorageError
         A file cannot be read.
 
@@ -68,7 +71,7 @@ def blocked_forces(path: str | Path) -> xr.Dataset:
     path = Path(path)
     settings = load_blocked_forces(path)
     with naming_settings(path):
-        bench = read_in_situ(settings, path.parent)
+        bench = read_in_situ(settings, path.parent, despite)
         _check_determined(bench)
     return _labelled(settings, bench, path)
 
@@ -127,4 +130,5 @@ def _labelled(settings: BlockedForces, bench: InSitu, path: Path) -> xr.Dataset:
     about = attributes("blocked-forces", path, settings.title, settings, settings.measured)
     if interface.speed_rpm is not None:
         about["speed_rpm"] = interface.speed_rpm
-    return check(label_coordinates(xr.Dataset(variables, attrs=about)))
+    dataset = without_bands(xr.Dataset(variables, attrs=about), bench.faults)
+    return check(label_coordinates(dataset))

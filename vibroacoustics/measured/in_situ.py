@@ -46,6 +46,7 @@ class InSitu:
     forces, responses, validations : signs of directions, shapes (force,), (response,) and
         (validation,)
     sets : sets of forces that are solved for, shape (force, set)
+    faults : a line for each fault that was accepted
     """
 
     frequency_hz: Array
@@ -59,6 +60,7 @@ class InSitu:
     responses: Array
     validations: Array
     sets: Array
+    faults: tuple[str, ...] = ()
 
     def measurement(self, values: ComplexArray) -> Measurement:
         """The matrices of functions with some values, shape (function, frequency)."""
@@ -72,10 +74,18 @@ class InSitu:
         )
 
 
-def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
-    """The functions that blocked forces and their validation need."""
+def read_in_situ(settings: BlockedForces, folder: Path, despite: Sequence[str] = ()) -> InSitu:
+    """The functions that blocked forces and their validation need.
+
+    Parameters
+    ----------
+    settings : files, nodes and interface
+    folder : folder of the files
+    despite : names of faults that are accepted
+
+    """
     interface, measured = settings.blocked_forces, settings.measured
-    library = Library(measured, folder)
+    library = Library(measured, folder, despite)
     nodes = measured.points | measured.microphones
     forces, responses, validations = (
         [node_of(nodes[name]) for name in names]
@@ -94,6 +104,9 @@ def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
     compliance, operating = numbers(responses, ["m"] * len(responses))
     transfer, validation = numbers(validations, units)
     values, errors = library.estimates
+    every_force = list(range(len(forces)))
+    nodes_of_responses = [unsigned(node) for node in responses]
+    library.compare_operating(compliance, operating, nodes_of_responses, [every_force])
     sets = np.eye(len(forces))
     if interface.rigid_source:
         sets = rigid_forces(wrench_per_force(settings))
@@ -109,6 +122,7 @@ def read_in_situ(settings: BlockedForces, folder: Path) -> InSitu:
         responses=signs(responses),
         validations=signs(validations),
         sets=sets,
+        faults=tuple(library.remarks),
     )
 
 

@@ -8,9 +8,11 @@ from typing import Final
 
 import numpy as np
 
-from ..base.arrays import Array, ComplexArray
+from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.errors import ParameterError, VibroacousticsError
 from ..recordings import MeasuredFunction, Node
+from .fault import Fault, refuse
+from .faults import function_faults, operating_faults, point_measures
 from .grouped import Key, by_key, read_each, unsigned
 from .scatter import error_of_coherence, error_of_repeats
 from .settings import Measured
@@ -25,14 +27,16 @@ Estimate = tuple[ComplexArray, Array]
 class Library:
     """Measured functions by kind and unsigned nodes, with their errors at the operating lines."""
 
-    def __init__(self, settings: Measured, folder: Path) -> None:
-        self._settings = settings
+    def __init__(self, settings: Measured, folder: Path, despite: Sequence[str] = ()) -> None:
+        self._settings, self._despite = settings, despite
         names = (*settings.frequency_responses, *settings.operating)
         files = read_each(names, settings.units, folder)
         count = len(settings.frequency_responses)
         self._responses = by_key(list(chain.from_iterable(files[:count])))
         self._operating = by_key(list(chain.from_iterable(files[count:])))
         self.frequency_hz = self._lines()
+        self.faults: list[Fault] = []
+        self._accept(self._faults_of_responses())
         self._estimates: list[Estimate] = []
         self._numbers: dict[tuple[str, str], int] = {}
 
@@ -41,6 +45,72 @@ class Library:
         """Values and errors of all functions that were asked for."""
         values, errors = zip(*self._estimates, strict=True)
         return np.array(values), np.array(errors)
+
+    @property
+    def _names(self) -> dict[Node, str]:
+        """Names of points and microphones by unsigned node."""
+        settings = self._settings
+        return {
+            unsigned(Node(point.node, point.direction)): name
+            for name, point in (*settings.points.items(), *settings.microphones.items())
+        }
+
+    @property
+    def _named_responses(self) -> dict[Key, list[MeasuredFunction]]:
+        """Frequency responses between the named nodes."""
+        names = self._names
+        return {key: each for key, each in self._responses.items() if {*key[1:]} <= {*names}}
+
+    def point_measures(self) -> list[dict[str, str | float]]:
+        """Return passivity, causality and reciprocity of each point that was hit."""
+        return point_measures(self._named_responses, self._names)
+
+    def _faults_of_responses(self) -> list[Fault]:
+        """Faults of the frequency responses between the named nodes."""
+        settings, names, named = self._settings, self._names, self._named_responses
+        noise_ratio, free = settings.relative_error_ratio or 0.0, settings.free_machine
+        if free is None:
+            return function_faults(named, noise_ratio)
+        nodes = [node for node, name in names.items() if name in free.points]
+        line = (nodes, free.lowest_frequency_hz, free.highest_frequency_hz)
+        return function_faults(named, noise_ratio, free.mass_kg, line)
+
+    def _accept(self, faults: Sequence[Fault]) -> None:
+        refuse(faults, self._despite, self._names)
+        self.faults += faults
+
+    @property
+    def remarks(self) -> list[str]:
+        """A line for each fault that was accepted."""
+        return [fault.line(self._names) for fault in self.faults]
+
+    def compare_operating(
+        self,
+        compliance: IndexArray,
+        operating: IndexArray,
+        nodes: Sequence[Node],
+        sides: Sequence[Sequence[int]],
+    ) -> None:
+        """Compare phases of operating responses with the hammer test.
+
+        Parameters
+        ----------
+        compliance : numbers of functions, shape (response, force)
+        operating : numbers of operating responses, shape (response,)
+        nodes : nodes of the responses
+        sides : columns of forces at the interface; several where the source may be beyond any
+
+        Raises
+        ------
+        ParameterError
+            They contradict each other, and this fault is not accepted.
+        """
+        if self.faults:
+            return
+        values = self.estimates[0].T
+        matrices = [values[:, compliance[:, side]] for side in sides]
+        faults = operating_faults(matrices, values[:, operating], nodes)
+        self._accept(faults)
 
     def response(self, response: Node, reference: Node, unit: str) -> int:
         """Number of a frequency response; of receptances the reciprocal one will do.

@@ -17,19 +17,20 @@ from .assembly import Bench, assemble
 from .band import TRIED, amplitude_band, chosen_truncation, power_band, truncation_errors
 from .change import changed_response
 from .elements import Elements, elements_of, points_of
-from .files import attributes, naming_settings
+from .files import attributes, naming_settings, without_bands
 from .scatter import measured_again
 from .settings import Prediction, load_prediction
 
 SAMPLES_OF_TRUNCATION: Final = 10
 
 
-def predict(path: str | Path) -> xr.Dataset:
+def predict(path: str | Path, despite: Sequence[str] = ()) -> xr.Dataset:
     """Predict levels after changes from measurements alone, with a 90 % band.
 
     Parameters
     ----------
     path : TOML file with the tables `measured`, `mounts` and `changes`; docs/measured_changes.md
+    despite : names of faults of the measurements that are accepted; no bands are stated then
 
     Returns
     -------
@@ -42,7 +43,7 @@ def predict(path: str | Path) -> xr.Dataset:
     ------
     ParameterError
         Anything in the file or in the files that it names is missing, unknown, or outside its
-        range.
+        range; or the measurements have a fault that is not accepted.
     StorageError
         A file cannot be read.
     SolverError
@@ -57,8 +58,16 @@ def predict(path: str | Path) -> xr.Dataset:
     path = Path(path)
     settings = load_prediction(path)
     with naming_settings(path):
-        bench = assemble(settings.measured, points_of(settings), path.parent)
+        bench = assembled(settings, path, despite)
     return _labelled(settings, bench, path)
+
+
+def assembled(settings: Prediction, path: Path, despite: Sequence[str]) -> Bench:
+    """Measurements that the changes of a file need, tested against physics."""
+    points = points_of(settings)
+    mounts = [each for each in settings.mounts.values() if {*each.ends} <= {*points}]
+    ends = [[mount.ends[side] for mount in mounts] for side in (0, 1)] if mounts else []
+    return assemble(settings.measured, points, path.parent, ends, despite)
 
 
 def _changed(bench: Bench, elements: Elements, truncation: float) -> ComplexArray:
@@ -107,7 +116,7 @@ def _labelled(settings: Prediction, bench: Bench, path: Path) -> xr.Dataset:
     variables["truncation_error"] = stamp("truncation_error", errors, tried_at)
     about = attributes("predict", path, settings.title, settings, settings.measured)
     about["reference_pressure_pa"] = REFERENCE_PRESSURE_PA
-    dataset = xr.Dataset(variables, attrs=about)
+    dataset = without_bands(xr.Dataset(variables, attrs=about), bench.faults)
     return check(label_coordinates(dataset))
 
 

@@ -22,6 +22,16 @@ class Point(Parameters):
     direction: Literal["+x", "-x", "+y", "-y", "+z", "-z", ""] = ""
 
 
+class FreeMachine(Parameters):
+    """Machine that hangs freely, or as good as freely, in a range of frequency."""
+
+    mass_kg: float = Field(gt=0.0, le=1e6)
+    points: tuple[str, ...] = Field(min_length=3)
+    """Points on it in one direction, not in line."""
+    lowest_frequency_hz: float = Field(gt=0.0, le=1e6)
+    highest_frequency_hz: float = Field(gt=0.0, le=1e6)
+
+
 class Measured(Parameters):
     """Files of measured functions, how good they are, and what their nodes are."""
 
@@ -38,6 +48,18 @@ class Measured(Parameters):
     draws: int = Field(default=200, ge=50, le=5000)
     points: dict[str, Point] = Field(min_length=1)
     microphones: dict[str, Point] = Field(min_length=1)
+    free_machine: FreeMachine | None = None
+
+    @model_validator(mode="after")
+    def _free_machine_has_points(self) -> "Measured":
+        names = () if self.free_machine is None else self.free_machine.points
+        for name in names:
+            if name not in self.points:
+                listed = ", ".join(self.points)
+                raise ValueError(f"free_machine.points = {name}: must be one of {listed}")
+        if len({self.points[name].direction[-1:] for name in names}) > 1:
+            raise ValueError("free_machine.points: must have one direction")
+        return self
 
 
 class NewMount(Parameters):

@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -12,7 +13,7 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import ParameterError
 from ..base.vocabulary import label_coordinates, stamped
 from ..levels.bands import measurable_bands
-from ..levels.measured_power import BANDS, MeasuredPower, measured_power, spread_dba
+from ..levels.measured_power import BANDS, MeasuredPower, a_weighted_sum, measured_power, spread_dba
 from ..levels.signal_levels import band_levels
 from ..recordings import LabelledBlocks
 from ..recordings.equality import identities
@@ -20,6 +21,8 @@ from ..recordings.remarks import RecordingWarning
 from ..results import provenance
 from .measurement_surface import MeasurementSurface
 
+SILENT_MARGIN_DB: Final = 20.0
+"""Level below the median of the positions at which a microphone is dead; assumed."""
 BAND_HZ = [band.nominal_hz for band in BANDS]
 
 
@@ -43,8 +46,8 @@ def sound_power(
     -------
     levels at each position, their mean, K1, K2 and the sound power level, by band and A-weighted;
     bands that cannot be measured at the sample rate are empty. Attribute `grade`: 2 (ISO 3744),
-    3 (ISO 3746) or 0, neither; `missing_for_grade`: `background`, `K2`, where no grade can be
-    stated
+    3 (ISO 3746) or 0, neither; `missing_for_grade`: `background`, `K2` and others, without which
+    no grade is stated
 
     Raises
     ------
@@ -73,6 +76,7 @@ def sound_power(
     measured_db = np.array(list(levels.values()))
     still = None if quiet is None else np.array(list(quiet.values()))
     measured = measured_power(measured_db, still, surface.area_m2, area)
+    missing = [*measured.missing, *_missing(levels, quiet, surface)]
     labelled = _labelled(list(levels), measured_db, measured)
     labelled.attrs = {
         **provenance.software_attributes("sound power of recordings"),
@@ -82,13 +86,29 @@ def sound_power(
         ),
         "surface": surface.name,
         "surface_m2": surface.area_m2,
-        "grade": measured.grade or 0,
-        "missing_for_grade": ", ".join(measured.missing),
+        "grade": 0 if missing else measured.grade or 0,
+        "missing_for_grade": ", ".join(missing),
         "spread_dba": spread_dba(measured_db),
         "positions_of_the_standard": list(surface.positions),
         **({"reading_remarks": "; ".join(remarks)} if remarks else {}),
     }
     return label_coordinates(labelled)
+
+
+def _missing(
+    levels: Mapping[str, Array], quiet: Mapping[str, Array] | None, surface: MeasurementSurface
+) -> Iterator[str]:
+    """Conditions of both grades that the microphones and their bands lack."""
+    if len(levels) not in surface.positions:
+        yield f"{' or '.join(map(str, surface.positions))} microphones"
+    if quiet is not None and len(quiet) != len(levels):
+        yield "background at each microphone"
+    levels_dba = a_weighted_sum(np.array(list(levels.values())))
+    silent = levels_dba < np.median(levels_dba) - SILENT_MARGIN_DB
+    yield from (f"sound at {name}" for name, is_silent in zip(levels, silent, strict=True)
+                if is_silent)  # fmt: skip
+    if np.isnan(list(levels.values())).any():
+        yield f"bands to {BAND_HZ[-1] / 1000.0:g} kHz"
 
 
 def _kept_remarks(recordings: Sequence[xr.Dataset]) -> Iterator[str]:

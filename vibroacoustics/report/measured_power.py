@@ -112,7 +112,7 @@ def _remarks(measured: xr.Dataset) -> list[str]:
 
 
 def _environment(measured: xr.Dataset) -> str:
-    if "K2" in str(measured.attrs.get("missing_for_grade", "")):
+    if "K2" in str(measured.attrs.get("missing_for_grade", "")).split(", "):
         return (
             "The room was not stated: K2 is 0, and the level is high by what the room reflects. "
             "Give its absorption area (1e6 m² in a hemi-anechoic room), or its reverberation time "

@@ -104,7 +104,7 @@ def _bands(blocked: xr.Dataset) -> Table:
             values = [row[part] for part in parts[2:]]
             sizes = (rounding.fixed(row["measured"]), rounding.fixed(row["predicted"]))
             number = _number("validation_band_difference", selection, values, "dB", write)
-            band = f"{write(values[1])} to {write(values[2])}"
+            band = _band(values, write)
             rows.append((row["name"], f"{row['hz']:g}", *sizes, number, band))
     head = ("Validation", "Hz", "measured", "predicted", "difference", "90 % band")
     return Table("Third octaves, dB re 20 µPa, or re 1 µm/s²", head, tuple(rows))
@@ -122,6 +122,7 @@ def _truncation(blocked: xr.Dataset) -> Table:
 def _notes(blocked: xr.Dataset) -> list[str]:
     frequency, condition = blocked["frequency"].values, blocked["condition_number"].values
     notes = [
+        *_accepted(blocked),
         _counted(frequency),
         f"Condition number: median {np.median(condition):.3g}, largest {condition.max():.3g} at "
         f"{frequency[int(np.argmax(condition))]:g} Hz.",
@@ -176,8 +177,7 @@ def _totals(predicted: xr.Dataset) -> Table:
     def cells(name: str, unit: str, **selection: str) -> tuple[Cell, str]:
         values = [predicted[f"{name}{end}"].sel(selection).item() for end in ("", "_low", "_high")]
         write = rounding.signed if name.endswith("change") else rounding.fixed
-        low = "silence" if values[1] <= SILENCE_DB / 2.0 else write(values[1])
-        return _number(name, selection, values, unit, write), f"{low} to {write(values[2])}"
+        return _number(name, selection, values, unit, write), _band(values, write)
 
     rows = []
     for option in _changes(predicted):
@@ -193,6 +193,14 @@ def _totals(predicted: xr.Dataset) -> Table:
     head = ("Change", "Microphone", "", "measured", "predicted", "90 % band", "change", "90 % band")
     caption = "All lines together: level as measured and as predicted"
     return Table(caption, head, tuple(rows), frozenset({0, 1, 2}))
+
+
+def _band(values: Sequence[float], write: Callable[[float], str]) -> str:
+    """Return the band in words."""
+    if np.isnan(values[1]):
+        return "unknown"
+    low = "silence" if values[1] <= SILENCE_DB / 2.0 else write(values[1])
+    return f"{low} to {write(values[2])}"
 
 
 def _number(
@@ -233,7 +241,15 @@ def _counted(frequency: Array) -> str:
     return f"{frequency.size} lines from {frequency[0]:g} to {frequency[-1]:g} Hz."
 
 
+def _accepted(results: xr.Dataset) -> list[str]:
+    """Faults of the measurements that were accepted."""
+    lines = str(results.attrs.get("faults", "")).splitlines()
+    return [f"No bands: fault accepted, {line}." for line in lines]
+
+
 def _predicted_notes(predicted: xr.Dataset) -> list[str]:
+    if predicted.attrs.get("faults"):
+        return [*_accepted(predicted), _counted(predicted["frequency"].values)]
     width = predicted["predicted_level_high"] - predicted["predicted_level_low"]
     after = width.sel(option=_changes(predicted))
     half = rounding.fixed(float(np.median(after)) / 2.0)

@@ -9,6 +9,7 @@ import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.weighting import a_weighting
 from vibroacoustics.radiation.arrangements import box_positions, hemisphere_positions
+from vibroacoustics.report.measured_power import headline
 
 POWER_DB = 60.0 + 8.0 * np.sin(np.arange(len(BANDS)))
 MARGIN_DB = np.resize([6.5, 8.0, 10.0, 14.0, 25.0], len(BANDS))
@@ -142,3 +143,33 @@ def test_sizes_out_of_range() -> None:
         va.MeasurementSurface.hemisphere(99.0)
     with pytest.raises(ParameterError, match=r"height_m = 0 m: must be 0.01 to 20 m"):
         va.MeasurementSurface.box(1.0, 1.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("condition", "missing"),
+    [
+        ("six microphones", "10 or 20 microphones"),
+        ("background elsewhere", "background at each microphone"),
+        ("dead microphone", "sound at "),
+        ("sample rate", "bands to 10 kHz"),
+    ],
+)
+def test_a_grade_falls_with_each_condition(
+    positions: np.ndarray, quiet_db: np.ndarray, condition: str, missing: str
+) -> None:
+    running = recording(positions, POWER_DB, quiet_db, with_source=True)
+    still = recording(positions, POWER_DB, quiet_db, with_source=False)
+    if condition == "six microphones":
+        running, still = (each.isel(channel=slice(6)) for each in (running, still))
+    if condition == "background elsewhere":
+        still = still.isel(channel=slice(4))
+    if condition == "dead microphone":
+        gain = xr.where(running["channel"] == running["channel"][3], 0.01, 1.0)
+        running = running.assign(signal=running["signal"] * gain)
+        missing += str(running["channel"][3].item())
+    if condition == "sample rate":
+        running, still = (each.assign_attrs(sample_rate_hz=16_000.0) for each in (running, still))
+    measured = va.sound_power([running], va.MeasurementSurface.hemisphere(RADIUS_M), [still], 1e6)
+    assert measured.attrs["grade"] == 0
+    assert measured.attrs["missing_for_grade"] == missing
+    assert headline(measured).endswith(f"no grade without {missing}.")
