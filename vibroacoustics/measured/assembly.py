@@ -56,7 +56,6 @@ def assemble(
     folder : folder of the files
     interfaces : points at either end of the mounts; the source is beyond one of them
     despite : names of faults that are accepted
-
     """
     library = Library(settings, folder, despite)
     points = [node_of(settings.points[name]) for name in names]

@@ -82,7 +82,6 @@ def read_in_situ(settings: BlockedForces, folder: Path, despite: Sequence[str] =
     settings : files, nodes and interface
     folder : folder of the files
     despite : names of faults that are accepted
-
     """
     interface, measured = settings.blocked_forces, settings.measured
     library = Library(measured, folder, despite)
