@@ -16,7 +16,7 @@ import numpy as np
 from quick import ROOT, parser
 
 import vibroacoustics as va
-from vibroacoustics.design.coding import Coding
+from vibroacoustics.design.active import Coding
 from vibroacoustics.design.evaluation import evaluating
 from vibroacoustics.design.search.active import search_active
 from vibroacoustics.design.search.problem import SearchProblem

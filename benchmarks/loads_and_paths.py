@@ -20,8 +20,8 @@ from quick import ROOT, parser
 from sources_study import SOURCES_STUDY, made_up_modes
 
 import vibroacoustics as va
-from vibroacoustics.design.listing import listed_grid
 from vibroacoustics.design.search.front import nondominated
+from vibroacoustics.design.sweep_values import listed_grid
 from vibroacoustics.levels.nominal import NominalSound
 from vibroacoustics.pipeline.study import chain_with
 from vibroacoustics.results.storage import without_cache

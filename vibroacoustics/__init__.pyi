@@ -60,13 +60,13 @@ from .measured.campaign_settings import CampaignRun as CampaignRun
 from .measured.campaign_settings import load_campaign as load_campaign
 from .measured.change import changed_response as changed_response
 from .measured.inversion import inverted_forces as inverted_forces
-from .measured.measurement_surface import MeasurementSurface as MeasurementSurface
 from .measured.prediction import predict as predict
 from .measured.recorded_orders import analyse_orders as analyse_orders
 from .measured.recorded_orders import speed_frequency_map as speed_frequency_map
 from .measured.recorded_orders import track_orders as track_orders
 from .measured.replay import Replay as Replay
 from .measured.replay import replay as replay
+from .measured.sound_power import MeasurementSurface as MeasurementSurface
 from .measured.sound_power import sound_power as sound_power
 from .mechanics.added import Added as Added
 from .mechanics.added import FurtherRing as FurtherRing

@@ -14,7 +14,7 @@ from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.design.evaluation import evaluating
 from vibroacoustics.design.optimising import searched_designs
 from vibroacoustics.design.problem import Problem
-from vibroacoustics.design.promise import promise
+from vibroacoustics.design.total_change import promise
 from vibroacoustics.mechanics.capabilities import OldhamRing
 
 CLOSE_DB = 1e-3

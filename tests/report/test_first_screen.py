@@ -16,9 +16,8 @@ from test_report import make_results
 from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.report import render
 from vibroacoustics.report.blocks import Beside, Details, Intervals, Lights, Text
-from vibroacoustics.report.drawing.machine import feet_m, loads, outline, turn
+from vibroacoustics.report.drawing.machine import bar, feet_m, fitted, loads, outline, turn
 from vibroacoustics.report.drawing.picture import machine_picture
-from vibroacoustics.report.drawing.view import bar, fitted
 from vibroacoustics.report.quantities import FOOT_FORCE, FORCE, LINE, TOTAL
 from vibroacoustics.report.sections import SECTIONS
 from vibroacoustics.report.sections.verdict import words as first_screen

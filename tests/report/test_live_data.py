@@ -14,10 +14,9 @@ import vibroacoustics as va
 from vibroacoustics.balancers.counterweight import Counterweight
 from vibroacoustics.live.lines import Lines
 from vibroacoustics.live.mounts import mount_matrices
-from vibroacoustics.live.moving import moving_of
+from vibroacoustics.live.moving import moving_of, unit_loads, weight_of
 from vibroacoustics.live.numbers import FEW_BITS, NOTHING, Numbers
 from vibroacoustics.live.section import full_scale_pa, live_data
-from vibroacoustics.live.weight import unit_loads, weight_of
 from vibroacoustics.mechanics.moving_parts import derivative, wrench
 from vibroacoustics.mechanics.rotation import Rotation
 from vibroacoustics.orders.spectrum import order_spectrum_at_speed

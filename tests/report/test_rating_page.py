@@ -11,10 +11,9 @@ from sources_study import rated_run
 from support import PIPELINES
 
 import vibroacoustics as va
-from vibroacoustics.report.rendered import render
 from vibroacoustics.report.sections.rating import rating_sentence, rating_table, worst_window
 from vibroacoustics.report.sections.verdict.words import sentences
-from vibroacoustics.report.study import analysis_of_study
+from vibroacoustics.report.study import analysis_of_study, render
 
 MOST_WORDS = 90
 _SHOWN = (

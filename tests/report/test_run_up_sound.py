@@ -19,7 +19,7 @@ from vibroacoustics import (
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.measured import run_up_sound as sounds
 from vibroacoustics.measured.run_up_sound import listened, played
-from vibroacoustics.report.live.run_up_sound_data import mu_law
+from vibroacoustics.report.live.run_up_data import mu_law
 from vibroacoustics.report.recordings import analysis_of_orders
 
 RATE_HZ = 20480.0

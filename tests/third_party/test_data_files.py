@@ -13,7 +13,7 @@ from support import ROOT, TINY, made_up_radiation
 
 import vibroacoustics as va
 from vibroacoustics.base import registry
-from vibroacoustics.design.engine.runs import _material
+from vibroacoustics.design.engine.engine import _material
 from vibroacoustics.design.workers.study_task import study_hash
 from vibroacoustics.results.provenance import attributes
 from vibroacoustics.study.schema.files import study_schema

@@ -13,7 +13,7 @@ import pytest
 from body_matrices import Mass, Spring, assembled, foot_forces, mass_of, natural_hz, on_feet, solved
 from support import ROOT, TINY, assert_refused, command_here
 
-import vibroacoustics.report.rendered  # noqa: F401  its registries exist before they are copied
+import vibroacoustics.report.study  # noqa: F401  its registries exist before they are copied
 from vibroacoustics.base import registry
 from vibroacoustics.base.constants import REFERENCE_PRESSURE_PA
 from vibroacoustics.radiation.transfer_vectors import pressure_per_velocity

@@ -151,8 +151,7 @@ def _evaluating(
     """Evaluate pieces of designs: from the store, else here or by workers."""
     from ..design.evaluation import one_by_one
     from ..design.store.pieces import opened_store, stored
-    from ..design.workers.spread import spread
-    from ..design.workers.study_task import evaluate_task, study_plan, study_task
+    from ..design.workers.study_task import evaluate_task, spread, study_plan, study_task
 
     plugin_files = plugins or []
     counts = len(problem.design.objectives), len(problem.design.constraints)

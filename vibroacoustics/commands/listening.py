@@ -15,8 +15,14 @@ from ..report.analysis import Analysis
 from ..report.file_names import file_name
 from ..report.radiation_tables import analysis_of_impulse_responses
 from ..results import files
-from ..sound.files import FORMATS, at_gain, calibration_tone, wav_bytes
-from ..sound.gain import full_scale_of, next_full_scale
+from ..sound.files import (
+    FORMATS,
+    at_gain,
+    calibration_tone,
+    full_scale_of,
+    next_full_scale,
+    wav_bytes,
+)
 from ..sound.ingredients import ingredients
 from ..sound.rendering import SAMPLE_RATE_HZ, rendered, whole_revolutions
 

@@ -15,7 +15,7 @@ from .reading import Reading
 if TYPE_CHECKING:
     import xarray as xr
 
-    from ..measured.measurement_surface import MeasurementSurface
+    from ..measured.sound_power import MeasurementSurface
 
 Absorption = float | dict[float, float] | None
 
@@ -61,7 +61,7 @@ def surface_of(
     ParameterError
         None or both are given, or a size is out of range.
     """
-    from ..measured.measurement_surface import MeasurementSurface
+    from ..measured.sound_power import MeasurementSurface
 
     if (hemisphere is None) == (box is None):
         raise ParameterError(

@@ -39,8 +39,7 @@ def blocked_forces_command(
 ) -> Outcome:
     """Find the blocked forces of an installed source (ISO 20270), with on-board validation."""
     from .. import report
-    from ..measured.blocked_forces import blocked_forces
-    from ..measured.blocked_orders import blocked_orders_csv
+    from ..measured.blocked_forces import blocked_forces, blocked_orders_csv
     from . import outputs
 
     target = printing.target(out or Path("reports") / file.stem)

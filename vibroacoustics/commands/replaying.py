@@ -10,8 +10,7 @@ from ..measured.replay import Replay
 from ..report.analysis import Analysis
 from ..report.file_names import file_name
 from ..report.replay import analysis_of_replay
-from ..sound.files import at_gain, wav_bytes
-from ..sound.gain import next_full_scale
+from ..sound.files import at_gain, next_full_scale, wav_bytes
 
 _IN_NAMES: Final = {"Pa": "Pa", "m/s²": "m_s2", "m/s": "m_s", "N": "N"}
 """Units in names of files."""

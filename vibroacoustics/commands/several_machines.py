@@ -15,8 +15,7 @@ from ..report.file_names import file_name
 from ..report.several_machines import analysis_of_machines
 from ..results.several_machines import sound_of
 from ..results.storage import open_results
-from ..sound.files import at_gain, wav_bytes
-from ..sound.gain import next_full_scale
+from ..sound.files import at_gain, next_full_scale, wav_bytes
 from ..sound.rendering import SAMPLE_RATE_HZ
 from ..sound.together import rendered_together
 from ..study.study import Study

@@ -67,7 +67,7 @@ class Workers(Cluster):
     def opener(self, plugins: Sequence[Path] | None) -> "Opener | None":
         """Return what opens the workers; None where this process computes."""
         from ..base.errors import ParameterError
-        from ..design.workers.spread import local_workers
+        from ..design.workers.study_task import local_workers
 
         if self.scheduler is not None and self.workers:
             raise ParameterError("--workers contradicts --scheduler: remove one of both")

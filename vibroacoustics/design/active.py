@@ -1,6 +1,7 @@
-"""An active search as a dataset: all runs, the best design, what it promises, what decides."""
+"""An active search as a dataset: designs as numbers, all runs, the best design, its promise."""
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -10,16 +11,47 @@ from scipy.stats import norm, qmc, t
 from ..base.arrays import Array
 from ..base.errors import ParameterError, SolverError
 from ..base.progress import Progress
-from .coding import Coding
 from .evaluation import Evaluate
 from .explaining import SPREAD_DESIGNS
 from .problem import Problem
-from .promise import Promise
 from .search.active import ActiveSearch, search_active
 from .search.gaussian_process import Process
 from .search.problem import SearchProblem
 from .search_dataset import searched_dataset, with_best, with_shares, with_total_change
+from .total_change import Promise
+from .variable import Variable
 from .wanted import CHANGE_OF_TOTAL, CONFIDENCE
+
+
+@dataclass(frozen=True)
+class Coding:
+    """Designs as numbers that a search may change freely.
+
+    Attributes
+    ----------
+    variables : design variables in the order of the columns
+    """
+
+    variables: Sequence[Variable]
+
+    def problem(self, evaluate: Evaluate) -> SearchProblem:
+        """Return the problem of a search; `evaluate` takes designs in SI."""
+        ends = [
+            variable.limits if variable.values is None else (0.0, variable.values.size - 1.0)
+            for variable in self.variables
+        ]
+        lower, upper = np.array(ends, dtype=float).T
+        integer = np.array([variable.values is not None for variable in self.variables])
+        return SearchProblem(lower, upper, integer, lambda codes: evaluate(self.designs(codes)))
+
+    def designs(self, codes: Array) -> Array:
+        """Designs in SI, shape (design, variable); a further column, of numbered runs, stays."""
+        columns = [
+            column if variable.values is None else variable.values[column.astype(int)]
+            for variable, column in zip(self.variables, codes.T, strict=False)
+        ]
+        return np.column_stack([*columns, codes[:, len(columns) :]])
+
 
 MEAN_CONFIDENCE: Final = 0.95
 """Confidence of the interval of the mean of the last runs."""

@@ -11,9 +11,8 @@ from ..base.arrays import Array
 from ..base.csv_text import csv_bytes
 from ..base.units import split_key
 from ..results.provenance import attributes
-from .listing import BLOCK, Listing
 from .problem import Problem
-from .sweep_values import SweepValues
+from .sweep_values import BLOCK, Listing, SweepValues
 from .variable import Variable
 
 DESIGN = "design"

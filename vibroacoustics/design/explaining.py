@@ -9,11 +9,10 @@ import xarray as xr
 from ..base.arrays import Array, IndexArray
 from .evaluation import Evaluate, Evaluation
 from .problem import Problem
-from .promise import promise
 from .search.front import Mask
 from .search.problem import Searched
 from .search_dataset import searched_dataset, with_best, with_shares, with_total_change
-from .total_change import total_changes
+from .total_change import promise, total_changes
 
 SPREAD_DESIGNS: Final = 1024
 """Designs spread evenly, which show what decides."""

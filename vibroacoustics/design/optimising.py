@@ -6,8 +6,7 @@ from ..base.progress import Progress, no_progress
 from ..radiation.given import Radiation
 from ..stages.radiation import transfer_vectors
 from ..study.study import Study
-from .active import actively_searched
-from .coding import Coding
+from .active import Coding, actively_searched
 from .evaluation import Evaluate, evaluating
 from .explaining import explained
 from .problem import Problem

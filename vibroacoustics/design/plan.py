@@ -15,10 +15,9 @@ from ..results.size import MOST_BYTES
 from .dataset import cells
 from .engine.memo import MOST_BYTES as MOST_KEPT_BYTES
 from .explaining import SPREAD_DESIGNS
-from .listing import BLOCK, Listing
 from .problem import Problem
 from .space import OPTION
-from .sweep_values import MOST_SHOWN
+from .sweep_values import BLOCK, MOST_SHOWN, Listing
 from .trial import Trial, tried
 
 LONGEST_S: Final = 12 * 3600.0

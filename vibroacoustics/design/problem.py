@@ -20,8 +20,7 @@ from .engine.recognition import Route
 from .ensemble import ComparedMachine, compared_machines
 from .figure import FIGURES, DesignFigure, Setting
 from .space import Space
-from .splitting import Splitting
-from .statistics import by_speed, of_each, statistic_of, weighted_statistic
+from .statistics import Splitting, by_speed, of_each, statistic_of, weighted_statistic
 from .tolerances import Pieces
 from .wanted import (
     CHANGE_OF_TOTAL,

@@ -19,11 +19,10 @@ from .evaluation import Evaluation
 from .figure import DesignFigure
 from .keys import acts_on
 from .problem import Problem
-from .promise import Promise
 from .search.front import nondominated
 from .search.problem import Searched
 from .space import OPTION
-from .total_change import lowering_words, no_change_words
+from .total_change import Promise, lowering_words, no_change_words
 from .wanted import MEDIAN, TOTALS
 
 _MOST_REASONS: Final = 20

@@ -17,10 +17,9 @@ from ..stages.radiation import transfer_vectors
 from ..study.study import Study
 from .dataset import labelled
 from .evaluation import Stream, one_by_one
-from .listing import Listing, listed_grid, listed_sample
 from .plan import LONGEST_S, Plan, check_size, planned
 from .problem import Problem
-from .sweep_values import SweepValues
+from .sweep_values import Listing, SweepValues, listed_grid, listed_sample
 
 OBJECTIVES: Final = {
     "level_change_db": {"figure": "level_change_db"},

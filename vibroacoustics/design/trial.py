@@ -9,8 +9,8 @@ from scipy.optimize import nnls
 
 from ..base.arrays import Array, IndexArray
 from .evaluation import Evaluate, Evaluation, evaluating, joined
-from .listing import Listing
 from .problem import Problem
+from .sweep_values import Listing
 
 _STARTS, _CONSECUTIVE = 3, 4
 """Numbers of pieces from which some are timed, and how many that follow each other."""

@@ -1,8 +1,9 @@
-"""Blocked forces of a source where it stands, with on-board validation, as labelled arrays."""
+"""Blocked forces of a source where it stands, with validation, labelled; at shaft orders too."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -10,14 +11,61 @@ import xarray as xr
 from ..base.arrays import Array, ComplexArray
 from ..base.decibel import level_of_amplitude
 from ..base.errors import ParameterError
+from ..base.units import shaft_frequency_hz
 from ..base.vocabulary import check, label_coordinates
-from .band import TRIED, chosen_truncation
-from .blocked_settings import BlockedForces, load_blocked_forces
+from ..mechanisms.tabulated.csv_layout import orders_csv
+from .band import (
+    TRIED,
+    attributes,
+    chosen_truncation,
+    measured_again,
+    naming_settings,
+    without_bands,
+)
 from .blocked_variables import force_variables, inversion_variables, validation_variables
-from .files import attributes, naming_settings, without_bands
-from .in_situ import InSitu, Measurement, read_in_situ, unit_of, wrench_per_force
+from .in_situ import (
+    BlockedForces,
+    InSitu,
+    Measurement,
+    load_blocked_forces,
+    read_in_situ,
+    unit_of,
+    wrench_per_force,
+)
 from .inversion import condition_number, inverted_forces, left_out_responses
-from .scatter import measured_again
+
+ON_ORDER: Final = 0.01
+"""Largest distance of a line from an order, in orders."""
+SOURCE: Final = "blocked_forces"
+
+
+def blocked_orders_csv(blocked: xr.Dataset) -> bytes | None:
+    """Return force and moment by order as CSV for a machine by table; None without a speed.
+
+    Raises
+    ------
+    ParameterError
+        No line is an order of the speed.
+    """
+    speed = blocked.attrs.get("speed_rpm")
+    if speed is None:
+        return None
+    force = blocked["blocked_force_sum"].values
+    peaks = np.concatenate([force, blocked["blocked_moment_sum"].values])
+    shaft_hz = shaft_frequency_hz(float(speed))
+    order = blocked["frequency"].values / shaft_hz
+    lines = np.flatnonzero((np.abs(order - np.rint(order)) <= ON_ORDER) & (order > 0.5))
+    numbers = np.rint(order[lines]).astype(int)
+    if len(lines) == 0 or len(set(numbers.tolist())) < len(numbers):
+        count = "no line is" if len(lines) == 0 else "several lines are"
+        raise ParameterError(
+            f"blocked_forces.speed_rpm = {speed:g} rpm: {count} within {ON_ORDER:g} of an order, "
+            f"a multiple of {shaft_hz:g} Hz; give operating spectra at the orders"
+        )
+    return orders_csv(
+        (float(speed), int(number), SOURCE, peaks[:, line])
+        for number, line in zip(numbers, lines, strict=True)
+    )
 
 
 @dataclass(frozen=True)

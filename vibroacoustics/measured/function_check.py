@@ -4,10 +4,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..study.toml_files import read_toml
-from .blocked_settings import load_blocked_forces
+from .band import naming_settings
 from .fault import FAULTS
-from .files import naming_settings
-from .in_situ import read_in_situ
+from .in_situ import load_blocked_forces, read_in_situ
 from .library import Library
 from .prediction import assembled
 from .settings import Measured, load_prediction

@@ -11,10 +11,10 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.errors import ParameterError, VibroacousticsError
 from ..recordings import MeasuredFunction, Node
+from .band import error_of_coherence, error_of_repeats
 from .fault import Fault, refuse
 from .faults import function_faults, operating_faults, point_measures
 from .grouped import Key, by_key, read_each, unsigned
-from .scatter import error_of_coherence, error_of_repeats
 from .settings import Measured
 
 SAME_FREQUENCY: Final = 2e-5

@@ -1,7 +1,7 @@
 """Sound pressure after changes of mounts, masses and absorbers, with a band, as labelled arrays."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -14,12 +14,75 @@ from ..base.decibel import level_of_power, power_of_level, sound_pressure_level
 from ..base.vocabulary import REFERENCE_OPTION, WEIGHTINGS, check, label_coordinates, stamp
 from ..base.weighting import WEIGHTING
 from .assembly import Bench, assemble
-from .band import TRIED, amplitude_band, chosen_truncation, power_band, truncation_errors
-from .change import changed_response
-from .elements import Elements, elements_of, points_of
-from .files import attributes, naming_settings, without_bands
-from .scatter import measured_again
-from .settings import Prediction, load_prediction
+from .band import (
+    TRIED,
+    amplitude_band,
+    attributes,
+    chosen_truncation,
+    measured_again,
+    naming_settings,
+    power_band,
+    truncation_errors,
+    without_bands,
+)
+from .change import absorber_stiffness, changed_response, mass_stiffness
+from .settings import Change, Prediction, load_prediction
+
+
+@dataclass(frozen=True)
+class Elements:
+    """Elements of a change between points.
+
+    Attributes
+    ----------
+    elongation : elongation of each element by the points' displacements, shape (element, point)
+    stiffness : change of its dynamic stiffness, N/m, shape (frequency, element, element)
+    """
+
+    elongation: Array
+    stiffness: ComplexArray
+
+
+def points_of(settings: Prediction) -> list[str]:
+    """Points that any change acts on, in the order of the file."""
+    used: set[str] = set()
+    for change in settings.changes.values():
+        used.update(*(settings.mounts[name].ends for name in change.mounts))
+        used.update(*(mass.points for mass in change.masses.values()))
+        used.update(*(absorber.points for absorber in change.absorbers.values()))
+    return [name for name in settings.measured.points if name in used]
+
+
+def elements_of(settings: Prediction, change: Change, frequency_hz: Array) -> Elements:
+    """The elements of a change."""
+    points = points_of(settings)
+    rows, stiffness = [], []
+    for name, new in change.mounts.items():
+        old = settings.mounts[name]
+        rows.append(_row(points, *old.ends))
+        along = settings.measured.points[old.ends[0]].direction
+        before, after = (mount.dynamic_stiffness(frequency_hz, along) for mount in (old, new))
+        stiffness.append(after - before)
+    for mass in change.masses.values():
+        rows += [_row(points, point) for point in mass.points]
+        stiffness += [mass_stiffness(frequency_hz, mass.mass_kg)] * len(mass.points)
+    for absorber in change.absorbers.values():
+        rows += [_row(points, point) for point in absorber.points]
+        absorber_n_per_m = absorber_stiffness(
+            frequency_hz,
+            absorber.mass_kg,
+            absorber.stiffness_n_per_m,
+            absorber.loss_factor_ratio,
+        )
+        stiffness += [absorber_n_per_m] * len(absorber.points)
+    matrices = np.einsum("ef,eg->feg", np.array(stiffness), np.eye(len(rows)))
+    return Elements(np.array(rows), matrices)
+
+
+def _row(points: Sequence[str], first: str, second: str = "") -> Array:
+    """Elongation: the first point's displacement less the second's."""
+    return np.array([float(name == first) - float(name == second) for name in points])
+
 
 SAMPLES_OF_TRUNCATION: Final = 10
 

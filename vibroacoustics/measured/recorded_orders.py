@@ -13,7 +13,7 @@ from ..orders import recorded as of_recording
 from ..orders.analysed import analysed_channels, channels_without_speed
 from ..orders.analysis_defaults import with_defaults
 from ..orders.crank_motion import CrankMotion
-from ..orders.labelled_map import labelled_map, mapped_spectra
+from ..orders.frequency_map import labelled_map, mapped_spectra
 from ..orders.recorded_speed import recorded_speed
 from ..orders.shaft_speed import RecordedSpeed
 from ..orders.tracked import tracked_orders

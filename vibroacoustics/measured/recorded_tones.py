@@ -14,9 +14,8 @@ from ..base.errors import ParameterError
 from ..base.vocabulary import label_coordinates, stamped
 from ..results import provenance
 from ..sound.audibility import tonal_adjustment_db
-from ..sound.drift import drift_octaves
 from ..sound.loudness import recorded_loudness
-from ..sound.mean_audibility import MeanAudibility, mean_audibility
+from ..sound.mean_audibility import MeanAudibility, drift_octaves, mean_audibility
 from ..sound.recorded import narrow_bands, recorded_spectrum
 from ..sound.tonality import Tone, tones
 

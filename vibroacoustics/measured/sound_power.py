@@ -1,13 +1,15 @@
-"""Sound power of a machine from recordings of the microphones around it (ISO 3744)."""
+"""Sound power of a machine from recordings of microphones on a surface around it (ISO 3744)."""
 
 import warnings
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
+from ..base.allowed import check_range
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.errors import ParameterError
@@ -15,11 +17,73 @@ from ..base.vocabulary import label_coordinates, stamped
 from ..levels.bands import measurable_bands
 from ..levels.measured_power import BANDS, MeasuredPower, a_weighted_sum, measured_power, spread_dba
 from ..levels.signal_levels import band_levels
+from ..levels.sound_power import box_area_m2, hemisphere_area_m2
+from ..radiation.arrangements import TABLE_B1, box_positions
 from ..recordings import LabelledBlocks
 from ..recordings.equality import identities
 from ..recordings.remarks import RecordingWarning
 from ..results import provenance
-from .measurement_surface import MeasurementSurface
+
+
+@dataclass(frozen=True)
+class MeasurementSurface:
+    """A hemisphere or a parallelepiped over a hard floor (ISO 3744:2010, 7.2).
+
+    Attributes
+    ----------
+    name : in words, with its sizes
+    area_m2 : area of the surface
+    positions : numbers of microphones that the standard has for it
+
+    Examples
+    --------
+    >>> round(va.MeasurementSurface.hemisphere(1.0).area_m2, 2)
+    6.28
+    >>> va.MeasurementSurface.box(0.3, 0.2, 0.4, 1.0).positions
+    (9,)
+    """
+
+    name: str
+    area_m2: float
+    positions: tuple[int, ...]
+
+    @classmethod
+    def hemisphere(cls, radius_m: float) -> "MeasurementSurface":
+        """A hemisphere with 10 or 20 microphones (Table B.1).
+
+        Raises
+        ------
+        ParameterError
+            The radius is out of range.
+        """
+        check_range("radius_m", radius_m, 0.5, 16.0, "m")
+        area = hemisphere_area_m2(radius_m)
+        return cls(f"hemisphere of {radius_m:g} m", area, (len(TABLE_B1) // 2, len(TABLE_B1)))
+
+    @classmethod
+    def box(
+        cls, length_m: float, width_m: float, height_m: float, distance_m: float
+    ) -> "MeasurementSurface":
+        """A parallelepiped around a reference box (7.2.4, Annex C).
+
+        Parameters
+        ----------
+        length_m, width_m, height_m : edges of the smallest box around the machine
+        distance_m : from it to the microphones
+
+        Raises
+        ------
+        ParameterError
+            A length is out of range.
+        """
+        edges = {"length_m": length_m, "width_m": width_m, "height_m": height_m}
+        for key, edge in edges.items():
+            check_range(key, edge, 0.01, 20.0, "m")
+        check_range("distance_m", distance_m, 0.25, 16.0, "m")
+        sizes = (length_m, width_m, height_m, distance_m)
+        words = f"box {length_m:g} x {width_m:g} x {height_m:g} m at {distance_m:g} m"
+        return cls(words, box_area_m2(*sizes), (len(box_positions(*sizes)),))
+
 
 SILENT_MARGIN_DB: Final = 20.0
 """Level below the median of the positions at which a microphone is dead; assumed."""

@@ -11,8 +11,7 @@ from scipy.interpolate import PPoly
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
-from .smoothing import smooth_curve
-from .speed_comb import comb_scores, frame_levels, refine
+from .speed_comb import comb_scores, frame_levels, refine, smooth_curve
 
 REVOLUTIONS: Final = 8
 """Revolutions in a frame at the lowest speed: the lines of its orders lie four Hann half-widths

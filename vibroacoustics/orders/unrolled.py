@@ -11,8 +11,7 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from ..base.arrays import Array
 from .comb_evidence import Lines, are_in_place, clear_lines
-from .smoothing import smooth_curve
-from .speed_comb import comb_scores, frame_levels, refine
+from .speed_comb import comb_scores, frame_levels, refine, smooth_curve
 from .speed_profiles import MOST_LEVEL, Search, SpeedProfile
 
 _BLOCKS: Final = 4.0

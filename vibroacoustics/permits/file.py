@@ -1,9 +1,9 @@
-"""File of units and windows for `permit`."""
+"""File of units and windows for `permit`, and limits of the sound power of units by law."""
 
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Final, NamedTuple
 
 from pydantic import Field
 
@@ -12,7 +12,53 @@ from ..base.parameters import Contradictions, Parameters
 from ..study.settings_file import settings_of
 from ..study.toml_files import read_toml
 from .rule import PERMIT_RULES, AnyRule, PermitUnit
-from .verdict import PermitVerdict, judged
+from .verdict import PermitVerdict, judged, probability
+
+CAPACITY_W: Final = (6e3, 12e3, 30e3, 70e3)
+"""Largest capacity of each class."""
+LIMITS_DBA: Final = {
+    "EU 813/2013, annex II": (65.0, 70.0, 78.0, 88.0),
+    "BEG since 1 January 2026": (55.0, 60.0, 68.0, 78.0),
+}
+
+
+class LabelLimit(NamedTuple):
+    """Limit of a unit's sound power by day.
+
+    Attributes
+    ----------
+    law : law or subsidy, with its date
+    limit_dba : largest A-weighted sound power level
+    is_met : whether the stated level is at most the limit
+    probability : that a measured unit meets it, by the deviation of the unit
+    """
+
+    law: str
+    limit_dba: float
+    is_met: bool
+    probability: float
+
+
+def label_limits(unit: PermitUnit) -> list[LabelLimit]:
+    """Return the limits for the capacity of a unit; none without one, or above 70 kW.
+
+    Parameters
+    ----------
+    unit : sound power and capacity
+    """
+    capacity = unit.capacity_w
+    if capacity is None or capacity > CAPACITY_W[-1]:
+        return []
+    column = next(number for number, most in enumerate(CAPACITY_W) if capacity <= most)
+    return [
+        LabelLimit(
+            law,
+            limits[column],
+            unit.day_power_dba <= limits[column],
+            probability(unit.day_power_dba, unit.deviation_db, limits[column], None),
+        )
+        for law, limits in LIMITS_DBA.items()
+    ]
 
 
 class PermitFile(Parameters):

@@ -7,7 +7,7 @@ from typing import Final
 
 from ..base.linear_algebra import one_thread_of_linear_algebra
 from ..base.progress import Progress, no_progress
-from ..measured.floor import on_measured_floor
+from ..measured.floor_functions import on_measured_floor
 from ..radiation.cost import Cost, about
 from ..results.size import result_bytes
 from ..stages.chain import Chain

@@ -6,7 +6,7 @@ from ..base.progress import Progress, no_progress, stage
 from ..machine.cases import Cases
 from ..radiation.given import Radiation
 from ..results.several_machines import results_together
-from ..sound.machine_run import MachineRun
+from ..sound.on_base_frame import MachineRun
 from ..stages.radiation import transfer_vectors
 from ..stages.representative import Representative
 from ..study.machine_studies import machine_studies

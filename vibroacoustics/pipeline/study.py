@@ -10,7 +10,7 @@ from ..base.plain_bytes import canonical_json
 from ..base.progress import Progress, no_progress
 from ..base.vocabulary import check, label_coordinates
 from ..machine.cases import Cases
-from ..measured.floor import on_measured_floor
+from ..measured.floor_functions import on_measured_floor
 from ..radiation.given import Radiation
 from ..results import provenance
 from ..results.left_out import keep_lines

@@ -8,8 +8,7 @@ from scipy.io import wavfile
 
 from ..base import csv_text
 from ..base.errors import ParameterError
-from .riff import with_comment
-from .stated_scale import scale_comment
+from .riff import scale_comment, with_comment
 
 
 def csv_bytes(recording: xr.Dataset) -> bytes:

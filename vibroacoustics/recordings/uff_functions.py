@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError, StorageError, VibroacousticsError
-from .function_units import Units, checked, product, ratio
+from .csv_functions import Units, checked, product, ratio
 from .measured_function import DIRECTIONS, KINDS, MeasuredFunction, Node
 from .quantities import quantity
 from .recorded import check_size

@@ -15,9 +15,9 @@ from .radiation_tables import analysis_of_radiation as analysis_of_radiation
 from .recordings import analysis_of_map as analysis_of_map
 from .recordings import analysis_of_orders as analysis_of_orders
 from .recordings import analysis_of_tracks as analysis_of_tracks
-from .rendered import check_kept as check_kept
-from .rendered import keep as keep
-from .rendered import render as render
 from .replay import analysis_of_replay as analysis_of_replay
 from .several_machines import analysis_of_machines as analysis_of_machines
 from .study import analysis_of_study as analysis_of_study
+from .study import check_kept as check_kept
+from .study import keep as keep
+from .study import render as render

@@ -23,7 +23,6 @@ from .charts.marks import Chart
 from .figures.channel_orders import recorded_order_charts, speed_map_charts, tracked_order_charts
 from .limit_tables import limits_data, limits_words, order_limits_table
 from .live.run_up_data import run_up_data
-from .loudest_words import loudest_sentences
 from .operating_points import (
     branch_column,
     branched_table,
@@ -31,7 +30,7 @@ from .operating_points import (
     omitted_points,
     shown_speeds,
 )
-from .run_up_tables import every_loudest, loudest_table
+from .run_up_tables import every_loudest, loudest_sentences, loudest_table
 from .tables import (
     Cell,
     Columns,

@@ -1,10 +1,15 @@
-"""Analysis of a study: the report of a run."""
+"""Analysis and files of a study's report, and what makes it again without plug-ins."""
+
+import json
 
 import xarray as xr
 
 from ..base.fault import collected
+from ..base.folder import Content
 from ..base.linear_algebra import one_thread_of_linear_algebra
+from ..base.plain_bytes import canonical_json
 from ..base.processes import side_by_side
+from ..base.registry import plugins
 from ..results.over_speed.avoid import avoided
 from ..results.stored_study import parameters
 from ..results.titles import titled
@@ -12,8 +17,10 @@ from .analysis import Analysis
 from .avoid import avoid_data
 from .blocks import Part, Text
 from .columns import COLUMNS
-from .kept_columns import columns_of
-from .kept_sections import sections_of
+from .kept_columns import columns_of, keep_columns
+from .kept_columns import kept as kept_columns
+from .kept_sections import keep_sections, sections_of
+from .kept_sections import kept as kept_sections
 from .kwave_words import kwave_line
 from .left_out import with_lines
 from .sections import SECTIONS
@@ -62,3 +69,35 @@ def _tables(results: xr.Dataset) -> dict[str, DataTable]:
     tables = [section.tables(results) for section in sections_of(results)]
     filled = {name: table for each in tables for name, table in each.items() if any(table.values())}
     return filled | ({"speeds.csv": avoid_data(avoided(results))} if over_speed(results) else {})
+
+
+def render(results: xr.Dataset, results_sha256: str = "") -> dict[str, Content]:
+    """All files of the report, by name; `/` in a name stands for a folder.
+
+    The page names the hash of the results' file.
+    """
+    return analysis_of_study(results).files(results_sha256)
+
+
+def keep(results: xr.Dataset) -> xr.Dataset:
+    """The results with what sections and columns of plug-ins show, and where these come from.
+
+    The report can then be made again without them.
+    """
+    with collected() as lines:
+        kept = keep_sections(keep_columns(results))
+    kept = with_lines(kept, lines, (SECTIONS, COLUMNS))
+    stated = json.loads(kept.attrs.get("plugins") or "{}")
+    return kept.assign_attrs(plugins=canonical_json({**stated, **plugins()}))
+
+
+def check_kept(results: xr.Dataset) -> None:
+    """Refuse results whose kept sections or columns are none.
+
+    Raises
+    ------
+    SchemaError
+        Names the attribute.
+    """
+    kept_sections(results)
+    kept_columns(results)

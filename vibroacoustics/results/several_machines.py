@@ -23,8 +23,7 @@ from ..levels.beats import (
 )
 from ..mechanics.added import third_octave_number
 from ..sound.ingredients import Ingredients, SoundBands, SoundLines
-from ..sound.machine_run import MachineRun
-from ..sound.on_base_frame import FrameSound, Lined, on_base_frame
+from ..sound.on_base_frame import FrameSound, Lined, MachineRun, on_base_frame
 from ..sound.together import line_name, machine_line, together
 from ..study.study import Study
 from .estimates import estimate, is_sampled

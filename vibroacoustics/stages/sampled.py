@@ -15,8 +15,7 @@ from ..uncertainty.every_sample import in_every_sample
 from ..uncertainty.evidence import Evidence, Pairs
 from ..uncertainty.prior_ensemble import PriorEnsemble
 from ..uncertainty.sample_variables import SampleValues
-from ..uncertainty.sampled_forces import force_variables, sampled_forces
-from ..uncertainty.sampled_tones import sampled_tones
+from ..uncertainty.sampled_forces import force_variables, sampled_forces, sampled_tones
 from .chain import Chain
 
 

@@ -1,5 +1,6 @@
-"""A measured baseline: third octaves and shaft orders at microphones over speed."""
+"""A measured baseline at microphones over speed, and hammer tests of the floor under the feet."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any, Final, Literal
 
@@ -9,9 +10,39 @@ from pydantic import Field, field_validator
 from ..base.decibel import power_of_level
 from ..base.parameters import Contradictions, Parameters
 from ..mechanics.added import third_octave_number
-from .measured_floor import MeasuredFloor
-from .measured_shell import MeasuredShell
+from .measured_shell import Hit, MeasuredShell
 from .measured_sound_path import MeasuredSoundPath
+
+
+class FloorPoint(Hit):
+    """A point of the floor under a foot; along z, or along x or y for both."""
+
+    foot: str
+    """Its name."""
+
+    @property
+    def is_vertical(self) -> bool:
+        """Whether it is hit up or down."""
+        return self.direction[1] == "z"
+
+
+class MeasuredFloor(Parameters):
+    """Driving-point frequency responses under the feet, in place of a rigid floor."""
+
+    frequency_responses: tuple[str, ...] = Field(min_length=1)
+    units: dict[str, str] = Field(default_factory=dict)
+    points: dict[str, FloorPoint] = Field(min_length=1)
+
+    def contradictions(self) -> Contradictions:
+        counted = Counter((point.foot, point.is_vertical) for point in self.points.values())
+        for (foot, is_vertical), count in counted.items():
+            if count > 1:
+                along = "up and down" if is_vertical else "sideways"
+                yield f"points: {count} points {along} under {foot}, must be one"
+        for foot, is_vertical in counted:
+            if not is_vertical and (foot, True) not in counted:
+                yield f"points: {foot} has a point sideways and none up and down"
+
 
 LOWEST_HZ: Final = 10.0
 HIGHEST_HZ: Final = 20000.0

@@ -1,18 +1,43 @@
-"""Published and measured values of a study, from CSV files."""
+"""Evidence on a machine: published and measured values, from CSV files."""
 
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
+
+from pydantic import Field
 
 from ..base.column_file import read_layouts
 from ..base.column_head import Layout
 from ..base.csv_form import number_form
 from ..base.csv_text import read_lines
 from ..base.errors import ParameterError
-from .evidence import Evidence
-from .file_names import resolve_file_names
+from ..base.parameters import Parameters
+from .kinds import resolve_file_names
+from .measured_spectrum import MeasuredSpectrum
 from .reader import Reader
 from .toml_files import beside
+
+
+class PublishedForce(Parameters):
+    """Force of a moving part at once per revolution, peak."""
+
+    part: str
+    speed_rpm: float = Field(gt=0.0)
+    force_1x_n: float
+    deviation_n: float = Field(ge=0.0)
+    """Standard uncertainty of what is published."""
+    proportional_to: str = ""
+    """Values of the machine's file, dotted, apart by blanks; their ranges make the force's."""
+    source: str
+
+
+class Evidence(Parameters):
+    """Published values beside which a report sets its results, and a measured spectrum."""
+
+    forces: tuple[PublishedForce, ...] = ()
+    spectrum: MeasuredSpectrum | None = None
+    """Spectrum that weights the samples together with the published level."""
+
 
 MAXIMUM_BYTES: Final = 1_000_000
 _SPECTRUM: Final = "spectrum"

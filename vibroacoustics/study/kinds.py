@@ -1,4 +1,4 @@
-"""Tables whose key `kind` names the class of their parameters."""
+"""Tables whose key `kind` names the class of their parameters, and names of data files in them."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,7 +7,37 @@ from ..base.errors import ParameterError
 from ..base.parameters import Kind, split_kind
 from ..base.registry import Registry
 from .reader import Reader
+from .toml_files import beside
 from .wording import checked
+
+
+def resolve_file_names(table: dict[str, Any], reader: Reader, prefix: tuple[str, ...] = ()) -> None:
+    """Make every `file` of a table and of its tables relative to the file that holds it.
+
+    Parameters
+    ----------
+    table : in SI; changed in place
+    reader : reader of the file
+    prefix : keys of the table
+    """
+    for key, value in table.items():
+        keys = (*prefix, key)
+        if isinstance(value, dict):
+            resolve_file_names(value, reader, keys)
+        elif key == "file" and isinstance(value, str) and value:
+            if reader.sources_required:
+                _require_source(value, reader, keys)
+            table[key] = str(beside(reader.file(keys), value))
+
+
+def _require_source(name: str, reader: Reader, keys: tuple[str, ...]) -> None:
+    """Add a missing source of a data file to the problems of the reader."""
+    where = reader.file_and_key(keys)
+    recorded = any(record.field == ".".join(keys) for record in reader.records)
+    if not recorded and f"{where}: source is missing" not in reader.problems:
+        reader.problems.append(
+            f'{where} = {name}: needs a source: {{ value = "{name}", source = "…" }}'
+        )
 
 
 def of_kind(

@@ -16,9 +16,7 @@ from .baseline_files import read_baseline
 from .combinations import joined_machine, take_combinations, validate_options
 from .evidence_files import read_published_table, take_evidence
 from .failing import without_failing, without_source
-from .file_names import resolve_file_names
-from .given_values import take_given
-from .kinds import validate_kinds
+from .kinds import resolve_file_names, validate_kinds
 from .machine_file import (
     change_of,
     operating_points,
@@ -26,14 +24,13 @@ from .machine_file import (
     read_redesign,
     take_changes,
 )
-from .plausible import warn_of_doubts
+from .plausible import take_given, take_titles, warn_of_doubts
 from .ranges import is_used, ranges_of, tables_used
 from .reader import Reader
 from .record import ParameterRecord
 from .samples import warn_of_contradictions
 from .structure_borne import StructureBorne
 from .study import Study
-from .title_tables import take_titles
 from .toml_files import Written, beside, read_toml, read_with_base
 from .wording import checked, first_lines, validated
 

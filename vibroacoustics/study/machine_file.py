@@ -9,8 +9,7 @@ from ..base.units import si_key
 from ..machine.machine import MACHINES, Machine
 from ..machine.option import OPTIONS
 from ..machine.speed_growth import SOURCE, Growth, LevelPair, growth_of_pair
-from .file_names import resolve_file_names
-from .kinds import of_kind
+from .kinds import of_kind, resolve_file_names
 from .reader import Reader
 from .record import ParameterRecord
 from .toml_files import is_quantity, leaves, read_toml

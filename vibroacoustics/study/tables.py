@@ -12,7 +12,7 @@ from ..machine.option import AnyOption
 from ..machine.source import AnySource
 from .baseline import MeasuredSound
 from .design import Design
-from .evidence import Evidence
+from .evidence_files import Evidence
 from .machines import BaseFrame, StudyMachine
 from .operation import Operation
 from .radiation import RadiationSettings

@@ -18,8 +18,7 @@ from ..study.sampling import Sample
 from ..study.study import Study
 from ..transfer.path import ShellPath
 from ..transfer.wall_mobility import Reference, ShellMobilities, Wall, wall_mobility, wall_of
-from .shell_agreement import ShellAgreement, Tolerances, shell_agreement
-from .shell_features import Features, features
+from .shell_features import Features, ShellAgreement, Tolerances, features, shell_agreement
 
 MOST_TRIED: Final = 8192
 """Samples that are held against a test."""

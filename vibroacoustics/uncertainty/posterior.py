@@ -1,29 +1,135 @@
-"""Samples of a study's ranges, weighted by published data and by measurements."""
+"""Samples of a study's ranges, weighted by data, and how far data are from the model before."""
 
 from collections.abc import Callable, Sequence
 from itertools import chain as joined
+from typing import Final
 
 import numpy as np
 import xarray as xr
-from scipy.special import logsumexp
+from scipy.special import logsumexp, ndtr
 
 from ..base.arrays import Array, IndexArray
-from ..base.decibel import power_of_level
+from ..base.constants import REFERENCE_PRESSURE_PA
+from ..base.decibel import level_of_power, power_of_level
 from ..base.progress import Progress
 from ..base.quantiles import INTERVAL, weighted_quantiles
 from ..base.vocabulary import stamped
-from ..levels.agreement import LEVELS_DB
+from ..levels.agreement import LEVELS_DB, Datum
+from ..levels.by_source import GAIN_BANDS
 from ..levels.labelled import level
 from ..levels.nominal import Sound
+from ..levels.remainder import in_gain_bands
 from ..levels.spectrum_data import SpectrumData
 from ..study.samples import batches_of_samples, with_sample
 from ..study.sampling import Sample
-from .conflict import conflict_variables
-from .evidence import Evidence, with_gain
+from .evidence import PAIRS, Evidence, with_gain
 from .hammer_test import HammerTest
 from .prior_ensemble import PriorEnsemble, Weighted, prior_ensemble_of
 from .share_variables import level_shares
-from .spectrum_variables import spectrum_variables
+
+_LEAST_WEIGHT = 1e-4
+"""Relative to the largest one: samples of less weight do not change a quantile."""
+
+
+def spectrum_variables(
+    evidence: Evidence,
+    spectrum: SpectrumData,
+    ensemble: PriorEnsemble,
+    expected: Array,
+    weight: Array,
+) -> xr.Dataset:
+    """Label measured third octaves, and those of the machine before and after the data.
+
+    Parameters
+    ----------
+    evidence : data that weigh
+    spectrum : one of them
+    ensemble : weighted samples
+    expected : bands before the data, without discrepancy, shape (sample, band), Pa²
+    weight : weights of these samples, shape (sample,)
+    """
+    counting = np.flatnonzero(ensemble.weight[0] > _LEAST_WEIGHT)
+    after = np.concatenate(
+        [_bands(evidence, spectrum, ensemble, number) for number in counting.tolist()]
+    )
+    by_pair = np.repeat(ensemble.weight[0][counting], PAIRS)
+    labelled = {
+        "spectrum_measured": spectrum.level_dba,
+        "spectrum_before": _quantiles(expected[:, spectrum.column], weight),
+        "spectrum_after": _quantiles(after[:, spectrum.column], by_pair),
+    }
+    band_hz = [GAIN_BANDS[number].nominal_hz for number in spectrum.column.tolist()]
+    return stamped(labelled, {"spectrum_band": band_hz, "datum_quantile": list(INTERVAL)})
+
+
+def _quantiles(bands: Array, weight: Array) -> Array:
+    level = np.asarray(level_of_power(bands / REFERENCE_PRESSURE_PA**2))
+    return weighted_quantiles(level, weight, INTERVAL)
+
+
+def _bands(
+    evidence: Evidence, spectrum: SpectrumData, ensemble: PriorEnsemble, number: int
+) -> Array:
+    """Bands of the pairs of a sample at the point of a spectrum, shape (pair, band), Pa²."""
+    sound, machine = ensemble.batch.sounds[number], ensemble.batch.machines[number]
+    pairs = evidence.pairs_of(sound, machine, number)
+    noise = in_gain_bands(evidence.unmodelled_pa2(pairs, machine))
+    modelled = with_gain(evidence.mutual(sound, spectrum), pairs.discrepancy.gain)
+    return np.asarray(modelled + evidence.growth(machine, spectrum) * noise)
+
+
+_MOST: Final = 1000
+"""Number of samples of the prior predictive of all data together."""
+
+
+def conflict_variables(
+    data: Sequence[Datum], expected: Array, weight: Array, generator: np.random.Generator
+) -> xr.Dataset:
+    """Label the data, what is expected of them, and the tails of the prior predictive.
+
+    Parameters
+    ----------
+    data : published and measured ones
+    expected : expected data of each sample with a solution, shape (datum, sample)
+    weight : weights of the samples before the data, shape (sample,)
+    generator : generator of random numbers
+    """
+    values, deviations = (
+        np.array([getattr(datum, name) for datum in data]) for name in ("value", "deviation")
+    )
+    share = weight / weight.sum()
+    below = ndtr((values[:, None] - expected) / deviations[:, None]) @ share
+    labelled = {
+        "datum_value": values,
+        "datum_deviation": deviations,
+        "datum_expected": [weighted_quantiles(row, weight, INTERVAL) for row in expected],
+        "datum_tail": np.minimum(below, 1.0 - below),
+        "conflict_tail": _tail_of_all(
+            expected / deviations[:, None], values / deviations, share, generator
+        ),
+    }
+    names = {"datum": [datum.name for datum in data], "datum_quantile": list(INTERVAL)}
+    return stamped(labelled, names)
+
+
+def _tail_of_all(
+    expected: Array, values: Array, share: Array, generator: np.random.Generator
+) -> float:
+    """Probability that the density of the prior predictive is at most that at the data.
+
+    Parameters
+    ----------
+    expected : relative to the deviations, shape (datum, sample)
+    values : values of the data, relative to the deviations, shape (datum,)
+    share : weights that sum to one, shape (sample,)
+    generator : generator of random numbers
+    """
+    picked = generator.choice(share.size, _MOST, p=share)
+    predicted = expected[:, picked] + generator.standard_normal((len(expected), _MOST))
+    points = np.column_stack([predicted, values])
+    square = sum((point[:, None] - row) ** 2 for point, row in zip(points, expected, strict=True))
+    density = np.exp(-0.5 * np.asarray(square)) @ share
+    return float((density[:-1] <= density[-1]).mean())
 
 
 def posterior(

@@ -1,6 +1,6 @@
-"""Forces and reported figures of a sample, where they are not the nominal ones."""
+"""Forces, reported figures and tones of a sample, where they are not the nominal ones."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -9,13 +9,42 @@ import xarray as xr
 from ..base.arrays import Array
 from ..base.ellipse import semi_major_axis
 from ..base.units import shaft_frequency_hz
+from ..levels.axes import LevelAxes
+from ..levels.baseline import baseline_orders, baseline_variables, points_of
+from ..levels.sample_levels import Deviating, Levels, line_squares
 from ..machine.cases import Cases
 from ..machine.source import Case, CaseKey
 from ..mechanics.loads import PortLoads, summed
+from ..sound.tone_spectra import ToneSpectra, noise_square, tone_levels
 from ..sources.labelled import figures_of
 from ..study.study import Study
 from ..transfer import on_mounts
 from ..transfer.foot_figures import with_foot_figures
+
+
+def sampled_tones(
+    study: Study, axes: LevelAxes, names: Sequence[str], sample: Deviating, levels: Levels
+) -> Levels:
+    """Judge the tones of a sample; with a baseline, in what was measured.
+
+    Parameters
+    ----------
+    study : with its baseline
+    axes : axes of the levels
+    names : names of the lines
+    sample : sound with its discrepancies
+    levels : noise of the sources and unmodelled noise in third octaves
+    """
+    noise = noise_square(levels["noise_band_level"], levels["unmodelled_band_level"])
+    spectra = ToneSpectra(*line_squares(axes, sample, names), noise)
+    points = points_of(study, axes)
+    if not points:
+        return tone_levels(spectra)
+    measured = [baseline_variables(study, axes, points, sound) for sound in sample.sounds]
+    band_db = np.array([part["baseline_band_level"].values for part in measured])
+    order_db = np.array([baseline_orders(study, axes, points, sound) for sound in sample.sounds])
+    return tone_levels(spectra.with_measured(names, axes.measured_orders, order_db, band_db))
+
 
 AMPLITUDES: Final = ("force_amplitude", "moment_amplitude", "foot_force_amplitude")
 FIGURES: Final = "reported_figure"

@@ -226,13 +226,13 @@ def test_what_only_looks_linear_takes_runs(kinked):
 
 
 def test_chunks_and_order_of_designs_change_nothing(monkeypatch):
-    from vibroacoustics.design.engine import linear_designs
+    from vibroacoustics.design.engine import joined_designs
 
     free = "machine.mounts.lateral_stiffness_n_per_mm"
     variables = {"options.weight.mass_g": "range = [1, 100]", free: MOUNTS[free]}
     engine = engine_of(study_with(WEIGHT + design_table('"weight"', variables)), (Need("sound"),))
     designs = engine.space.sample("sobol", 64)
     together = engine.outcome(designs).results[Need("sound")]
-    monkeypatch.setattr(linear_designs, "CHUNK_BYTES", 1.0)
+    monkeypatch.setattr(joined_designs, "CHUNK_BYTES", 1.0)
     one_by_one = engine.outcome(designs[::-1]).results[Need("sound")][::-1]
     np.testing.assert_allclose(one_by_one, together, rtol=1e-13)

@@ -17,7 +17,7 @@ from vibroacoustics.design.engine.memo import Budget, Memo
 from vibroacoustics.design.engine.needs import Need
 from vibroacoustics.design.engine.on_mounts import random_squares
 from vibroacoustics.design.engine.sound_path import RandomResponse
-from vibroacoustics.design.listing import listed_grid
+from vibroacoustics.design.sweep_values import listed_grid
 from vibroacoustics.levels.by_source import GAIN_BANDS
 from vibroacoustics.levels.nominal import NominalSound
 from vibroacoustics.pipeline.study import chain_with

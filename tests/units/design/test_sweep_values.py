@@ -8,15 +8,15 @@ from design_studies import WEIGHT, design_table, study_with
 from support import made_up_radiation
 
 from vibroacoustics.base.arrays import Array
-from vibroacoustics.design import listing, sweep_values
+from vibroacoustics.design import sweep_values
 from vibroacoustics.design.evaluation import Evaluation
 from vibroacoustics.design.explaining import best_by_one
-from vibroacoustics.design.listing import listed_grid, listed_sample
 from vibroacoustics.design.plan import Plan
 from vibroacoustics.design.problem import Problem
 from vibroacoustics.design.search.front import nondominated
-from vibroacoustics.design.splitting import Splitting
+from vibroacoustics.design.statistics import Splitting
 from vibroacoustics.design.sweep import Prepared, as_dataset, listing_of, swept
+from vibroacoustics.design.sweep_values import listed_grid, listed_sample
 
 TWO = """
 [design.objectives.second]
@@ -61,7 +61,7 @@ def test_report_of_many_designs_has_the_best_of_all(
     """The front and the best few are those of all designs, though few are shown."""
     monkeypatch.setattr(sweep_values, "MOST_SHOWN", 40)
     monkeypatch.setattr(sweep_values, "_FEW", 3)
-    monkeypatch.setattr(listing, "BLOCK", 64)
+    monkeypatch.setattr(sweep_values, "BLOCK", 64)
     problem = problem_of(more)
     prepared = Prepared(problem, listing_of(problem), Plan(COUNT, COUNT, 1, 0.0, 0.0, 0.0, {}))
     values = swept(prepared)

@@ -8,8 +8,8 @@ import pytest
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.processes import distributing, side_by_side
 from vibroacoustics.design.workers import study_task
+from vibroacoustics.design.workers.scheduler import apply, travelling
 from vibroacoustics.design.workers.study_task import requirement
-from vibroacoustics.design.workers.travelling import apply, travelling
 
 pytest.importorskip("cloudpickle")
 

@@ -21,8 +21,7 @@ from vibroacoustics.commands import cli
 from vibroacoustics.design.evaluation import Evaluation, joined
 from vibroacoustics.design.workers import scheduler
 from vibroacoustics.design.workers.scheduler import SchedulerAccess, opened_scheduler
-from vibroacoustics.design.workers.spread import local_workers, spread
-from vibroacoustics.design.workers.study_task import requirement
+from vibroacoustics.design.workers.study_task import local_workers, requirement, spread
 
 PIECE = 8
 DESIGNS = np.random.default_rng(2).normal(size=(400, 3))

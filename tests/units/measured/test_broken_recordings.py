@@ -56,8 +56,7 @@ def last_bit(file: Path) -> None:
     """Both channels in 16 bits, of which the second has noise of the last bit alone."""
     from scipy.io import wavfile
 
-    from vibroacoustics.recordings.riff import with_comment
-    from vibroacoustics.recordings.stated_scale import scale_comment
+    from vibroacoustics.recordings.riff import scale_comment, with_comment
 
     noise = np.random.default_rng(3).integers(-1, 2, SAMPLES)
     stored = np.stack([16384 * sound(77)[0] / 1.5, noise]).astype(np.int16)

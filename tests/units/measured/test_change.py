@@ -9,11 +9,12 @@ from vibroacoustics.measured.band import (
     TRIED,
     amplitude_band,
     chosen_truncation,
+    error_of_coherence,
+    error_of_repeats,
     power_band,
     truncation_errors,
 )
 from vibroacoustics.measured.change import absorber_stiffness, mass_stiffness, mount_stiffness
-from vibroacoustics.measured.scatter import error_of_coherence, error_of_repeats
 
 OMEGA = 2.0 * np.pi * FREQUENCY
 

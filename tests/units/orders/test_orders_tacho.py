@@ -12,7 +12,7 @@ from vibroacoustics.orders.pulse_faults import number_pulses
 from vibroacoustics.orders.pulse_pattern import sampling_note
 from vibroacoustics.orders.recorded_speed import StandstillWarning, recorded_speed
 from vibroacoustics.orders.rpm_channel import rpm_motion
-from vibroacoustics.orders.smoothing import smooth_curve
+from vibroacoustics.orders.speed_comb import smooth_curve
 from vibroacoustics.orders.tacho import tacho_motion
 from vibroacoustics.recordings import LabelledBlocks, label_recording
 from vibroacoustics.study.order_analysis import SpeedChannel

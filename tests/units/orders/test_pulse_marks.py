@@ -8,8 +8,7 @@ import pytest
 import vibroacoustics as va
 from vibroacoustics.orders.angle_channel import is_sawtooth
 from vibroacoustics.orders.pulse_edges import pulse_times
-from vibroacoustics.orders.pulse_marks import joint_sizes, mark_angles
-from vibroacoustics.orders.tacho import tacho_motion
+from vibroacoustics.orders.tacho import joint_sizes, mark_angles, tacho_motion
 
 RATE_HZ = 25600.0
 TIME_S = np.arange(int(10.0 * RATE_HZ)) / RATE_HZ

@@ -28,7 +28,7 @@ from vibroacoustics.report.sections.in_room import (
     sones,
 )
 from vibroacoustics.results.size import result_bytes
-from vibroacoustics.sound.gain import full_scale_of
+from vibroacoustics.sound.files import full_scale_of
 from vibroacoustics.sound.ingredients import ingredients
 from vibroacoustics.sound.loudness import loudness_of
 from vibroacoustics.stages import room as room_stage

@@ -31,8 +31,7 @@ from vibroacoustics.recordings.quantities import QUANTITIES, find_quantity, quan
 from vibroacoustics.recordings.readers import csv_table
 from vibroacoustics.recordings.recorded import Request
 from vibroacoustics.recordings.remarks import RecordingWarning
-from vibroacoustics.recordings.riff import with_comment
-from vibroacoustics.recordings.stated_scale import scale_comment, stated_scales
+from vibroacoustics.recordings.riff import scale_comment, stated_scales, with_comment
 from vibroacoustics.recordings.time_axis import even_part
 from vibroacoustics.results import storage
 

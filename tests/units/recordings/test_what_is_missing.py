@@ -9,7 +9,7 @@ from trade_files import SIGNALS, xlsx
 
 from vibroacoustics.base.errors import ParameterError, StorageError
 from vibroacoustics.recordings import open_recording, read_recording
-from vibroacoustics.recordings.other_formats import ADVICE
+from vibroacoustics.recordings.asked import ADVICE
 from vibroacoustics.recordings.reader import readers_by_suffix
 
 

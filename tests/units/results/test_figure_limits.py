@@ -8,7 +8,7 @@ from support import tiny_run
 from vibroacoustics import FigureLimit, compare, read_figure_limits
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.report import broken_lines
-from vibroacoustics.report.compared.ratings import ratings_sentences
+from vibroacoustics.report.compared.page import ratings_sentences
 from vibroacoustics.results.figure_limits import Compared, check_figures
 from vibroacoustics.results.rating_changes import rating_changes
 

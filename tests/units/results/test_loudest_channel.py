@@ -5,8 +5,8 @@ import pytest
 
 import vibroacoustics as va
 from vibroacoustics.levels import a_weighting
-from vibroacoustics.report.loudest_words import loudest_sentences
 from vibroacoustics.report.recordings import analysis_of_orders
+from vibroacoustics.report.run_up_tables import loudest_sentences
 from vibroacoustics.results.over_speed.loudest_channel import loudest_channel, orders_at_speeds
 
 RATE_HZ = 4096.0

@@ -5,7 +5,7 @@ import pytest
 
 import vibroacoustics as va
 from vibroacoustics.measured.recorded_tones import recorded_tones
-from vibroacoustics.sound.drift import drift_octaves
+from vibroacoustics.sound.mean_audibility import drift_octaves
 
 RATE_HZ = 16000.0
 

@@ -8,7 +8,7 @@ from scipy.io import wavfile
 from support import assert_refused, command_here
 
 import vibroacoustics as va
-from vibroacoustics.sound import files, gain
+from vibroacoustics.sound import files
 from vibroacoustics.sound.rendering import rendered
 
 
@@ -21,7 +21,7 @@ def pascal(path, full_scale):
 
 def test_files_hold_the_sound_at_one_stated_gain(tmp_path, results):
     paths = va.listen(results, tmp_path, ["none", "lanchester"], duration_s=1.0)
-    full_scale = gain.full_scale_of(results)
+    full_scale = files.full_scale_of(results)
     assert [path.name for path in paths] == [
         f"{option}_front_1m_900rpm_{full_scale:g}Pa.wav" for option in ("none", "lanchester")
     ]
@@ -40,18 +40,18 @@ def test_the_calibration_tone_has_its_level(tmp_path, results):
 
 
 def test_no_option_exceeds_full_scale(results):
-    full_scale = gain.full_scale_of(results)
+    full_scale = files.full_scale_of(results)
     for option in results["option"].values:
         for receiver in results["receiver"].values:
             parts = va.sound.ingredients(results, str(option), str(receiver), 1200.0)
             assert np.abs(rendered(parts, 96000)).max() < full_scale
-    assert gain.full_scale_of(results, 140.0) == 500.0
+    assert files.full_scale_of(results, 140.0) == 500.0
     silent = results.copy()
     silent["pressure_line"] = 0.0 * silent["pressure_line"]
     for name in ("noise_band_level", "unmodelled_band_level"):
         silent[name] = 0.0 * silent[name] - 300.0
     quiet = silent.drop_vars(["baseline_band_level", "baseline_order_level"])
-    assert gain.full_scale_of(quiet) == 2e-5
+    assert files.full_scale_of(quiet) == 2e-5
 
 
 @pytest.mark.parametrize("kind", ["wav", "flac"])
@@ -63,7 +63,7 @@ def test_a_file_states_its_full_scale_to_who_reads_it(tmp_path, results, kind):
     assert found["channel_unit"].values == ["Pa"]
     parts = va.sound.ingredients(results, "none", "front_1m", 900.0)
     expected = rendered(parts, found.sizes["time"])
-    full_scale = gain.full_scale_of(results)
+    full_scale = files.full_scale_of(results)
     np.testing.assert_allclose(found.values[0], expected, atol=2.0**-23 * full_scale)
 
 

@@ -7,7 +7,7 @@ from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.radiation.rooms.room import read_library
 from vibroacoustics.study.coarse import coarse
 from vibroacoustics.study.loading import load_study
-from vibroacoustics.study.room_materials import library
+from vibroacoustics.study.room import library
 
 KITCHEN = {
     "size_mm": [4000.0, 3000.0, 2500.0],

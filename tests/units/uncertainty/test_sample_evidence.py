@@ -11,10 +11,9 @@ from vibroacoustics.levels.agreement import LEVELS_DB, Datum, log_weight_of_poin
 from vibroacoustics.levels.by_source import GAIN_BANDS, SourceSound, gain_band_number, source_sound
 from vibroacoustics.mechanics.received_sound import NoisePower
 from vibroacoustics.study.uncertainty import Uncertainty
-from vibroacoustics.uncertainty.conflict import conflict_variables
 from vibroacoustics.uncertainty.discrepancy import Discrepancy
 from vibroacoustics.uncertainty.evidence import PAIRS, Evidence, systematic, with_gain
-from vibroacoustics.uncertainty.posterior import _model_alone
+from vibroacoustics.uncertainty.posterior import _model_alone, conflict_variables
 
 SETTINGS = Uncertainty()
 NONE = Uncertainty(

@@ -15,8 +15,12 @@ from vibroacoustics.stages.shell import hammer_test
 from vibroacoustics.study.samples import batches_of_samples
 from vibroacoustics.transfer.wall_mobility import wall_of, wall_points
 from vibroacoustics.uncertainty.hammer_test import CHANCE
-from vibroacoustics.uncertainty.shell_agreement import Tolerances, shell_agreement
-from vibroacoustics.uncertainty.shell_features import clear_peaks, features
+from vibroacoustics.uncertainty.shell_features import (
+    Tolerances,
+    clear_peaks,
+    features,
+    shell_agreement,
+)
 
 TOLERANCES = Tolerances(3.0, 0.02, 0.3)
 KEYS = [("variation", "mobility_change_db"), ("variation", "frequency_factor_ratio"),

@@ -13,7 +13,7 @@ from vibroacoustics.levels.spectrum_data import rows_by_octave, spectrum_data
 from vibroacoustics.study.uncertainty import Uncertainty
 from vibroacoustics.uncertainty.discrepancy import DISCREPANCIES, WITH_SPECTRUM, Discrepancy
 from vibroacoustics.uncertainty.evidence import PAIRS
-from vibroacoustics.uncertainty.spectrum_variables import spectrum_variables
+from vibroacoustics.uncertainty.posterior import spectrum_variables
 
 BAND_HZ = (400.0, 500.0, 630.0, 1600.0, 2000.0)
 COLUMN = gain_band_number(np.array(BAND_HZ))

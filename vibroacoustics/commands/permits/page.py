@@ -7,8 +7,7 @@ from typing import Final
 import numpy as np
 
 from ...base import rounding
-from ...permits.file import PermitFile
-from ...permits.label import LabelLimit, label_limits
+from ...permits.file import LabelLimit, PermitFile, label_limits
 from ...permits.rule import PermitRule
 from ...permits.verdict import FARTHEST_M, PermitVerdict, judged
 from ...report.analysis import Analysis

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...base.arrays import Array, ComplexArray
 from ...base.quantiles import INTERVAL
-from ...measured.files import naming_settings
+from ...measured.band import naming_settings
 from ...measured.trial_runs.measured_runs import (
     MeasuredRuns,
     measured_runs,

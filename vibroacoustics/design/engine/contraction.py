@@ -16,9 +16,8 @@ from ...machine.option import Option
 from ...mechanics.ports import BodyPort
 from ...study.sampling import Sample
 from ...study.study import Study
-from ..changed import is_plain
 from ..keys import acts_on
-from ..space import OPTION, Space
+from ..space import OPTION, Space, is_plain
 from .layout import Layout
 from .machine_sample import MachineSample
 from .memo import Memo, Result

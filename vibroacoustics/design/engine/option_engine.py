@@ -14,8 +14,7 @@ from .contraction import Contraction, Layouts
 from .deviating import Gains
 from .expansion import Expansion
 from .hearing import Hearing
-from .joined_designs import Joined, joined_designs
-from .linear_designs import LinearDesigns
+from .joined_designs import Joined, LinearDesigns, joined_designs
 from .needs import Need, ResponsesByNeed
 from .on_mounts import Lines, lines_of
 from .probe import Probe

@@ -1,9 +1,4 @@
-"""Workers of a running scheduler of dask.distributed, which are reached over the network by TLS.
-
-A scheduler runs whatever functions its clients send, and clients unpickle what workers answer:
-whoever can speak with it has the rights of all of them. So TLS with certificates of both sides is
-the rule, and its absence must be asked for.
-"""
+"""Workers of a scheduler of dask.distributed, reached by TLS, and functions as bytes for them."""
 
 import asyncio
 import warnings
@@ -11,14 +6,66 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache, lru_cache
+from io import BytesIO
 from itertools import islice
 from pathlib import Path
 from typing import Any, Final
 
 from ...base.errors import ParameterError
+from ...base.linear_algebra import one_thread_of_linear_algebra
 from ...base.processes import ParallelMap
 from ...base.worker_process import Item, Result
-from .travelling import apply, travelling
+from .study_task import meet
+
+_CACHED = type(cache(lambda: None))
+
+
+def travelling(function: Callable[[Any], Any]) -> bytes:
+    """Return a function with all that it knows; caches travel empty."""
+    from cloudpickle import Pickler
+
+    class Travelling(Pickler):  # type: ignore[misc]
+        """Pickler that also takes caches of functions that no module holds."""
+
+        def reducer_override(self, thing: Any) -> Any:
+            """Return how something is made again."""
+            if isinstance(thing, _CACHED) and "<locals>" in getattr(
+                thing, "__qualname__", "<locals>"
+            ):
+                return _cached, (thing.__wrapped__, thing.cache_parameters()["maxsize"])
+            return super().reducer_override(thing)
+
+    content = BytesIO()
+    Travelling(content).dump(function)
+    return content.getvalue()
+
+
+def apply(required: bytes, content: bytes, item: Any) -> Any:
+    """Apply a function to an item on a worker.
+
+    Parameters
+    ----------
+    required : requirement of the worker, from `requirement`
+    content : bytes of the function, from `travelling`
+    item : item of any kind
+    """
+    meet(required)
+    with one_thread_of_linear_algebra():
+        return _arrived(content)(item)
+
+
+@lru_cache(maxsize=2)
+def _arrived(content: bytes) -> Callable[[Any], Any]:
+    import pickle
+
+    function: Callable[[Any], Any] = pickle.loads(content)  # noqa: S301 - of who may run code here
+    return function
+
+
+def _cached(function: Callable[..., Any], most: int | None) -> Any:
+    return lru_cache(maxsize=most)(function)
+
 
 _CONNECTION_S: Final = 10.0
 _AHEAD: Final = 4

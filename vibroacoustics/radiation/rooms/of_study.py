@@ -14,8 +14,7 @@ from ...base.decibel import power_of_level
 from ...base.progress import Progress
 from ...base.vocabulary import RIGID_BODY_DOFS, stamped
 from ...machine.shell import Shell
-from ...study.room import StudyRoom
-from ...study.room_materials import Covering
+from ...study.room import Covering, StudyRoom
 from ...study.study import Study
 from ..interpolation import interpolant
 from ..patterns import SurfaceMotion

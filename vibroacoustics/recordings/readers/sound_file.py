@@ -7,7 +7,7 @@ from ...base.registry import register
 from ..claims import check_claim
 from ..reader import Reader
 from ..recorded import Recorded, Request, check_size
-from ..stated_scale import stated_scales
+from ..riff import stated_scales
 from ..wave64 import check_wave64
 
 _BITS: Final = {"PCM_S8": 8, "PCM_U8": 8, "PCM_16": 16, "PCM_24": 24, "PCM_32": 32}

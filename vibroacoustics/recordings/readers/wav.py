@@ -9,8 +9,7 @@ from ...base.errors import StorageError
 from ...base.registry import register
 from ..reader import Reader
 from ..recorded import Recorded, Request, Samples, by_channel, check_rate, check_size
-from ..riff import FLOAT, PCM, Wave, read_wave
-from ..stated_scale import stated_scales
+from ..riff import FLOAT, PCM, Wave, read_wave, stated_scales
 from . import sound_file
 
 

@@ -15,8 +15,18 @@ from ...results.stored_study import parameters
 from ..charts.svg import Picture
 from ..quantities import FOOT_FORCE, FORCE, MOMENT
 from . import svg
-from .machine import Loads, Outline, feet_m, loads, outline, rectangle
-from .view import View, axes_cross, bar, fitted
+from .machine import (
+    Loads,
+    Outline,
+    View,
+    axes_cross,
+    bar,
+    feet_m,
+    fitted,
+    loads,
+    outline,
+    rectangle,
+)
 
 WIDTH: Final = 360.0
 HEIGHT: Final = 400.0
