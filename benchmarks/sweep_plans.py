@@ -122,7 +122,8 @@ options.weight.mass_g = {{ range = [1, 100] }}
 {LEVEL_AND_FOOT}""",
 )
 PLAN: Final = re.compile(
-    r"about (?P<time>[\d.e+]+) (?P<unit>s|min|h), (?P<memory>[\d.e+]+) MB of memory, "
+    r"about (?P<time>[\d.e+]+) (?P<unit>s|min|h) after the start, "
+    r"(?P<memory>[\d.e+]+) MB of memory, "
     r"(?P<disk>[\d.e+]+) MB on disk"
 )
 SECONDS: Final = {"s": 1.0, "min": 60.0, "h": 3600.0}

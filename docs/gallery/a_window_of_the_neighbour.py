@@ -9,6 +9,11 @@ The rating level at a window, with the adjustment for tones, and the limit at ni
    :language: toml
 """
 
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -52,3 +57,15 @@ for option in ("none", "jacket"):
     case = {"speed": 2900.0, "option": option, "rating_window": "bedroom"}
     before, after = (one["rating_level"].sel(case).item() for one in (results, behind))
     print(f"{option}: {before:.1f} dB(A) without the fence, {after:.1f} dB(A) behind it")
+
+# %%
+# By the rules of an authority
+# ----------------------------
+# ``vibroacoustics permit`` judges a unit by its sound power, as an authority does: each line of the
+# calculation is on the page (:doc:`/permits`).
+folder = Path(tempfile.mkdtemp())
+command = [sys.executable, "-m", "vibroacoustics", "new", "permit", "--out", "unit"]
+subprocess.run(command, capture_output=True, check=True, cwd=folder)
+command = [sys.executable, "-m", "vibroacoustics", "permit", "unit/permit.toml", "--out", "permit"]
+done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=folder)
+print(done.stdout)

@@ -125,6 +125,20 @@ loss_factor_percent = 10.0
 # %%
 # On the command line
 # -------------------
+# ``vibroacoustics check-functions`` asks before whether the functions can be those of a passive
+# structure: each point by itself, then each pair.
+command = [
+    sys.executable,
+    "-m",
+    "vibroacoustics",
+    "check-functions",
+    "bench.toml",
+    "--out",
+    "check",
+]
+done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=folder)
+print(done.stdout)
+
 command = [sys.executable, "-m", "vibroacoustics", "predict", "bench.toml", "--out", "."]
 done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=folder)
 print(done.stdout)

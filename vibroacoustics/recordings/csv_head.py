@@ -121,11 +121,14 @@ def read_head(lines: Sequence[str], is_text: bool = False) -> Head:
         There is no row of numbers.
     """
     stated = STATED.fullmatch(lines[0].strip("\ufeff \r\n")) if lines else None
-    separators = (*SEPARATORS[:-1], BLANK, SEPARATORS[-1]) if is_text else SEPARATORS
-    for separator in (stated[1],) if stated else separators:
+    separators = SEPARATORS if stated is None else (stated[1],)
+    candidates = [(each, 2) for each in separators] + [(BLANK, 2)] * (is_text and not stated)
+    if "," in separators:
+        candidates.append((",", 1))  # blanks in a number are between its thousands
+    for separator, least in candidates:
         rows = [_row(line, separator) for line in lines]
         for number, fields in enumerate(rows):
-            if (len(fields) > 1 or separator == ",") and _are_numbers(fields):
+            if len(fields) >= least and _are_numbers(fields):
                 above = _with_date(rows[:number], lines[number], separator, len(fields))
                 is_headless = is_text and not _named(above, len(fields))
                 if is_headless:

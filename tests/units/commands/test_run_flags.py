@@ -164,4 +164,4 @@ def test_completion() -> None:
         [sys.executable, "-c", f"{program}; main()"],
         env=environment, capture_output=True, text=True, check=False,
     )  # fmt: skip
-    assert outcome.stdout.split() == ["check"]
+    assert sorted(outcome.stdout.split()) == ["check", "check-functions"]

@@ -112,7 +112,7 @@ def evidence_of(settings):
         flat_lowest_db=-26.0, flat_highest_db=4.0, near_level_db=-2.0, near_deviation_db=3.0,
         spectrum=lambda hertz: np.where(np.abs(hertz - 5000.0) < 50.0, 1.0, 0.0),
     )  # fmt: skip
-    noise = SimpleNamespace(level_dba=56.0, deviation_db=2.0, spectral_share=None)
+    noise = SimpleNamespace(likely_level_dba=56.0, likely_deviation_db=2.0, spectral_share=None)
     machine = SimpleNamespace(overall_noise=noise, remainder=remainder)
     study = SimpleNamespace(
         machine=machine, uncertainty=settings, baseline=None, catalogue_receiver="front",
