@@ -188,12 +188,16 @@ def bench_sheet(result: BalancedRuns) -> Analysis:
         for row, (sensor, speed) in enumerate(zip(runs.sensors, runs.speeds_rpm, strict=True))
     )
     head = ("Sensor", "rpm", "Now", "Next reading, 80 % with its scatter", "Unit")
+    turning, phases, state = conventions(result)
     steps = Bullets(
         (
-            *conventions(result)[::-1],
-            "Add the weights of the table. Run again; the readings should be within the bands.",
-            "Write the readings into the file as a run with these weights: the next answer uses "
-            "it.",
+            f"1. {state}",
+            "2. Add the weights of the table. The radius is that of their centre of mass. "
+            f"{turning}",
+            f"3. Run again. Eight of ten readings of 1×, {settings.amplitudes}, lie within the "
+            "bands.",
+            f"4. Write amplitude and phase into the file of the runs, as a run with these weights: "
+            f"the next answer uses it. {phases}",
         )
     )
     pictures = Pictures(tuple(_pictures(result)))
