@@ -127,15 +127,7 @@ loss_factor_percent = 10.0
 # -------------------
 # ``vibroacoustics check-functions`` asks before whether the functions can be those of a passive
 # structure: each point by itself, then each pair.
-command = [
-    sys.executable,
-    "-m",
-    "vibroacoustics",
-    "check-functions",
-    "bench.toml",
-    "--out",
-    "check",
-]
+command = [sys.executable, "-m", "vibroacoustics", "check-functions", "bench.toml"]
 done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=folder)
 print(done.stdout)
 
