@@ -88,3 +88,12 @@ def test_date_and_clock_in_two_columns(tmp_path, form, separator, head, start):
     recording = check(tmp_path / "a.txt", "mic")
     stated = "" if "%d" not in form else begin.isoformat(timespec="microseconds")
     assert recording.attrs.get("start_time", "") == stated
+
+
+@pytest.mark.parametrize("head", ["frequency [Hz]", "Freq [kHz]", "Frequenz [Hz]"])
+@pytest.mark.parametrize("rate_hz", [None, 1000.0])
+def test_a_spectrum_is_refused_with_and_without_a_sample_rate(tmp_path, head, rate_hz):
+    path = tmp_path / "spectrum.csv"
+    path.write_text(f"{head},mic [Pa]\n" + "".join(f"{10 * n},0.{n}\n" for n in range(9)))
+    with pytest.raises(ParameterError, match="a spectrum is no recording"):
+        read_recording(path, sample_rate_hz=rate_hz)

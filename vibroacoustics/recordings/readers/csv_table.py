@@ -19,6 +19,8 @@ from ..text_lines import MAXIMUM_LINE_BYTES, last_lines, lines, may_be_cut, open
 from ..time_stamps import DAY_NS, stamp_ns, stamp_text
 
 MAXIMUM_HEAD_LINES: Final = 200
+_FREQUENCIES: Final = {"frequency", "freq", "freq.", "f", "frequenz", "fréquence"}
+_HERTZ: Final = {"Hz", "kHz"}
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,10 @@ def read(request: Request) -> Recorded:
         head = read_head([text(line) for line in islice(lines(file), MAXIMUM_HEAD_LINES)], True)
         table, remarks = _complete(_Table(file, head, *_rows(file, head)))
         time = time_column(head)
+        if time is None and head.names[0].lower() in _FREQUENCIES and head.units[0] in _HERTZ:
+            raise ParameterError(
+                f"column {head.names[0]!r} is in {head.units[0]}: a spectrum is no recording"
+            )
         if time is not None and time != head.stamps and not head.units[time]:
             if head.is_headless and head.is_count and request.sample_rate_hz is None:
                 raise MissingError("its first column counts the rows: give sample_rate_hz")
