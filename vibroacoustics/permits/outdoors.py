@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from ..base.decibel import energy_sum
+from ..base.parameters import Contradictions
 from .iso_9613_2 import (
     A_WEIGHTING_DB,
     OCTAVES_HZ,
@@ -33,6 +34,11 @@ class OutdoorRule(PermitRule):
     screen_height_m: float = Field(default=2.0, gt=0.0, le=100.0)
     temperature_k: float = Field(default=283.15, ge=253.0, le=323.0)
     humidity_ratio: float = Field(default=0.7, ge=0.1, le=1.0)
+
+    def contradictions(self) -> Contradictions:
+        screen, distance = self.screen_distance_m, self.distance_m
+        if screen is not None and screen >= distance:
+            yield f"screen_distance_m = {screen:g} m: must be below distance_m = {distance:g} m"
 
 
 def outdoor_lines(unit: PermitUnit, window: OutdoorRule) -> list[CalculationLine]:

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from scipy.special import ndtr
 
-from ..base.decibel import energy_sum
+from ..base.decibel import energy_sum, power_of_level
 from .rule import CalculationLine, PermitRule, PermitUnit
 
 NEAREST_M: Final = 0.3
@@ -143,7 +143,7 @@ def probability(
 def _deviation_db(units: Mapping[str, PermitUnit], windows: Mapping[str, PermitRule]) -> float:
     """Deviation of the sum of units that err independently, to first order."""
     levels = np.array([windows[name].level_lines(unit)[-1].value for name, unit in units.items()])
-    share = np.exp(np.log(10.0) / 10.0 * (levels - energy_sum(levels, axis=0)))
+    share = power_of_level(levels - energy_sum(levels, axis=0))
     deviations = np.array([unit.deviation_db for unit in units.values()])
     return float(np.sqrt(np.sum((share * deviations) ** 2)))
 

@@ -39,6 +39,19 @@ def test_least_distances_of_the_lai_guide(emission, least_m):
     assert found == pytest.approx(least_m, abs=0.12)
 
 
+@pytest.mark.parametrize("period", ["day", "night"])
+def test_the_lai_guide_judges_the_night(period):
+    """40 - 6 dB in a general residential area; a limit of one's own is taken as it is."""
+    common = {"distance_m": 10.0, "period": period}
+    assert window("lai-guide", area="general-residential", **common).allowed_dba == 34.0
+    assert window("lai-guide", limit_dba=33.0, **common).allowed_dba == 33.0
+
+
+def test_a_screen_behind_the_window_is_refused():
+    with pytest.raises(ValueError, match="must be below distance_m = 6 m"):
+        window("nl-bbl", distance_m=6.0, screen_distance_m=8.0)
+
+
 def test_what_a_tone_costs_by_the_lai_guide():
     """62 dB(A) at a wall, general residential: 13.9 m without a tone, 19.7 m with 3 dB."""
     at = window("lai-guide", area="general-residential", distance_m=10.0, reflection_db=3)

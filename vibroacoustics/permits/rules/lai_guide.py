@@ -56,8 +56,10 @@ class LaiGuide(AreaRule):
 
     @property
     def allowed_dba(self) -> float:
-        """Night limit of the area less 6 dB."""
-        return super().allowed_dba - IRRELEVANT_DB
+        """Night limit of the area less 6 dB, whatever the period; or the given one as it is."""
+        if self.limit_dba is not None:
+            return self.limit_dba
+        return self.limits_dba[self.area]["night"] - IRRELEVANT_DB
 
 
 register(LaiGuide)

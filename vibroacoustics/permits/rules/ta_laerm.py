@@ -5,8 +5,9 @@ from typing import ClassVar, Final, Literal
 import numpy as np
 from pydantic import Field
 
-from ...base.decibel import level_of_power, power_of_level
+from ...base.decibel import level_of_power
 from ...base.registry import register
+from ...levels.rating import rating_level_db
 from ...study.rating_rules.ta_laerm import TA_LAERM
 from ..areas import AreaRule
 from ..outdoors import OutdoorRule, outdoor_lines
@@ -55,12 +56,11 @@ class Detailed(OutdoorRule, AreaRule):
         share = float(level_of_power(self.operating_hours / _DAY_HOURS))
         lines = [CalculationLine("operating time, 10 lg(t/16 h)", share)]
         if self.area in SENSITIVE_AREAS:
-            raised = _SENSITIVE_HOURS[self.day] / _DAY_HOURS
-            mean = 1.0 - raised + raised * power_of_level(SENSITIVE_DB)
-            lines.append(CalculationLine(
-                f"raised sensitivity, 6 dB in {_SENSITIVE_HOURS[self.day]:.0f} of 16 h",
-                float(level_of_power(np.float64(mean))),
-            ))  # fmt: skip
+            raised = _SENSITIVE_HOURS[self.day]
+            hours = np.array([_DAY_HOURS - raised, raised])
+            mean = float(rating_level_db(np.array([0.0, SENSITIVE_DB]), hours, _DAY_HOURS))
+            words = f"raised sensitivity, {SENSITIVE_DB:.0f} dB in {raised:.0f} of 16 h"
+            lines.append(CalculationLine(words, mean))
         return lines
 
 
