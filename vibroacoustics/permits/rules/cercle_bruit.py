@@ -17,7 +17,6 @@ PLANNING_DBA: Final = {
 }
 _TIME_DB: Final = {"day": 5.0, "night": 10.0}
 _HOURS: Final = 12.0
-LEAST_FREE_M: Final = 3.0
 
 
 class CercleBruit(AreaRule):
