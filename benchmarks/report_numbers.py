@@ -54,7 +54,7 @@ def report(folder: Path) -> Report:
     numbers += found(words(TABLE.sub(" ", page)), "")
     values: dict[str, set[float]] = defaultdict(set)
     for file in folder.glob("*.csv"):
-        for cells in csv.reader(file.open(encoding="utf-8")):
+        for cells in csv.reader(file.read_text("utf-8").splitlines()):
             parts = [number.value for text in cells for number in found(text, "")]
             for label in {"", *map(plain, cells)}:
                 values[label].update(parts)
@@ -105,7 +105,9 @@ def differing_files(before: Path, after: Path) -> Iterator[str]:
         if not new.exists():
             yield f"{old.name}: missing"
             continue
-        first, last = (list(csv.DictReader(file.open(encoding="utf-8"))) for file in (old, new))
+        first, last = (
+            list(csv.DictReader(file.read_text("utf-8").splitlines())) for file in (old, new)
+        )
         shared = [name for name in first[0] if name in last[0]]
         missing = [name for name in first[0] if name not in last[0]]
         pairs = list(zip(first, last, strict=False))

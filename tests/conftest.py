@@ -13,6 +13,7 @@ from kept_results import FOLDER
 from reading_here import read_here
 from support import PIPELINES
 
+from vibroacoustics.base.registry import _REGISTRIES
 from vibroacoustics.recordings import asked, blocks, modes
 from vibroacoustics.recordings.child_process import read_in_child
 from vibroacoustics.study.loading import load_study
@@ -76,6 +77,16 @@ def _recordings_are_read_here() -> Iterator[None]:
         for module in READING:
             patch.setattr(module, "read_in_child", read_here)
         yield
+
+
+@pytest.fixture(autouse=True)
+def _plugins_are_forgotten() -> Iterator[None]:
+    """What a test registers is unknown to the next: with a plug-in, runs store no pieces."""
+    before = [set(registry._origins) for registry in _REGISTRIES]
+    yield
+    for registry, known in zip(_REGISTRIES, before, strict=True):
+        for name in set(registry._origins) - known:
+            del registry._things[name], registry._origins[name]
 
 
 @pytest.fixture

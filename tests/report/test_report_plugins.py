@@ -11,7 +11,6 @@ from test_report import make_results
 
 from vibroacoustics.base.errors import PluginError
 from vibroacoustics.base.plugin_file import load_plugin
-from vibroacoustics.base.registry import Registry
 from vibroacoustics.commands import outputs
 from vibroacoustics.report import keep, render
 from vibroacoustics.report.columns import COLUMNS
@@ -59,19 +58,6 @@ register(
 BARE = "from vibroacoustics.base.registry import register\n"
 
 
-def _copy(registry: Registry, monkeypatch: pytest.MonkeyPatch) -> None:
-    list(registry)
-    for name in ("_things", "_origins"):
-        monkeypatch.setattr(registry, name, dict(getattr(registry, name)))
-
-
-@pytest.fixture
-def registries(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Registries that are as before after the test."""
-    for registry in (SECTIONS, COLUMNS):
-        _copy(registry, monkeypatch)
-
-
 @pytest.fixture
 def results() -> xr.Dataset:
     made = make_results({"none": 1.0, "louder": 1.8})
@@ -88,7 +74,6 @@ def plugin(folder: Path, content: str, name: str = "mine.py") -> None:
 def test_section_and_column_are_shown_and_made_again_without_the_plugin(
     results: xr.Dataset,
     tmp_path: Path,
-    registries: None,
 ) -> None:
     plugin(tmp_path, SECTION, "prices.py")
     plugin(tmp_path, COLUMN, "thirds.py")
@@ -133,7 +118,7 @@ def _made_again_is_the_same(folder: Path) -> None:
     ],
 )
 def test_section_that_fails_is_named_in_one_line(
-    results: xr.Dataset, tmp_path: Path, registries: None, blocks: str, words: str
+    results: xr.Dataset, tmp_path: Path, blocks: str, words: str
 ) -> None:
     imports = "from vibroacoustics.report.blocks import Text\n"
     section = "from vibroacoustics.report.sections import Section\n"
@@ -152,7 +137,7 @@ def test_section_that_fails_is_named_in_one_line(
     ],
 )
 def test_column_that_fails_is_named_in_one_line(
-    results: xr.Dataset, tmp_path: Path, registries: None, values: str, words: str
+    results: xr.Dataset, tmp_path: Path, values: str, words: str
 ) -> None:
     column = "from vibroacoustics.report.columns import Column\n"
     plugin(tmp_path, f"{BARE}{column}register(Column('odd_n', {values}, 'Odd'))\n")
@@ -172,22 +157,18 @@ def test_what_was_not_kept_is_named(results: xr.Dataset) -> None:
     assert "column odd_n is missing: mine.py is not loaded" in page
 
 
-def test_section_that_does_not_apply_is_not_missed(
-    results: xr.Dataset, tmp_path: Path, registries: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_section_that_does_not_apply_is_not_missed(results: xr.Dataset, tmp_path: Path) -> None:
     section = "from vibroacoustics.report.sections import Section\n"
     arguments = "'odd', 'Odd', lambda results: [], lambda results: False"
     plugin(tmp_path, f"{BARE}{section}register(Section({arguments}))\n")
     results.attrs["plugins"] = json.dumps({"section odd": {"file": "mine.py"}})
     kept = keep(results)
-    monkeypatch.setattr(SECTIONS, "_things", dict(SECTIONS._things))
-    del SECTIONS._things["odd"]
-    monkeypatch.setattr(SECTIONS, "_origins", {})
+    del SECTIONS._things["odd"], SECTIONS._origins["odd"]
     assert "is missing:" not in render(kept)["report.html"].decode()
 
 
 def test_kept_columns_and_sections_outlive_a_second_run(
-    results: xr.Dataset, tmp_path: Path, registries: None, monkeypatch: pytest.MonkeyPatch
+    results: xr.Dataset, tmp_path: Path
 ) -> None:
     plugin(tmp_path, COLUMN)
     first = keep(results)
@@ -213,16 +194,14 @@ def test_kept_columns_and_sections_outlive_a_second_run(
         ),
     ],
 )
-def test_name_of_a_built_in_one_is_refused(
-    tmp_path: Path, registries: None, content: str, message: str
-) -> None:
+def test_name_of_a_built_in_one_is_refused(tmp_path: Path, content: str, message: str) -> None:
     with pytest.raises(PluginError, match=message):
         plugin(tmp_path, f"{BARE}{content}")
 
 
 @pytest.mark.long
 def test_report_takes_a_plugin_that_the_run_did_not_have(
-    results: xr.Dataset, tmp_path: Path, registries: None
+    results: xr.Dataset, tmp_path: Path
 ) -> None:
     storage.write_results(results, tmp_path / "results.nc")
     (tmp_path / "prices.py").write_text(SECTION)

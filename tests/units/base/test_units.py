@@ -66,14 +66,6 @@ def test_rpm_is_revolutions_per_minute():
     assert shaft_frequency_hz(3000.0) == 50.0
 
 
-@pytest.fixture
-def _registry(monkeypatch):
-    list(UNITS)
-    for name in ("_things", "_origins"):
-        monkeypatch.setattr(UNITS, name, dict(getattr(UNITS, name)))
-
-
-@pytest.mark.usefixtures("_registry")
 def test_a_third_partys_unit():
     register(Unit("inch", "in", "m", 0.0254))
     assert si_key("stroke_inch") == ("stroke_m", 0.0254)

@@ -114,15 +114,6 @@ def test_every_variable_is_described():
         assert variable.units.isascii(), name
 
 
-@pytest.fixture
-def _registries(monkeypatch):
-    for registry in (VARIABLES, COORDINATES):
-        list(registry)
-        for name in ("_things", "_origins"):
-            monkeypatch.setattr(registry, name, dict(getattr(registry, name)))
-
-
-@pytest.mark.usefixtures("_registries")
 def test_a_third_partys_variable_and_coordinate():
     register(Coordinate("roughness_band", ("roughness_band",), "Bark", "critical band"))
     register(Variable("roughness", ("roughness_band",), "asper Bark-1", "specific roughness"))
@@ -134,7 +125,6 @@ def test_a_third_partys_variable_and_coordinate():
         stamp("roughnes", [1.0, 2.0])
 
 
-@pytest.mark.usefixtures("_registries")
 @pytest.mark.parametrize("noun", ["variable force", "coordinate speed"])
 def test_name_of_a_built_in_one_is_refused(noun):
     kind = {"variable": Variable, "coordinate": Coordinate}[noun.split()[0]]

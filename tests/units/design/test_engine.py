@@ -16,7 +16,7 @@ from support import PIPELINES
 
 from vibroacoustics.base.registry import register
 from vibroacoustics.design.engine.needs import Need
-from vibroacoustics.machine.option import OPTIONS, Option
+from vibroacoustics.machine.option import Option
 from vibroacoustics.mechanics.added import Added
 from vibroacoustics.mechanics.bushings import AttachedBodies, Bushing, RigidBody
 from vibroacoustics.mechanics.moving_parts import circling
@@ -160,8 +160,6 @@ class Absorber(Option):
 @pytest.fixture
 def absorber():
     register(Absorber)
-    yield
-    del OPTIONS._things["absorber"], OPTIONS._origins["absorber"]
 
 
 def test_attached_bodies_move_in_designs_as_in_runs(absorber):
@@ -206,8 +204,6 @@ class Kinked(Option):
 @pytest.fixture
 def kinked():
     register(Kinked)
-    yield
-    del OPTIONS._things["kinked"], OPTIONS._origins["kinked"]
 
 
 def test_what_only_looks_linear_takes_runs(kinked):

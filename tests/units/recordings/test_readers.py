@@ -10,14 +10,7 @@ from vibroacoustics.base.errors import ParameterError, PluginError
 from vibroacoustics.base.plugin_file import load_plugin
 from vibroacoustics.base.registry import register
 from vibroacoustics.recordings import read_recording
-from vibroacoustics.recordings.reader import READERS, Reader, readers_by_suffix
-
-
-@pytest.fixture(autouse=True)
-def _registry(monkeypatch):
-    list(READERS)
-    for name in ("_things", "_origins"):
-        monkeypatch.setattr(READERS, name, dict(getattr(READERS, name)))
+from vibroacoustics.recordings.reader import Reader, readers_by_suffix
 
 
 def nothing(request):

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -37,15 +37,12 @@ StudyFile = Callable[..., Path]
 
 
 @pytest.fixture
-def third_party(tmp_path: Path) -> Iterator[Path]:
-    """File of a third party's criterion; what it registers is forgotten after the test."""
-    assert len(CRITERIA) == 10  # fills the registry with the built-in ones
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(CRITERIA, "_things", dict(CRITERIA._things))
-        patch.setattr(CRITERIA, "_origins", dict(CRITERIA._origins))
-        file = tmp_path / "second_force.py"
-        file.write_text(THIRD_PARTY)
-        yield file
+def third_party(tmp_path: Path) -> Path:
+    """File of a third party's criterion."""
+    assert len(CRITERIA) == 10  # the built-in ones
+    file = tmp_path / "second_force.py"
+    file.write_text(THIRD_PARTY)
+    return file
 
 
 @pytest.fixture
