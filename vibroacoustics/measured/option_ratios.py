@@ -12,11 +12,13 @@ from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import amplitude_of_level, level_of_amplitude, level_of_power, power_of_level
 from ..base.errors import ParameterError, SchemaError
 from ..base.vocabulary import REFERENCE_OPTION
-from ..orders.ratio_over_speed import used_speeds
+from ..orders.ratio_over_speed import interpolation_error, largest_gap, used_speeds
 from ..results.estimates import interval, is_sampled
 from ..results.order_comparison import NEGLIGIBLE, channel_orders, channel_units
 
 LARGEST_RATIO_DB: Final = 20.0
+_LARGEST_ERROR: Final = 1.0
+"""Relative error of interpolation, 6 dB, above which an order is not changed."""
 PRESSURE_UNIT: Final = "Pa"
 """Unit of the responses at microphones."""
 _SAME_RATIO: Final = 1e-3
@@ -37,7 +39,8 @@ class OrderRatio:
     order : multiple of the shaft's speed
     ratio : complex, shape (speed,)
     low, high : factors from this ratio's amplitude to the ends of the 80 % interval of all
-        samples, shape (speed,); None where the study has no interval
+        samples, and the error of interpolation, shape (speed,); None where one is unknown
+    error : largest relative error of interpolation, not a number where it cannot be told
     """
 
     line: str
@@ -45,6 +48,7 @@ class OrderRatio:
     ratio: ComplexArray
     low: Array | None = None
     high: Array | None = None
+    error: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -54,11 +58,13 @@ class OptionRatios:
     Attributes
     ----------
     speed_rpm : speed of the study, rising, shape (speed,)
+    gap : largest distance of neighbouring speeds that are used, over the lower one
     orders : that the option changes, and that can be changed
     unchanged : why other lines that the option changes stay, by name
     """
 
     speed_rpm: Array
+    gap: float
     orders: tuple[OrderRatio, ...]
     unchanged: dict[str, str]
 
@@ -91,15 +97,16 @@ def option_ratios(
     for name, order, old, new in rows:
         if order == 0.0 or np.all(np.abs(new - old)[used] <= _SAME_RATIO * np.abs(old[used])):
             continue
-        reason = _reason(float(order), old[used], new[used])
+        ratio = new / np.where(old == 0.0, 1.0, old)
+        (error,) = interpolation_error(speeds[used], ratio[None, used])
+        reason = _reason(float(order), old[used], new[used], error)
         if reason:
             unchanged[str(name)] = reason
             continue
-        ratio = new / np.where(old == 0.0, 1.0, old)
-        ends = _interval(results, option, response, float(order), np.abs(ratio))
-        orders.append(OrderRatio(str(name), float(order), ratio, *ends))
+        ends = _interval(results, option, response, float(order), np.abs(ratio), error)
+        orders.append(OrderRatio(str(name), float(order), ratio, *ends, error))
     _check_apart(orders)
-    return OptionRatios(speeds, tuple(orders), unchanged)
+    return OptionRatios(speeds, largest_gap(speeds[used]), tuple(orders), unchanged)
 
 
 def _peaks(results: xr.Dataset, option: str, response: str) -> xr.DataArray:
@@ -189,7 +196,7 @@ def _square(results: xr.Dataset, name: str, option: str) -> Array:
     return square if "receiver" in dims else square[None]
 
 
-def _reason(order: float, before: ComplexArray, after: ComplexArray) -> str:
+def _reason(order: float, before: ComplexArray, after: ComplexArray, error: float) -> str:
     """Say why a line that the option changes stays as it is; empty where it can be changed."""
     if not order > 0.0:
         return "no shaft order"
@@ -198,18 +205,23 @@ def _reason(order: float, before: ComplexArray, after: ComplexArray) -> str:
     most_db = float(np.max(level_of_amplitude(np.abs(after / before))))
     if most_db > LARGEST_RATIO_DB:
         return f"the ratio reaches {most_db:.0f} dB, above {LARGEST_RATIO_DB:g} dB"
+    if error > _LARGEST_ERROR:
+        return "the study's speeds are too far apart to tell its ratio between them"
     return ""
 
 
 def _interval(
-    results: xr.Dataset, option: str, response: str, order: float, size: Array
+    results: xr.Dataset, option: str, response: str, order: float, size: Array, error: float
 ) -> tuple[Array | None, Array | None]:
     """Factors to the ends of the interval of an order, of all samples at a microphone."""
     if not is_sampled(results, "order_change") or response not in results["receiver"].values:
+        return None, None
+    if np.isnan(error):
         return None, None
     if order not in results["order"].values:
         return None, None
     ends = interval(results, "order_change").sel(option=option, receiver=response, order=order)
     low, high = (amplitude_of_level(ends[end].values) for end in ("low", "high"))
     size = np.where(size > 0.0, size, 1.0)
-    return np.minimum(low / size, 1.0), np.maximum(high / size, 1.0)
+    wider = 1.0 + error
+    return np.minimum(low / size, 1.0) / wider, np.maximum(high / size, 1.0) * wider

@@ -1,22 +1,20 @@
 """A recording with an option of a study in place: its orders changed, the residual its own."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from ..base.allowed import check_range
-from ..base.arrays import Array, ComplexArray
+from ..base.arrays import Array
 from ..base.constants import REFERENCE_BY_UNIT
-from ..base.decibel import SILENCE_DB, amplitude_of_level, level_of_power, power_of_level
+from ..base.decibel import SILENCE_DB, amplitude_of_level, level_of_amplitude
 from ..base.errors import ParameterError
 from ..base.plain_bytes import canonical_json
 from ..base.progress import Progress, no_progress
-from ..base.vocabulary import WEIGHTINGS, check, label_coordinates, stamped
-from ..base.weighting import WEIGHTING
 from ..orders.crank_motion import CrankMotion
-from ..orders.ratio_over_speed import ratio_over_speed
+from ..orders.ratio_over_speed import is_studied, ratio_over_speed
 from ..orders.recorded_speed import recorded_speed
 from ..orders.separated import LEAST_DISTANCE, changed_signal, separated_orders
 from ..orders.vold_kalman_equations import Track
@@ -24,7 +22,6 @@ from ..recordings import LabelledBlocks
 from ..results import provenance
 from ..study.order_analysis import SpeedSource
 from .option_ratios import (
-    PRESSURE_UNIT,
     OptionRatios,
     OrderRatio,
     changed_noise_bands,
@@ -32,9 +29,9 @@ from .option_ratios import (
     option_ratios,
     response_units,
 )
+from .replayed_levels import ReplayedLine, replayed_line, summary_of
 
 SHAFT_RATIOS: Final = (0.01, 100.0)
-_UNWEIGHTED: Final = WEIGHTINGS.index("Z")
 _LEAST_BANDWIDTH_HZ: Final = 1.0
 _BELOW_NOISE: Final = "below the recording's noise"
 
@@ -63,30 +60,6 @@ class Replay(NamedTuple):
     sample_rate_hz: float
 
 
-class _Line(NamedTuple):
-    """Mean squares of an order, in the channel's unit squared.
-
-    Attributes
-    ----------
-    name : in the study
-    before : signal of the order, without noise
-    noise : within the bandwidth
-    after : signal of the changed order
-    low, high : ends of the interval of `after`
-    wider : these ends less `after`, shape (end, weighting)
-    has_interval : whether the study has an interval
-    """
-
-    name: str
-    before: float
-    noise: float
-    after: float
-    low: float
-    high: float
-    wider: Array
-    has_interval: bool
-
-
 def replay(
     recording: xr.Dataset,
     results: xr.Dataset,
@@ -102,7 +75,7 @@ def replay(
 
     Every order that study and recording have is separated (`separated_orders`) and multiplied by
     the complex ratio with over without the option, of one sample, interpolated over the speed. All
-    else in the recording stays.
+    else in the recording stays. What has speeds beyond those of the study is left out.
 
     Parameters
     ----------
@@ -121,8 +94,9 @@ def replay(
     Raises
     ------
     ParameterError
-        A name is unknown, units differ, the study lacks speeds or holds two lines at one order, the
-        option changes the noise, a channel is silent, or bandwidth or ratio does not fit.
+        A name is unknown, units differ, the study has no speed of the recording or holds two lines
+        at one order, the option changes the noise, a channel is silent, or bandwidth or ratio does
+        not fit.
 
     Examples
     --------
@@ -142,10 +116,11 @@ def replay(
         check_range("shaft_ratio", shaft_ratio, *SHAFT_RATIOS)
         rate_hz = float(recording.attrs["sample_rate_hz"])
         recorded = recorded_speed(LabelledBlocks(recording), speed)
-        motion = recorded.motion.geared(shaft_ratio)
+        every = recorded.motion.geared(shaft_ratio)
+        motion = _studied_part(every, results)
         signals = [_audible(recording, channel) for channel in pairs]
         part = _known_part(motion, rate_hz, signals[0].size)
-        before, after, lines, reasons = [], [], [], {}
+        before, after, lines, reasons, errors = [], [], [], {}, [0.0]
         for number, (channel, response) in enumerate(pairs.items()):
             progress("replay", number, len(pairs))
             ratios = option_ratios(results, option, response, *_speeds(motion))
@@ -155,6 +130,7 @@ def replay(
             after.append(changed[0][part])
             lines.append(changed[1])
             reasons[channel] = {**ratios.unchanged, **changed[2]}
+            errors += [each.error for each in ratios.orders]
         about = {
             **provenance.of_recording(recording.attrs, "replay"),
             **recorded.attributes(),
@@ -167,10 +143,15 @@ def replay(
             "bandwidth_hz": width,
             "replayed_from_s": part.start / rate_hz,
             "replayed_to_s": part.stop / rate_hz,
+            "has_further_speeds": int(motion is not every),
+            "recorded_rpm": _speeds(every),
+            "study_rpm": (float(results["speed"].min()), float(results["speed"].max())),
+            "speed_gap": ratios.gap,
+            "interpolation_error_db": float(level_of_amplitude(1.0 + np.max(errors))),
         }
         sounds = (np.array(before), np.array(after))
         units = {channel: response_units(results)[response] for channel, response in pairs.items()}
-        summary = _summary(units, *sounds, rate_hz, lines)
+        summary = summary_of(units, *sounds, rate_hz, lines)
         return Replay(summary.assign_attrs(about), *sounds, rate_hz)
 
 
@@ -237,6 +218,17 @@ def _known_part(motion: CrankMotion, rate_hz: float, samples: int) -> slice:
     return slice(first, min(samples, int(np.floor(motion.end_s * rate_hz + 1e-6)) + 1))
 
 
+def _studied_part(motion: CrankMotion, results: xr.Dataset) -> CrankMotion:
+    """Longest part of a motion with speeds of the study; all of it where it has none."""
+    time, speeds = _times(motion), np.sort(results["speed"].values.astype(float))
+    inside = is_studied(speeds, 60.0 * motion.frequency_hz(time))
+    edges = np.flatnonzero(np.diff(inside, prepend=False, append=False))
+    if inside.all() or not edges.size:
+        return motion
+    spans = [(time[first], time[end - 1]) for first, end in edges.reshape(-1, 2)]
+    return motion.between(*max(spans, key=lambda span: span[1] - span[0]))
+
+
 def _speeds(motion: CrankMotion) -> tuple[float, float]:
     """Lowest and highest speed, rpm."""
     speed = 60.0 * motion.frequency_hz(_times(motion))
@@ -274,7 +266,7 @@ def _bandwidth(
 
 def _changed(
     signal: Array, rate_hz: float, motion: CrankMotion, ratios: OptionRatios, bandwidth_hz: float
-) -> tuple[Array, list[_Line], dict[str, str]]:
+) -> tuple[Array, list[ReplayedLine], dict[str, str]]:
     """Changed signal, mean squares of its orders, and why further lines stay."""
     time = _times(motion)
     rpm = 60.0 * motion.frequency_hz(time)
@@ -295,9 +287,11 @@ def _changed(
     ratio = ratio_over_speed(ratios.speed_rpm, every, 60.0 * hertz)
     ratio = np.where(audible[:, None], ratio, 1.0)
     lines = [
-        _line(each, separated.envelope[row], ratio[row], each.order * hertz, ratios.speed_rpm)
-        ._replace(noise=float(separated.noise_square[row]))
-        for row, each in enumerate(kept)
+        replayed_line(each, envelope, of_line, each.order * hertz, ratios.speed_rpm)
+        ._replace(noise=float(noise))
+        for each, envelope, of_line, noise in zip(
+            kept, separated.envelope, ratio, separated.noise_square, strict=True
+        )
     ]  # fmt: skip
     stays |= {line.name: _BELOW_NOISE for line in lines if line.before < line.noise}
     return changed_signal(signal, rate_hz, separated, ratio), lines, stays
@@ -305,94 +299,3 @@ def _changed(
 
 def _number(order: OrderRatio) -> float:
     return order.order
-
-
-def _line(
-    order: OrderRatio, envelope: ComplexArray, ratio: ComplexArray, hertz: Array, speed_rpm: Array
-) -> _Line:
-    """Mean squares of an order after the change, and of the ends of its interval."""
-    before = 0.5 * np.abs(envelope) ** 2
-    square = before * np.abs(ratio) ** 2
-    rpm = 60.0 * hertz / order.order
-    ends = [
-        square if factor is None else square * np.interp(rpm, speed_rpm, factor) ** 2
-        for factor in (order.low, order.high)
-    ]
-    gains = np.array([power_of_level(WEIGHTING[name](hertz)) for name in WEIGHTINGS])
-    wider = np.array([np.mean(gains * (end - square), axis=-1) for end in ends])
-    after, low, high = (float(np.mean(each)) for each in (square, *ends))
-    of_order = float(np.mean(before))
-    return _Line(order.line, of_order, 0.0, after, low, high, wider, order.low is not None)
-
-
-def _summary(
-    units: Mapping[str, str],
-    before: Array,
-    after: Array,
-    rate_hz: float,
-    lines: list[list[_Line]],
-) -> xr.Dataset:
-    """Levels of orders and of whole channels; units by channel."""
-    channels = list(units)
-    names = list(dict.fromkeys(line.name for of_channel in lines for line in of_channel))
-    variables: dict[str, Any] = {
-        name: np.full((len(channels), len(names)), np.nan)
-        for name in (
-            "recorded_line_level", "recorded_line_noise_level", "replayed_line_level",
-            "replayed_line_change", "replayed_line_change_low", "replayed_line_change_high",
-        )
-    }  # fmt: skip
-    reference = np.array([REFERENCE_BY_UNIT[unit] for unit in units.values()])
-    for row, of_channel in enumerate(lines):
-        for line in of_channel:
-            for name, value in _levels(line, reference[row]).items():
-                variables[name][row, names.index(line.name)] = value
-    labelled = stamped(variables, {"channel": channels, "line": names})
-    old, new = (np.array([_squares(each, rate_hz) for each in x]) for x in (before, after))
-    wider = np.array([sum((line.wider for line in each), np.zeros((2, 3))) for each in lines])
-    squares = {
-        "recorded_total_level": old,
-        "replayed_total_level": new,
-        "replayed_total_level_low": new + wider[:, 0],
-        "replayed_total_level_high": new + wider[:, 1],
-    }
-    is_sound = np.array([[unit == PRESSURE_UNIT] for unit in units.values()])
-    has_weighting = is_sound | (np.arange(len(WEIGHTINGS)) == _UNWEIGHTED)
-    totals = {
-        name: np.where(has_weighting, _level(square, reference[:, None]), np.nan)
-        for name, square in squares.items()
-    }
-    labelled = labelled.merge(stamped(totals, {"channel": channels, "weighting": list(WEIGHTINGS)}))
-    labelled = labelled.assign_coords(channel_unit=("channel", list(units.values())))
-    return check(label_coordinates(labelled))
-
-
-def _levels(line: _Line, reference: float) -> dict[str, float]:
-    """Levels of a line that is audible; of another one, level and noise alone."""
-    levels = {
-        "recorded_line_level": float(_level(line.before, reference)),
-        "recorded_line_noise_level": float(_level(line.noise, reference)),
-    }
-    if line.before < line.noise:
-        return levels
-    change = line.after / line.before
-    levels["replayed_line_change"] = float(level_of_power(change))
-    levels["replayed_line_level"] = float(_level(line.after, reference))
-    if line.has_interval:
-        levels["replayed_line_change_low"] = float(level_of_power(line.low / line.before))
-        levels["replayed_line_change_high"] = float(level_of_power(line.high / line.before))
-    return levels
-
-
-def _level(square: Array | float, reference: Array | float) -> Array:
-    """Level of mean squares, dB; the reference is in the same unit."""
-    ratio: Array = np.asarray(square, dtype=float) / np.asarray(reference, dtype=float) ** 2
-    return np.asarray(level_of_power(ratio))
-
-
-def _squares(signal: Array, rate_hz: float) -> Array:
-    """Mean square by weighting over the whole signal, from one transform."""
-    hertz = np.asarray(np.fft.rfftfreq(signal.size, 1.0 / rate_hz)[1:], dtype=float)
-    square = 2.0 * np.abs(np.fft.rfft(signal)[1:]) ** 2 / signal.size**2
-    gains = np.array([power_of_level(WEIGHTING[name](hertz)) for name in WEIGHTINGS])
-    return np.asarray(gains @ square)

@@ -1,6 +1,7 @@
 """Crank angle of a shaft over time: what every order analysis is done against."""
 
 from dataclasses import dataclass
+from math import factorial
 
 import numpy as np
 from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
@@ -41,6 +42,16 @@ class CrankMotion:
     def delayed(self, delay_s: float) -> "CrankMotion":
         """Motion that is later by a time."""
         return CrankMotion(PPoly(self.curve.c, self.curve.x + delay_s))
+
+    def between(self, start_s: float, end_s: float) -> "CrankMotion":
+        """Motion that is known between two of its times alone."""
+        x, degree = self.curve.x, len(self.curve.c) - 1
+        first = int(np.searchsorted(x, start_s, "right")) - 1
+        last = int(np.searchsorted(x, end_s, "left"))
+        pieces = self.curve.c[:, first:last].copy()
+        powers = range(degree, -1, -1)
+        pieces[:, 0] = [float(self.curve(start_s, power)) / factorial(power) for power in powers]
+        return CrankMotion(PPoly(pieces, np.array([start_s, *x[first + 1 : last], end_s])))
 
     def geared(self, ratio: float) -> "CrankMotion":
         """Motion of a shaft that turns `ratio` times as fast."""

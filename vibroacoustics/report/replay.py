@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterable, Mapping
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -174,13 +174,39 @@ def _facts(summary: xr.Dataset) -> Iterable[str]:
     yield f"Speed: {attrs['speed_source']}."
     if attrs["shaft_ratio"] != 1.0:
         yield f"The study's shaft has {attrs['shaft_ratio']:g} times the recorded speed."
-    yield f"Part of the recording in which the speed is known: {begin:.3g} to {end:.4g} s."
+    yield (
+        f"Part of the recording in which the speed is known and of the study: {begin:.3g} to "
+        f"{end:.4g} s."
+    )
+    yield from _between_speeds(attrs)
     yield f"Bandwidth of an order: at most {attrs['bandwidth_hz']:.3g} Hz."
     pairs = json.loads(attrs["pairs"]).items()
     yield f"Responses: {', '.join(f'{response} for {channel}' for channel, response in pairs)}."
 
 
+def _between_speeds(attrs: Mapping[str, Any]) -> Iterable[str]:
+    """Say how far apart speeds of the study are, and what that costs."""
+    if not attrs["speed_gap"]:
+        return
+    error_db = float(attrs["interpolation_error_db"])
+    told = f"reaches {rounding.fixed(error_db)} dB where one is left out. The intervals hold it."
+    if np.isnan(error_db):
+        told = "cannot be told from two speeds: no order has an interval."
+    yield (
+        f"Speeds of the study are up to {100.0 * attrs['speed_gap']:.0f} % apart. Between them "
+        f"ratios are interpolated, whose error {told}"
+    )
+
+
 def _sentences(summary: xr.Dataset) -> Iterable[str]:
+    attrs = summary.attrs
+    recorded, studied = attrs["recorded_rpm"], attrs["study_rpm"]
+    if attrs["has_further_speeds"]:
+        yield (
+            f"Replayed from {attrs['replayed_from_s']:.3g} to {attrs['replayed_to_s']:.3g} s: the "
+            f"recording has {recorded[0]:.0f} to {recorded[1]:.0f} rpm, the study "
+            f"{studied[0]:.0f} to {studied[1]:.0f}."
+        )
     ends = ("replayed_total_level_low", "replayed_total_level_high")
     for channel in _channels(summary):
         is_sound = summary["channel_unit"].sel(channel=channel) == "Pa"

@@ -133,7 +133,7 @@ REFUSED = {
     "silent": ({"pair": f"dead={RESPONSE}"}, "channel dead: is silent: all samples are 2 Pa"),
     "pair": ({"pair": "mic"}, "--pair 'mic': must be NAME=VALUE"),
     "option": ({"option": "x"}, "option = x: must be one of counterweight-half"),
-    "speed": ({"rpm": 3300}, "add to its speed_rpm: 3300"),
+    "speed": ({"rpm": 3300}, "the recording has 3300 rpm, the study 2900: they must overlap"),
 }
 
 

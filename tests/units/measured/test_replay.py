@@ -85,6 +85,61 @@ def test_a_run_up_between_close_speeds():
     assert total == pytest.approx(20.0 * np.log10(np.std(wanted) / 2e-5), abs=0.02)
 
 
+def test_a_run_up_between_speeds_that_are_far_apart():
+    """Five speeds from 1550 to 2550 rpm, 13 % apart; each order errs by less than is said."""
+    results = replay_study([1550.0, 1755.0, 1988.0, 2251.0, 2550.0])
+    replayed = replay(recorded(RISING), results, "ring", PAIR, SpeedChannel("speed"))
+    wanted = sound(RISING, (1.0, 2.0, 3.0)) + NOISE
+    assert replayed.summary.attrs["speed_gap"] == pytest.approx(0.133, abs=1e-3)
+    # The formula's amplitude is constant; its phase, linear in the speed, is kept as a chord.
+    assert replayed.summary.attrs["interpolation_error_db"] < 0.01
+    assert np.std(replayed.after[0] - wanted) < 0.02 * np.std(wanted - replayed.before[0])
+
+
+def test_what_cannot_be_interpolated_stays():
+    """A ratio that changes its sign between speeds; with two of them nothing is known of it."""
+    results = replay_study([1550.0, 1755.0, 1988.0, 2251.0, 2550.0])
+    results["pressure_line"][2, 1, :, 0, 1] *= -1.0
+    replayed = replay(recorded(RISING), results, "ring", PAIR, SpeedChannel("speed"))
+    reasons = json.loads(replayed.summary.attrs["unchanged"])["mic"]
+    assert (
+        reasons["order 1"] == "the study's speeds are too far apart to tell its ratio between them"
+    )
+    two = replay(recorded(RISING), results.isel(speed=[0, 4]), "ring", PAIR, SpeedChannel("speed"))
+    assert np.isnan(two.summary.attrs["interpolation_error_db"])
+    assert two.summary["replayed_line_change_low"].isnull().all()
+
+
+def test_an_error_between_speeds_widens_the_interval():
+    results = replay_study([1550.0, 1755.0, 1988.0, 2251.0, 2550.0])
+    narrow = option_ratios(results, "ring", "front", 1550.0, 2550.0).orders[0]
+    results["pressure_line"][2, 1, :, 0, 1] *= 1.2
+    wide = option_ratios(results, "ring", "front", 1550.0, 2550.0).orders[0]
+    assert wide.error == pytest.approx(1.0 / 6.0)  # 1 in place of 1.2; its neighbours have 0.1
+    np.testing.assert_allclose(wide.high[[0, 4]], 7.0 / 6.0 * narrow.high[[0, 4]])
+    np.testing.assert_allclose(wide.low[[0, 4]], narrow.low[[0, 4]] * 6.0 / 7.0)
+
+
+def test_only_speeds_of_the_study_are_replayed():
+    """From 5 % below 1800 to 5 % above 2200 rpm."""
+    speeds = [1800.0, 1880.0, 1960.0, 2040.0, 2120.0, 2200.0]
+    replayed = replay(recorded(RISING), replay_study(speeds), "ring", PAIR, SpeedChannel("speed"))
+    first, end = (
+        round(replayed.summary.attrs[f"replayed_{side}_s"] * RATE) for side in ("from", "to")
+    )
+    assert RISING[first] == pytest.approx(1710.0, abs=2.0)
+    assert RISING[end] == pytest.approx(2310.0, abs=2.0)
+    within = np.clip(RISING, 1800.0, 2200.0)
+    angle = shaft(RISING)
+    change = sum(
+        np.real(PEAKS[order] * (ratio(order, within) - 1.0) * np.exp(1j * order * angle))
+        for order in (1.0, 2.0, 3.0)
+    )[first:end]
+    inner = slice(int(0.5 * RATE), -int(0.5 * RATE))
+    error = (replayed.after - replayed.before)[0] - change
+    assert np.std(error[inner]) < 0.02 * np.std(change[inner])
+
+
 def test_what_stays_is_listed():
     replayed = replay(recorded(EVEN), replay_study([2900.0]), "ring", PAIR, NominalSpeed(2900.0))
     assert json.loads(replayed.summary.attrs["unchanged"]) == {
@@ -147,7 +202,7 @@ def test_a_recorded_shaft_that_is_geared_to_the_study():
         recorded(EVEN), results, "ring", PAIR, NominalSpeed(1160.0), shaft_ratio=2.5
     )  # fmt: skip
     np.testing.assert_allclose(geared.after, wanted.after, atol=1e-9)
-    with pytest.raises(ParameterError, match="add to its speed_rpm: 1160"):
+    with pytest.raises(ParameterError, match="the recording has 1160 rpm, the study 2900: they"):
         replay(recorded(EVEN), results, "ring", PAIR, NominalSpeed(1160.0))
 
 
@@ -184,7 +239,7 @@ def test_noise_bands_that_change():
 REFUSED = {
     "speeds": (
         {"recording": recorded(RISING), "speed": SpeedChannel("speed")},
-        r"recording: speed: the recording has 1550 to 2550 rpm, .* add to its speed_rpm: 1550, ",
+        r"recording: speed: the recording has 1550 to 2550 rpm, the study 2900: they must overlap",
     ),
     "noise": ({"option": "hood"}, "hood: changes the noise too, in 1 third .* --orders-only"),
     "unit": ({"recording": recorded(EVEN, "m/s²")}, "mic is in m/s², the response in Pa"),

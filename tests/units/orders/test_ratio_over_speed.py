@@ -1,19 +1,20 @@
-"""Ratios over the speed: amplitude and unwrapped phase, and the speeds that a study lacks."""
-
-import re
+"""Ratios over the speed: amplitude and unwrapped phase, and the error between speeds."""
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.orders.ratio_over_speed import ratio_over_speed, speeds_to_add
+from vibroacoustics.orders.ratio_over_speed import (
+    interpolation_error,
+    is_studied,
+    ratio_over_speed,
+    used_speeds,
+)
 
 
 def test_amplitude_and_phase_are_linear_across_180_degrees():
     ratio = np.array([[1.0 * np.exp(1j * np.radians(170)), 3.0 * np.exp(1j * np.radians(-170))]])
-    (found,) = ratio_over_speed(np.array([1000.0, 1040.0]), ratio, np.array([1000.0, 1010, 1020]))
+    (found,) = ratio_over_speed(np.array([1000.0, 1400.0]), ratio, np.array([1000.0, 1100, 1200]))
     np.testing.assert_allclose(np.abs(found), [1.0, 1.5, 2.0])
     np.testing.assert_allclose(np.degrees(np.angle(found)) % 360.0, [170.0, 175.0, 180.0])
 
@@ -24,34 +25,38 @@ def test_an_even_speed_near_one_of_the_study():
     np.testing.assert_allclose(found, [[0.25j, 0.25j], [4.0, 4.0]], atol=1e-15)
 
 
-def test_a_gap_is_refused_with_the_speeds_to_add():
-    speeds = np.array([1000.0, 1050.0, 1200.0])
-    message = "the recording has 1010 to 1190 rpm, of which the study lacks speeds at most 5 %"
-    with pytest.raises(ParameterError, match=message) as refused:
-        ratio_over_speed(speeds, np.ones((1, 3)), np.array([1010.0, 1190.0]))
-    added = [float(word) for word in re.findall(r"\d+", str(refused.value).split(": ")[-1])]
-    assert added == [1098.0, 1148.0]
-    every = np.sort([*speeds, *added])
-    ratio_over_speed(every, np.ones((1, every.size)), np.array([1010.0, 1190.0]))
+def test_beyond_the_ends_a_ratio_is_constant():
+    found = ratio_over_speed(np.array([1000.0, 2000.0]), np.array([[1.0, 3.0]]),
+                             np.array([960.0, 1500.0, 2090.0]))  # fmt: skip
+    np.testing.assert_allclose(found, [[1.0, 2.0, 3.0]])
+    studied = is_studied(np.array([1000.0, 2000.0]), np.array([940.0, 960.0, 2090.0, 2110.0]))
+    assert studied.tolist() == [False, True, True, False]
 
 
-@settings(suppress_health_check=[HealthCheck.too_slow])
-@given(
-    st.sets(st.integers(500, 6000), min_size=1, max_size=6),
-    st.integers(600, 3000),
-    st.floats(1.12, 3.0),
-)
-def test_with_the_added_speeds_nothing_is_missing(speeds, lowest, factor):
-    known = np.sort(np.array(list(speeds), dtype=float))
-    highest = lowest * factor
-    added = speeds_to_add(known, lowest, highest)
-    every = np.sort(np.concatenate([known, added]))
-    found = ratio_over_speed(every, np.ones((1, every.size)), np.array([lowest, highest]))
-    np.testing.assert_allclose(found, 1.0)
-    needed = every[(every >= lowest) & (every <= highest)]
-    assert np.all(needed[1:] <= 1.05 * needed[:-1])
+def test_speeds_that_surround_those_of_a_recording():
+    speeds = np.array([1000.0, 1500.0, 2000.0, 3000.0])
+    assert used_speeds(speeds, 1600.0, 1900.0).tolist() == [1, 2]
+    assert used_speeds(speeds, 900.0, 1600.0).tolist() == [0, 1, 2]
+    assert used_speeds(speeds, 2900.0, 3100.0).tolist() == [3]
 
 
-def test_a_speed_far_from_the_study_is_refused():
-    with pytest.raises(ParameterError, match=r"add to its speed_rpm: 3050$"):
-        ratio_over_speed(np.array([1000.0]), np.ones((1, 1)), np.array([3000.0, 3100.0]))
+@pytest.mark.parametrize("speeds", [(3000.0, 3100.0), (500.0, 940.0)])
+def test_a_speed_far_from_the_study_is_refused(speeds):
+    with pytest.raises(ParameterError, match="the study 1000: they must overlap, or be at"):
+        ratio_over_speed(np.array([1000.0]), np.ones((1, 1)), np.array(speeds))
+
+
+def test_the_error_is_that_of_each_speed_left_out():
+    """Of N², h²/2 at twice the gap h of 500 rpm, worst where N² is least; of a straight line 0."""
+    speeds = np.array([1000.0, 1500.0, 2000.0, 2500.0])
+    ratio = np.array([speeds**2, speeds], dtype=complex)
+    expected = [500.0**2 / 1500.0**2, 0.0]
+    np.testing.assert_allclose(interpolation_error(speeds, ratio), expected, atol=1e-12)
+    between = np.linspace(1000.0, 2500.0, 301)
+    found = ratio_over_speed(speeds, ratio, between)[0]
+    assert np.max(np.abs(found / between**2 - 1.0)) <= expected[0] / 4.0 * (1500.0 / 1224.0) ** 2
+
+
+def test_the_error_of_close_speeds_is_none_and_that_of_two_is_unknown():
+    assert interpolation_error(np.array([1000.0, 1050.0]), np.ones((1, 2))) == 0.0
+    assert np.isnan(interpolation_error(np.array([1000.0, 1100.0]), np.ones((1, 2))))
