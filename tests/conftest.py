@@ -82,10 +82,10 @@ def _recordings_are_read_here() -> Iterator[None]:
 @pytest.fixture(autouse=True)
 def _plugins_are_forgotten() -> Iterator[None]:
     """What a test registers is unknown to the next: with a plug-in, runs store no pieces."""
-    before = [set(registry._origins) for registry in _REGISTRIES]
+    before = {id(registry): set(registry._origins) for registry in _REGISTRIES}
     yield
-    for registry, known in zip(_REGISTRIES, before, strict=True):
-        for name in set(registry._origins) - known:
+    for registry in _REGISTRIES:
+        for name in set(registry._origins) - before.get(id(registry), set()):
             del registry._things[name], registry._origins[name]
 
 

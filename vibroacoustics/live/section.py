@@ -8,6 +8,7 @@ import xarray as xr
 
 from ..base.arrays import ComplexArray
 from ..base.registry import register
+from ..base.units import split_key
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.baseline import left_of_squares
 from ..levels.measured_points import BASELINE_BANDS
@@ -99,7 +100,9 @@ def _by_line(lines: Lines, values: ComplexArray) -> ComplexArray:
     return np.asarray(by_order[chosen] * is_kept.reshape(shape))
 
 
-_DIMS = ("receiver", "noise_band")
+_DIMS = ("slider_machine", "receiver", "noise_band")
+_CHOSEN: Final = ("m", "m2", "m3", "kg", "kg_m2", "rad")
+"""Units, SI, of what a designer chooses: lengths, areas, volumes, masses, inertias, angles."""
 
 
 def has_sliders(results: xr.Dataset) -> bool:
@@ -110,34 +113,43 @@ def has_sliders(results: xr.Dataset) -> bool:
 def sliders_of(numbers: Numbers, shown: xr.Dataset) -> dict[str, Any]:
     """Return the sliders: their nodes in the units of files, and changes of levels in dB.
 
-    Arrays are the numbers of their first elements in `numbers`: `before` by option (microphone,
-    band), `change` by slider (node, microphone, band). `own` is the node of the representative
-    sample, `error` by option and microphone that of several sliders together.
+    Arrays are the numbers of their first elements in `numbers`: `before` by option (sample,
+    microphone, band), `change` by slider (node, sample, microphone, band). `own` is the position at
+    which the samples keep their own values, `error` by option and microphone that of several
+    sliders together.
     """
     before = shown["slider_band_level"].transpose("option", *_DIMS)
     error = shown["slider_addition_error"].transpose("option", "receiver").values
     return {
         "speed": shown["speed"].values.tolist().index(float(shown["slider_speed"])),
-        "settings": shown.sizes["slider_setting"],
+        "samples": shown.sizes["slider_machine"],
         "before": [numbers.put(before.sel(option=name), NOISE_BITS) for name in options(shown)],
         "error": error.round(3).tolist(),
         "list": [_slider(numbers, shown.sel(slider=name)) for name in shown["slider"].values],
     }
 
 
+def _is_chosen(name: str) -> bool:
+    unit = split_key(name.rpartition(".")[2])[1]
+    return unit is not None and unit.si_suffix in _CHOSEN
+
+
 def _slider(numbers: Numbers, slider: xr.Dataset) -> dict[str, Any]:
     name, values = str(slider["slider"].values), slider["slider_value"].values
-    if name == HOOD:
-        words, unit, factor, value = "insertion loss of a hood", "dB", 1.0, 0.0
-    else:
+    is_hood = name == HOOD
+    words, (unit, factor) = ("insertion loss of a hood", ("dB", 1.0))
+    if not is_hood:
         words, (unit, factor) = named(name), file_unit(slider, name)
-        value = float(slider["representative_value"].sel(uncertain_parameter=name))
+    start = np.interp(float(slider["slider_start"]), values, np.arange(values.size))
     change = slider["slider_band_change"].transpose("slider_node", *_DIMS)
+    ends = [float(f"{end / factor:.3g}") for end in (values[0], values[-1])]
     return {
         "name": words[0].upper() + words[1:],
         "unit": unit,
         "values": (values / factor).tolist(),
-        "own": int(np.argmin(np.abs(values - value))),
+        "own": round(float(start), 1),
+        "sampled": "none" if is_hood else f"as sampled, {ends[0]:g} to {ends[1]:g} {unit}".strip(),
+        "chosen": is_hood or _is_chosen(name),
         "change": numbers.put(change, FEW_BITS),
         "error": round(float(slider["slider_interpolation_error"]), 3),
     }
@@ -226,8 +238,9 @@ def _values_words(results: xr.Dataset) -> str:
     if not has_sliders(results):
         return "They are those of the pipeline with the nominal values."
     return (
-        "Levels begin at the median of the samples. Sliders add the change that they make to the "
-        f"representative sample at {float(results['slider_speed']):g} rpm."
+        "Levels begin at the median of the samples. Sliders add their median change in "
+        f"{results.sizes['slider_machine']} weighted samples at "
+        f"{float(results['slider_speed']):g} rpm."
     )
 
 

@@ -40,7 +40,7 @@ class OrderRatio:
     ratio : complex, shape (speed,)
     low, high : factors from this ratio's amplitude to the ends of the 80 % interval of all
         samples, and the error of interpolation, shape (speed,); None where one is unknown
-    error : largest relative error of interpolation, not a number where it cannot be told
+    error : largest relative error of interpolation, not a number where it is unknown
     """
 
     line: str
@@ -206,7 +206,7 @@ def _reason(order: float, before: ComplexArray, after: ComplexArray, error: floa
     if most_db > LARGEST_RATIO_DB:
         return f"the ratio reaches {most_db:.0f} dB, above {LARGEST_RATIO_DB:g} dB"
     if error > _LARGEST_ERROR:
-        return "the study's speeds are too far apart to tell its ratio between them"
+        return "the study's speeds are too far apart to interpolate its ratio"
     return ""
 
 

@@ -75,7 +75,7 @@ def replay(
 
     Every order that study and recording have is separated (`separated_orders`) and multiplied by
     the complex ratio with over without the option, of one sample, interpolated over the speed. All
-    else in the recording stays. What has speeds beyond those of the study is left out.
+    else in the recording stays. The part with other speeds than those of the study is omitted.
 
     Parameters
     ----------
@@ -221,9 +221,9 @@ def _known_part(motion: CrankMotion, rate_hz: float, samples: int) -> slice:
 def _studied_part(motion: CrankMotion, results: xr.Dataset) -> CrankMotion:
     """Longest part of a motion with speeds of the study; all of it where it has none."""
     time, speeds = _times(motion), np.sort(results["speed"].values.astype(float))
-    inside = is_studied(speeds, 60.0 * motion.frequency_hz(time))
-    edges = np.flatnonzero(np.diff(inside, prepend=False, append=False))
-    if inside.all() or not edges.size:
+    studied = is_studied(speeds, 60.0 * motion.frequency_hz(time))
+    edges = np.flatnonzero(np.diff(studied, prepend=False, append=False))
+    if studied.all() or not edges.size:
         return motion
     spans = [(time[first], time[end - 1]) for first, end in edges.reshape(-1, 2)]
     return motion.between(*max(spans, key=lambda span: span[1] - span[0]))

@@ -93,7 +93,7 @@ def largest_gap(speed_rpm: Array) -> float:
 def interpolation_error(speed_rpm: Array, ratio: ComplexArray) -> Array:
     """Largest relative error of ratios that are interpolated from the neighbouring speeds.
 
-    Each inner speed is left out in turn. The gap is then twice as wide: where the ratio is smooth,
+    Each inner speed is omitted in turn. The gap is then twice as wide: where the ratio is smooth,
     the error between the speeds is a quarter of it.
 
     Parameters
@@ -112,6 +112,6 @@ def interpolation_error(speed_rpm: Array, ratio: ComplexArray) -> Array:
     errors = []
     for left_out in range(1, speed_rpm.size - 1):
         sides = [left_out - 1, left_out + 1]
-        found = _interpolated(speed_rpm[sides], ratio[:, sides], speed_rpm[[left_out]])
-        errors.append(np.abs(found[:, 0] / ratio[:, left_out] - 1.0))
+        between = _interpolated(speed_rpm[sides], ratio[:, sides], speed_rpm[[left_out]])
+        errors.append(np.abs(between[:, 0] / ratio[:, left_out] - 1.0))
     return np.asarray(np.max(errors, axis=0))

@@ -189,12 +189,12 @@ def _between_speeds(attrs: Mapping[str, Any]) -> Iterable[str]:
     if not attrs["speed_gap"]:
         return
     error_db = float(attrs["interpolation_error_db"])
-    told = f"reaches {rounding.fixed(error_db)} dB where one is left out. The intervals hold it."
+    words = f"reaches {rounding.fixed(error_db)} dB where one is omitted. The intervals hold it."
     if np.isnan(error_db):
-        told = "cannot be told from two speeds: no order has an interval."
+        words = "is unknown with two speeds: no order has an interval."
     yield (
         f"Speeds of the study are up to {100.0 * attrs['speed_gap']:.0f} % apart. Between them "
-        f"ratios are interpolated, whose error {told}"
+        f"ratios are interpolated, whose error {words}"
     )
 
 

@@ -1,4 +1,4 @@
-"""Sliders: the change of the level by single parameters of the representative sample."""
+"""Sliders: the change of the level where all samples have one value of a parameter."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,19 +12,25 @@ from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.axes import LevelAxes
 from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
-from ..study.sampling import Sample
+from ..results.estimates import sample_weights, weighted_estimate
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.contributions import Transmission
+from ..uncertainty.alternative_sounds import ComputedSamples
 from ..uncertainty.cost import sliders_cost
 from ..uncertainty.every_sample import in_every_sample
 from ..uncertainty.evidence import Evidence
 from ..uncertainty.prior_ensemble import PriorEnsemble
 from ..uncertainty.sample_bands import SampleBands
 from ..uncertainty.slider_variables import slider_variables
-from ..uncertainty.sliders import Compute, candidates, chosen_sliders
+from ..uncertainty.sliders import (
+    Compute,
+    Setting,
+    candidates,
+    chosen_sliders,
+    spread_pairs,
+)
 from .chain import Chain
-from .representative import Representative
 from .sampled import timed_sounds
 from .stage import Given, Stage, Trial
 
@@ -34,29 +40,40 @@ _TIMED: Final = 6
 
 @register
 class Sliders(Stage):
-    """Changes of the level by single parameters of the representative sample."""
+    """Changes of the level by single parameters in the weighted samples."""
 
     name = "sliders"
-    reads = (Cases, Transmission, NominalSound, PriorEnsemble, Evidence, Representative)
+    reads = (
+        Cases, Transmission, NominalSound, PriorEnsemble, Evidence, ComputedSamples,
+        "level_modelled_by_sample", "sample_weight", "sampled_value",
+    )  # fmt: skip
     gives = ("slider_*",)
 
     def applies(self, study: Study) -> bool:
         return bool(study.ranges) and study.baseline is None and not study.coarsened
 
     def run(self, chain: Chain) -> Given:
-        chosen = chain.get(Representative)
-        if chosen is None:
+        computed = chain.get(ComputedSamples)
+        if computed is None:
             return Given()
-        study, ensemble = chain.study, chain[PriorEnsemble]
+        study, ensemble, results = chain.study, chain[PriorEnsemble], chain.results
         ranges = candidates(study.ranges, ensemble.modelled_db, ensemble.samples)
         receiver = list(chain[NominalSound].axes.receivers).index(study.catalogue_receiver)
+        weight, values = sample_weights(results), results["sampled_value"]
+        chosen = spread_pairs(results, weight)
+        pairs = [(computed.numbers[row], pair) for row, pair in chosen]
         with stage(chain.progress, self.name):
-            alone = _computing(chain, chosen, _axes(chain, [REFERENCE_OPTION]))
-            sliders = chosen_sliders(ranges, chosen.sample, receiver, alone)
+            alone = _computing(chain, pairs, _axes(chain, [REFERENCE_OPTION]))
+            sliders = chosen_sliders(ranges, len(pairs), receiver, alone)
             axes = _axes(chain, list(study.options))
-            every = _computing(chain, chosen, axes)
-            results = slider_variables(sliders, study.uncertainty.seed, every, axes.by_receiver)
-        return Given(results)
+            every = _computing(chain, pairs, axes)
+            starts = {
+                name: weighted_estimate(values.sel(uncertain_parameter=name).values, weight).value
+                for name in (slider.limits.name for slider in sliders)
+            }
+            seed = study.uncertainty.seed
+            variables = slider_variables(sliders, starts, len(pairs), seed, every, axes.by_receiver)
+        return Given(variables)
 
     def tried(self, chain: Chain, study: Study) -> Trial:
         cases = chain[Cases]
@@ -73,27 +90,23 @@ def _axes(chain: Chain, options: Sequence[str]) -> LevelAxes:
     return replace(axes, speeds=[speed], options=options)
 
 
-def _computing(chain: Chain, chosen: Representative, axes: LevelAxes) -> Compute:
-    """Third octaves of the representative sample with other values."""
-    nominal, pair = _at_sample(chain, chosen, axes), (chosen.number, chosen.pair)
-    bands = SampleBands.of_pair(chain[Evidence], chain[PriorEnsemble], pair, nominal.study, axes)
+def _computing(chain: Chain, pairs: Sequence[tuple[int, int]], axes: LevelAxes) -> Compute:
+    """Third octaves of weighted samples with other values; `pairs` of sample and discrepancy."""
+    options = {name: chain.study.options[name] for name in axes.options}
+    study = at_speeds(chain.study, axes.speeds, options)
+    cases = chain[Cases].some((speed, name) for speed in axes.speeds for name in options)
+    few, ensemble = replace(chain, study=study).having(cases), chain[PriorEnsemble]
+    bands = [SampleBands.of_pair(chain[Evidence], ensemble, pair, study, axes) for pair in pairs]
 
-    def of_sample(changed: Sample) -> Array | None:
+    def of_setting(setting: Setting) -> Array | None:
+        number, changed = setting
         try:
-            cases = nominal.at({**chosen.sample, **changed})[Cases]
-            received = nominal[Transmission].received(cases)
+            cases = few.at({**ensemble.samples[pairs[number][0]], **changed})[Cases]
+            received = few[Transmission].received(cases)
         except (ParameterError, SolverError):
             return None
-        return bands.of(received, cases.cases[axes.speeds[0], REFERENCE_OPTION].machine)
+        machine = cases.cases[axes.speeds[0], REFERENCE_OPTION].machine
+        return bands[number].of(received, machine)
 
-    name = f"sliders {axes.speeds} {axes.options}"
-    return lambda batch: in_every_sample(batch, of_sample, None, lambda _: None, name, chain.study)
-
-
-def _at_sample(chain: Chain, chosen: Representative, axes: LevelAxes) -> Chain:
-    """The chain whose nominal values are those of the representative sample."""
-    options = {name: chain.study.options[name] for name in axes.options}
-    cases = chosen.cases.some((speed, name) for speed in axes.speeds for name in options)
-    study = at_speeds(chain.study, axes.speeds, options)
-    study = study.model_copy(update={"machine": chosen.machine})
-    return replace(chain, study=study).having(cases)
+    name = f"sliders {pairs} {axes.speeds} {axes.options}"
+    return lambda batch: in_every_sample(batch, of_setting, None, lambda _: None, name, chain.study)

@@ -14,7 +14,7 @@ from ..study.study import Study
 from .evidence import Evidence
 from .prior_ensemble import MOST_ROUNDS, MOST_SAMPLES
 from .slider_variables import SETTINGS
-from .sliders import MOST_CANDIDATES, NODES
+from .sliders import MACHINES, MOST_CANDIDATES, MOST_SLIDERS, NODES, TRIED
 
 _LEAST_BATCHES: Final = 2
 _MOST_BATCHES: Final = 10
@@ -66,13 +66,13 @@ def sliders_cost(count: int, alone_s: float, every_s: float) -> Cost:
     every_s : processor time that they took with all options
     """
     one_s, all_s = alone_s / count, every_s / count
-    low = 2 * MOST_CANDIDATES
-    high = low + (2 * NODES - 3) * MOST_CANDIDATES // 2  # half of them move the level
+    low = MACHINES + 2 * TRIED * MOST_CANDIDATES
+    high = low + (NODES * MACHINES + (NODES - 1) * TRIED) * MOST_SLIDERS
     how = (
         f"{one_s:.2g} s for one of {low} to {high} values without an option and {all_s:.2g} s for "
-        f"one of {SETTINGS + 1} settings with all, {count} measured"
+        f"one of {SETTINGS + MACHINES} settings with all, {count} measured"
     )
-    others_s = (SETTINGS + 1) * all_s
+    others_s = (SETTINGS + MACHINES) * all_s
     return Cost("sliders", low * one_s + others_s, high * one_s + others_s, how)
 
 

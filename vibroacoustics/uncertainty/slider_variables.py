@@ -7,10 +7,11 @@ import numpy as np
 import xarray as xr
 from scipy.stats import chi2, norm
 
-from ..base.arrays import Array
+from ..base.arrays import Array, IndexArray
 from ..base.vocabulary import REFERENCE_OPTION, stamped
 from ..levels.by_source import GAIN_BANDS
 from ..levels.changes import change_at, total_change
+from ..results.estimates import QUANTILES
 from ..study.sampling import Sample, sample_at
 from .sliders import NODES, Compute, Slider, band_levels
 
@@ -18,7 +19,7 @@ HOOD: Final = "hood.insertion_loss_db"
 """Slider that is no parameter: an insertion loss, the same in all bands."""
 HOOD_DB: Final = 20.0
 """Largest insertion loss of the slider."""
-SETTINGS: Final = 20
+SETTINGS: Final = 12
 """Random settings of all sliders."""
 COVERED: Final = 0.95
 """Part of further random settings whose error is within the limit."""
@@ -27,47 +28,76 @@ CONFIDENCE: Final = 0.95
 
 
 def slider_variables(
-    sliders: Sequence[Slider], seed: int, compute: Compute, coords: Mapping[str, Any]
+    sliders: Sequence[Slider],
+    starts: Mapping[str, float],
+    machines: int,
+    seed: int,
+    compute: Compute,
+    coords: Mapping[str, Any],
 ) -> xr.Dataset:
     """Label the changes of the level by sliders, and those in random settings of all.
 
-    Nothing where the representative sample or all settings have no solution.
+    Nothing where a sample or all settings have no solution.
 
     Parameters
     ----------
     sliders : sliders of parameters, to which that of a hood is added
+    starts : median of each parameter by name
+    machines : number of the weighted samples
     seed : seed of the random settings
     compute : gives the third octaves, shape (option, receiver, band)
     coords : the speed, options and microphones
     """
+    unchanged = compute([(number, {}) for number in range(machines)])
     settings = _settings(sliders, seed)
-    before, *after = compute([{}, *(_sample(sliders, setting) for setting in settings)])
+    machine: IndexArray = np.arange(len(settings)) % machines
+    after = compute(
+        [
+            (int(number), _sample(sliders, each))
+            for number, each in zip(machine, settings, strict=True)
+        ]
+    )
     solved = [number for number, squares in enumerate(after) if squares is not None]
-    if before is None or not solved:
+    if any(squares is None for squares in unchanged) or not solved:
         return xr.Dataset()
-    bands, settings = band_levels(before), settings[solved]
+    bands = np.array([band_levels(squares) for squares in unchanged if squares is not None])
+    settings, machine = settings[solved], machine[solved]
     levels = np.array([band_levels(squares) for squares in after if squares is not None])
-    change = total_change(bands, levels - bands)
-    error = np.array([_added(sliders, setting, bands) for setting in settings]) - change
-    loss = np.linspace(0.0, HOOD_DB, NODES + 1)
-    of_hood = np.broadcast_to(-loss[:, None, None], (loss.size, *bands.shape[1:]))
-    by_node = np.array([*(slider.change_db for slider in sliders), of_hood])
+    change = total_change(bands[machine], levels - bands[machine])
+    added = np.array(
+        [
+            _added(sliders, each, bands, number)
+            for number, each in zip(machine, settings, strict=True)
+        ]
+    )
+    loss = np.linspace(0.0, HOOD_DB, NODES)
     reference = list(coords["option"]).index(REFERENCE_OPTION)
+    without = bands[:, reference]
+    of_hood = np.broadcast_to(-loss[:, None, None, None], (loss.size, *without.shape))
+    by_node = np.array([*(slider.change_db for slider in sliders), of_hood])
+    total = total_change(without, by_node)
+    low, middle, high = np.quantile(total, (QUANTILES[0], 0.5, QUANTILES[1]), axis=2)
+    names = [slider.limits.name for slider in sliders]
     values = {
         "slider_speed": coords["speed"][0],
         "slider_value": [*(slider.nodes for slider in sliders), loss],
-        "slider_band_level": bands,
+        "slider_start": [*(starts[name] for name in names), 0.0],
+        "slider_band_level": np.moveaxis(bands, 0, 1),
         "slider_band_change": by_node,
-        "slider_total_change": total_change(bands[reference], by_node),
+        "slider_total_change": middle,
+        "slider_total_change_10_percent": low,
+        "slider_total_change_90_percent": high,
         "slider_interpolation_error": [*(slider.error_db for slider in sliders), 0.0],
         "slider_setting_value": np.column_stack([settings, np.zeros(len(settings))]),
+        "slider_setting_machine": machine + 1,
         "slider_setting_change": change,
-        "slider_addition_error": tolerance_limit(error),
+        "slider_addition_error": tolerance_limit(added - change),
     }
     labels = {
         "noise_band": [band.nominal_hz for band in GAIN_BANDS],
-        "slider": [*(slider.limits.name for slider in sliders), HOOD],
-        "slider_node": np.arange(1, NODES + 2),
+        "slider": [*names, HOOD],
+        "slider_node": np.arange(1, NODES + 1),
+        "slider_machine": np.arange(1, machines + 1),
         "slider_setting": np.arange(1, len(settings) + 1),
     }
     return stamped(values, {**coords, **labels})
@@ -87,12 +117,12 @@ def tolerance_limit(error: Array) -> Array:
     return np.asarray(factor * np.sqrt(np.mean(error**2, axis=0)))
 
 
-def _added(sliders: Sequence[Slider], setting: Array, band_level_db: Array) -> Array:
-    """Change of the level by all sliders together, shape (option, receiver), dB."""
-    change = np.zeros(band_level_db.shape[1:])
+def _added(sliders: Sequence[Slider], setting: Array, band_level_db: Array, machine: int) -> Array:
+    """Change of the level of a sample by all sliders together, shape (option, receiver), dB."""
+    change = np.zeros(band_level_db.shape[2:])
     for slider, value in zip(sliders, setting.tolist(), strict=True):
-        change += change_at(value, slider.nodes, slider.change_db)
-    return total_change(band_level_db, change)
+        change += change_at(value, slider.nodes, slider.change_db[:, machine])
+    return total_change(band_level_db[machine], change)
 
 
 def _settings(sliders: Sequence[Slider], seed: int) -> Array:

@@ -1,45 +1,56 @@
-"""Choice of sliders: parameters that move the level of the representative sample smoothly."""
+"""Choice of sliders: parameters that move the level of the weighted samples smoothly."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Final, NamedTuple
+from itertools import islice
+from typing import Final
 
 import numpy as np
+import xarray as xr
 from scipy.stats import rankdata
 
 from ..base.arrays import Array
+from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.changes import change_at, total_change
 from ..levels.labelled import level
 from ..study.sampling import Sample, sample_at
 from ..study.uncertainty import Range
+from .evidence import PAIRS, systematic
 
 LEAST_DB: Final = 0.5
 """Least change of the level over the range of a slider, and largest error between its nodes."""
-MOST_CANDIDATES: Final = 20
+MOST_CANDIDATES: Final = 10
 """Parameters whose ends of the range are computed."""
-MOST_SLIDERS: Final = 6
+MOST_SLIDERS: Final = 5
 """Sliders of parameters."""
 NODES: Final = 7
-"""Values over the range of a slider, beside that of the representative sample."""
+"""Values over the range of a slider."""
+MACHINES: Final = 8
+"""Weighted samples that the sliders change."""
+TRIED: Final = 2
+"""Samples among them with which candidates are tried."""
 _SHARES: Final[Array] = np.arange(2 * NODES - 1) / (2.0 * NODES - 2.0)
 """Parts of the range below the nodes, and below the values halfway between them."""
 _QUIETEST: Final = 1e-9
 """Part of the energy of all bands that a band has at least: its changes stay finite."""
 
-Compute = Callable[[Sequence[Sample]], list[Array | None]]
-"""Mean squares in third octaves with other values of some parameters, Pa²; none without a
-solution."""
+Setting = tuple[int, Sample]
+"""Number of a weighted sample, and values in place of its own."""
+Compute = Callable[[Sequence[Setting]], list[Array | None]]
+"""Mean squares in third octaves with these values, shape (option, receiver, band), Pa²; none
+without a solution."""
 
 
 @dataclass(frozen=True)
 class Slider:
-    """A parameter and the changes of the level over its range.
+    """A parameter and the changes of the level where all samples have one value of it.
 
     Attributes
     ----------
     limits : range
-    nodes : increasing, the value of the representative sample among them, shape (node,)
-    change_db : in third octaves at the nodes, shape (node, receiver, band)
+    nodes : increasing, shape (node,)
+    change_db : against the sample's own value, in third octaves without an option, shape (node,
+        machine, receiver, band)
     error_db : largest error of the interpolated change of the level halfway between the nodes
     """
 
@@ -53,11 +64,16 @@ class Slider:
         return {(self.limits.table, self.limits.field): value}
 
 
-class _Sweep(NamedTuple):
-    """Mean squares over the range of a parameter, shape (value, receiver, band)."""
+def spread_pairs(results: xr.Dataset, weight: Array) -> list[tuple[int, int]]:
+    """Weighted samples, one for each equal part of the weight by the modelled level.
 
-    limits: Range
-    squares: Array
+    Each has its row among those that were computed, and the number of its pair.
+    """
+    level_db = results["level_modelled_by_sample"].sel(option=REFERENCE_OPTION)
+    others = [dim for dim in level_db.dims if dim != "sample"]
+    order = np.argsort(level_db.mean(others).values)
+    picks = order[systematic(weight[order], MACHINES, 0.5)]
+    return [divmod(row, PAIRS) for row in picks.tolist()]
 
 
 def candidates(
@@ -88,34 +104,32 @@ def candidates(
 
 
 def chosen_sliders(
-    ranges: Sequence[Range], nominal: Sample, receiver: int, compute: Compute
+    ranges: Sequence[Range], machines: int, receiver: int, compute: Compute
 ) -> list[Slider]:
     """Return the parameters that move the level and whose changes can be interpolated.
 
     Parameters
     ----------
     ranges : ranges of the candidates, in the order of their importance
-    nominal : values of the representative sample
+    machines : number of the weighted samples
     receiver : number of the microphone at which sliders are chosen
     compute : gives the third octaves without an option, shape (1, receiver, band)
     """
-    (before,) = compute([{}])
-    if before is None:
+    unchanged = compute([(number, {}) for number in range(machines)])
+    if any(square is None for square in unchanged):
         return []
-    (before,) = before
-    ends = _sweeps(ranges, _SHARES[[0, -1]], compute)
-    wide = [sweep for sweep in ends if _swing(sweep, before, receiver) >= LEAST_DB]
-    inner = {
-        sweep.limits.name: sweep.squares
-        for sweep in _sweeps([sweep.limits for sweep in wide], _SHARES[1:-1], compute)
-    }
-    sweeps = [
-        _Sweep(sweep.limits, np.insert(sweep.squares, 1, inner[sweep.limits.name], axis=0))
-        for sweep in wide
-        if sweep.limits.name in inner
-    ]
-    sliders = [_slider(sweep, nominal, before, receiver) for sweep in sweeps]
-    return [slider for slider in sliders if slider.error_db <= LEAST_DB][:MOST_SLIDERS]
+    before = np.array([square[0] for square in unchanged if square is not None])
+    tried = list(range(min(TRIED, machines)))
+    swing = {}
+    for limits in ranges:
+        ends = _swept(limits, _SHARES[[0, -1]], tried, compute)
+        if ends is not None:
+            level_db = level(np.append(ends, before[None, tried], axis=0)[:, :, receiver].sum(-1))
+            swing[limits.name] = float(np.ptp(level_db, axis=0).max())
+    wide = [limits for limits in ranges if swing.get(limits.name, 0.0) >= LEAST_DB]
+    wide.sort(key=lambda limits: -swing[limits.name])
+    sliders = (_slider(limits, before, receiver, compute) for limits in wide)
+    return list(islice(filter(None, sliders), MOST_SLIDERS))
 
 
 def band_levels(squares: Array) -> Array:
@@ -124,33 +138,43 @@ def band_levels(squares: Array) -> Array:
     return np.asarray(level(np.maximum(squares, least)))
 
 
-def _sweeps(ranges: Sequence[Range], shares: Array, compute: Compute) -> list[_Sweep]:
-    """Compute all values of the parameters; not of those without a solution at one."""
-    squares = compute([sample_at([limits], np.array([n])) for limits in ranges for n in shares])
-    sweeps = []
-    for number, limits in enumerate(ranges):
-        part = squares[number * shares.size : (number + 1) * shares.size]
-        solved = [square for square in part if square is not None]
-        if len(solved) == len(part):
-            sweeps.append(_Sweep(limits, np.concatenate(solved)))
-    return sweeps
-
-
-def _swing(sweep: _Sweep, before: Array, receiver: int) -> float:
-    """Range of the level, dB."""
-    squares = np.concatenate([before[None], sweep.squares])[:, receiver]
-    return float(np.ptp(level(squares.sum(axis=-1))))
-
-
-def _slider(sweep: _Sweep, nominal: Sample, before: Array, receiver: int) -> Slider:
-    """Compare interpolated changes with those computed halfway between the nodes."""
-    limits, bands = sweep.limits, band_levels(before)
+def values_at(limits: Range, shares: Array) -> Array:
+    """Return the values of a parameter that so large shares of its range lie below."""
     key = limits.table, limits.field
-    values = np.array([sample_at([limits], np.array([share]))[key] for share in _SHARES])
-    change = band_levels(sweep.squares) - bands
-    row = int(np.searchsorted(values[::2], nominal[key]))
-    nodes = np.insert(values[::2], row, nominal[key])
-    at_nodes = np.insert(change[::2], row, 0.0, axis=0)
-    between = np.array([change_at(value, nodes, at_nodes) for value in values[1::2].tolist()])
-    error = total_change(bands, between) - total_change(bands, change[1::2])
-    return Slider(limits, nodes, at_nodes, float(np.abs(error[:, receiver]).max()))
+    return np.array([sample_at([limits], np.array([share]))[key] for share in shares])
+
+
+def _swept(limits: Range, shares: Array, machines: Sequence[int], compute: Compute) -> Array | None:
+    """Mean squares over the range of a parameter, shape (value, machine, receiver, band).
+
+    None where a sample has no solution at one of the values.
+    """
+    values = [sample_at([limits], np.array([share])) for share in shares]
+    squares = compute([(number, value) for value in values for number in machines])
+    solved = [square[0] for square in squares if square is not None]
+    if len(solved) < len(squares):
+        return None
+    return np.array(solved).reshape(len(values), len(machines), *solved[0].shape)
+
+
+def _slider(limits: Range, before: Array, receiver: int, compute: Compute) -> Slider | None:
+    """Return the slider of a parameter; None where it errs between its nodes, or is not solved.
+
+    A few samples show how far interpolated changes err; the others follow where they do not.
+    """
+    tried, others = np.split(np.arange(len(before)), [TRIED])
+    bands, values = band_levels(before), values_at(limits, _SHARES)
+    few = _swept(limits, _SHARES, tried.tolist(), compute)
+    if few is None:
+        return None
+    nodes, change = values[::2], band_levels(few) - bands[tried]
+    halfway = [change_at(value, nodes, change[::2]) for value in values[1::2].tolist()]
+    error = total_change(bands[tried], np.array(halfway)) - total_change(bands[tried], change[1::2])
+    largest_db = float(np.abs(error[..., receiver]).max())
+    if largest_db > LEAST_DB:
+        return None
+    more = _swept(limits, _SHARES[::2], others.tolist(), compute)
+    if more is None:
+        return None
+    every = np.append(change[::2], band_levels(more) - bands[others], axis=1)
+    return Slider(limits, nodes, every, largest_db)

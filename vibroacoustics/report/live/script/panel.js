@@ -125,10 +125,10 @@ class Panel {
     this.fill("microphones", this.page.microphones.map(
       (name, i) => [name, before[s].of[i].total, live[s].of[i].total]));
     this.at("says").textContent = `Total ${b.total.toFixed(1)} dB(A), ${change(b.total - a.total)}`
-      + (sliders ? this.errorWords(s, m) : ` dB; modelled ${b.modelled.toFixed(1)} dB(A), `
+      + (sliders ? " dB" : ` dB; modelled ${b.modelled.toFixed(1)} dB(A), `
         + `${change(b.modelled - a.modelled)} dB`)
       + ` against ${this.page.options[this.state.compared.option]}, at ${this.page.microphones[m]}, `
-      + `${this.page.speeds[s]} rpm`;
+      + `${this.page.speeds[s]} rpm.${sliders ? this.sliderWords(s, m) : ""}`;
   }
 
   fill(name, rows) {

@@ -1,18 +1,20 @@
-// Sliders of uncertain parameters: changes by third octave, linear between nodes, that add in dB.
+// Sliders of uncertain parameters: each gives all samples one value. Changes of a sample by third
+// octave are linear between nodes and add in dB; what is shown is the median of the samples.
 Object.assign(Model.prototype, {
-  // Sliders that are not at the representative sample.
+  // Numbers of the sliders that do not leave the samples their own values.
   moved(values) {
     const { sliders } = this.page;
-    return sliders ? sliders.list.filter((one, k) => values.positions[k] !== one.own) : [];
+    return sliders ? sliders.list.map((_, k) => k).filter((k) => values.positions[k] !== sliders.list[k].own) : [];
   },
 
-  // Changes of the third octaves at a microphone, dB.
-  bandChanges(values, m) {
+  // Changes of the third octaves of a sample at a microphone, dB.
+  sampleChanges(values, m, sample) {
     const { sliders, bands, microphones } = this.page, sum = new Float64Array(bands.length);
-    sliders.list.forEach((one, k) => {
-      const lower = Math.min(Math.floor(values.positions[k]), one.values.length - 2);
-      const share = values.positions[k] - lower, node = microphones.length * bands.length;
-      const first = one.change + lower * node + m * bands.length;
+    const node = sliders.samples * microphones.length * bands.length;
+    this.moved(values).forEach((k) => {
+      const one = sliders.list[k], at = values.positions[k];
+      const lower = Math.min(Math.floor(at), one.values.length - 2), share = at - lower;
+      const first = one.change + lower * node + (sample * microphones.length + m) * bands.length;
       for (let band = 0; band < sum.length; band++) {
         sum[band] += (1 - share) * this.numbers[first + band] + share * this.numbers[first + node + band];
       }
@@ -20,21 +22,33 @@ Object.assign(Model.prototype, {
     return sum;
   },
 
-  // Change of the total level from those of its third octaves, dB.
-  totalChange(values, m, changes) {
-    const { sliders, bands } = this.page, first = sliders.before[values.option] + m * bands.length;
-    let before = 0, after = 0;
-    changes.forEach((change, band) => {
-      before += 10 ** (this.numbers[first + band] / 10);
-      after += 10 ** ((this.numbers[first + band] + change) / 10);
+  // Changes in the samples: of each third octave in the median, and of the total, rising, dB.
+  changes(values, m) {
+    const { sliders, bands, microphones } = this.page;
+    const of = Array.from({ length: sliders.samples }, (_, sample) => this.sampleChanges(values, m, sample));
+    const total = of.map((changes, sample) => {
+      const first = sliders.before[values.option] + (sample * microphones.length + m) * bands.length;
+      let before = 0, after = 0;
+      changes.forEach((change, band) => {
+        before += 10 ** (this.numbers[first + band] / 10);
+        after += 10 ** ((this.numbers[first + band] + change) / 10);
+      });
+      return 10 * Math.log10(after / before);
     });
-    return 10 * Math.log10(after / before);
+    const middle = bands.map((_, band) => quantile(of.map((each) => each[band]), 0.5));
+    return { bands: middle, total };
+  },
+
+  // Median change of the total by the sliders, and the ends of its interval with its error, dB.
+  change(values, m) {
+    const { total } = this.changes(values, m), error = this.error(values, m);
+    return [quantile(total, 0.1) - error, quantile(total, 0.5), quantile(total, 0.9) + error];
   },
 
   // Lines in place, and noise and total of a microphone, by the changes of the sliders.
   shift(s, m, values, pressure, of) {
     const { bands } = this.page, one = this.page.cases[s], lines = one.frequency.length;
-    const changes = this.bandChanges(values, m), first = one.noise[values.option] + m * bands.length;
+    const { bands: changes, total } = this.changes(values, m), first = one.noise[values.option] + m * bands.length;
     const numbers = one.frequency.map((hertz) => Math.round(10 * Math.log10(hertz || 1)));
     const column = new Map(bands.map((hertz, band) => [Math.round(10 * Math.log10(hertz)), band]));
     let square = 0, before = 0, after = 0;
@@ -50,7 +64,7 @@ Object.assign(Model.prototype, {
       after += louder * aPower(hertz);
       return louder;
     });
-    of.total += this.totalChange(values, m, changes);
+    of.total += quantile(total, 0.5);
     // All of it at the level that is shown.
     of.rest = (of.rest * after) / Math.max(before, 1e-30);
     const louder = (10 ** (of.total / 10) * REFERENCE) / Math.max(square + of.rest, 1e-30);
@@ -63,21 +77,23 @@ Object.assign(Model.prototype, {
     const moved = this.moved(values), { error } = this.page.sliders;
     if (!moved.length) return 0;
     const several = moved.length > 1 || values.option;
-    return several ? error[values.option][m] : moved[0].error;
+    return several ? error[values.option][m] : this.page.sliders.list[moved[0]].error;
   },
 });
 
 Object.assign(Panel.prototype, {
-  errorWords(s, m) {
-    const { values } = this.state, error = s === this.page.sliders.speed ? this.model.error(values, m) : 0;
-    return error ? ` ± ${Math.max(error, 0.1).toFixed(1)} dB` : " dB";
+  // What the sliders do, in the samples.
+  sliderWords(s, m) {
+    const { values } = this.state, moved = this.model.moved(values).length;
+    if (!moved || s !== this.page.sliders.speed) return "";
+    const [low, middle, high] = this.model.change(values, m).map(change);
+    return ` The slider${moved > 1 ? "s make" : " makes"} ${middle} dB (${low} to ${high}).`;
   },
 
   parameters() {
     const { sliders } = this.page;
     this.at("sampled").hidden = !sliders;
     if (!sliders) return;
-    const first = this.at("moment").closest("label");
     this.inputs = sliders.list.map((one) => {
       const label = document.createElement("label"), output = document.createElement("output");
       const input = Object.assign(document.createElement("input"), {
@@ -85,9 +101,13 @@ Object.assign(Panel.prototype, {
       });
       input.setAttribute("aria-label", `${one.name}${one.unit ? `, ${one.unit}` : ""}`);
       label.append(`${one.name} `, output, input);
-      first.before(label);
+      this.at(one.chosen ? "chosen" : "unknown").before(label);
       input.addEventListener("input", () => this.changed(false));
       return { input, output };
+    });
+    ["chosen", "unknown"].forEach((name) => {
+      const has = sliders.list.some((one) => one.chosen === (name === "chosen"));
+      this.at(`${name}-heading`).hidden = !has;
     });
     this.at("toml").closest("details").hidden = true;
     this.at("speed").value = sliders.speed;
@@ -102,9 +122,16 @@ Object.assign(Panel.prototype, {
       const value = (1 - share) * one.values[lower] + share * one.values[lower + 1];
       const text = `${Number(value.toPrecision(3))} ${one.unit}`.trim().replace("-", "−");
       input.disabled = s !== sliders.speed;
-      output.textContent = text;
-      input.setAttribute("aria-valuetext", text);
+      output.textContent = position === one.own ? one.sampled : text;
+      input.setAttribute("aria-valuetext", output.textContent);
       return position;
     }) : [];
   },
 });
+
+// Quantile of values, linear between them.
+const quantile = (values, share) => {
+  const rising = [...values].sort((a, b) => a - b), at = share * (rising.length - 1);
+  const lower = Math.floor(at), upper = Math.min(lower + 1, rising.length - 1);
+  return rising[lower] + (at - lower) * (rising[upper] - rising[lower]);
+};
