@@ -12,7 +12,6 @@ from ..base.vocabulary import stamped
 from ..mechanics.received_sound import ReceivedSound
 from .bands import Band
 from .by_source import filled_thirds, membership, weighting_power
-from .energy import energy_of_lines
 from .labelled import level
 
 _MOST_BANDS: Final = 3
@@ -24,14 +23,35 @@ _DIRECTIONS: Final[Array] = 2.0 * np.pi * np.arange(36) / 36
 _PLANES: Final = ("horizontal", "vertical")
 
 
-def band_energy(sound: ReceivedSound, bands: Sequence[Band]) -> Array:
-    """Compute A-weighted mean squares of all sources together, shape (receiver, band), Pa²."""
-    lines = energy_of_lines(sound.pressure, sound.lines.frequency_hz).sum(axis=0)
-    energy = lines @ membership(sound.lines.frequency_hz, bands)
+def band_energy(sound: ReceivedSound, bands: Sequence[Band], weighting: str = "A") -> Array:
+    """Compute mean squares of all sources together, shape (receiver, band), Pa²."""
+    hertz = sound.lines.frequency_hz
+    sounds = np.nan_to_num(hertz) > 0.0
+    weight = weighting_power(weighting, np.where(sounds, hertz, 1.0)) * sounds
+    energy = 0.5 * np.abs(sound.pressure.sum(axis=0)) ** 2 * weight @ membership(hertz, bands)
     for part in sound.noise:
-        audible = part.power * weighting_power("A", part.frequency_hz)
+        audible = part.power * weighting_power(weighting, part.frequency_hz)
         energy += audible @ membership(part.frequency_hz, bands)
     return np.asarray(energy)
+
+
+def shift_to_medians(
+    results: xr.Dataset, sound: Sequence[ReceivedSound], bands: Sequence[Band], receiver: int
+) -> Array:
+    """Levels of a study at a microphone less those of one sample, shape (option, band), dB.
+
+    Parameters
+    ----------
+    results : `sources_band_level` of the speed and the options of `sound`, medians
+    sound : at the microphones, of each option
+    bands : third octaves
+    receiver : number of the microphone
+    """
+    medians = results["sources_band_level"].isel(receiver=receiver)
+    nominal = [band.nominal_hz for band in bands]
+    wanted = medians.sel(noise_band=nominal).transpose("option", "noise_band").values
+    of_sample = [level(band_energy(case, bands, "Z")[receiver]) for case in sound]
+    return np.asarray(wanted - np.array(of_sample))
 
 
 def loudest_bands(sound: ReceivedSound, receiver: int, highest_hz: float) -> list[Band]:
@@ -79,6 +99,7 @@ def polar_variables(
     position_m: Sequence[float],
     names: Sequence[str],
     sound: Sequence[ReceivedSound],
+    shift_db: Array | float = 0.0,
 ) -> xr.Dataset:
     """Label the levels in all directions.
 
@@ -89,8 +110,10 @@ def polar_variables(
     position_m : position of the microphone, as for `points_around`
     names : names of the points that have sound
     sound : at these, of each option
+    shift_db : added to the levels, shape (option, band)
     """
     levels = level(np.array([band_energy(case, bands) for case in sound]))
+    levels = levels + np.expand_dims(shift_db, 1) if np.ndim(shift_db) else levels
     every = np.full((len(options), len(bands), len(_PLANES) * _DIRECTIONS.size), np.nan)
     every[..., [int(name) for name in names]] = np.moveaxis(levels, 1, 2)
     values = {

@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..base.arrays import Array
 from ..base.decibel import level_of_power
-from ..base.vocabulary import stamped
+from ..base.vocabulary import REFERENCE_OPTION, stamped
 from ..machine.remainder import UnmodelledNoise
 from ..mechanics.received_sound import ReceivedSound
 from .axes import LevelAxes
@@ -65,6 +65,47 @@ def run_up_variables(
         "run_up_order": order,
     }
     return stamped(values, coords)
+
+
+def at_study_levels(
+    run_up: xr.Dataset, results: xr.Dataset, published: tuple[str, float]
+) -> xr.Dataset:
+    """Raise the levels of a run-up to those of a study at its speeds; between, the course stays.
+
+    Parameters
+    ----------
+    run_up : result of `run_up_variables`, of one sample
+    results : medians of the samples
+    published : microphone and speed of the published level, where unmodelled noise has its own
+    """
+    without = results.sel(option=REFERENCE_OPTION)
+    orders = run_up["run_up_order"].values
+    of_study = {
+        "run_up_level": without["level_total"],
+        "run_up_source_level": without["source_level"],
+        "run_up_order_level": without["order_level"].sel(weighting="A").reindex(order=orders),
+    }
+    speeds_rpm, raised = run_up["run_up_speed"].values, {}
+    for name, level_db in of_study.items():
+        levels = run_up[name]
+        wanted = level_db.rename(order="run_up_order") if "order" in level_db.dims else level_db
+        wanted = wanted.transpose("speed", *levels.dims[1:])
+        study_rpm = wanted["speed"].values
+        shift = wanted.values - over_speed(study_rpm, speeds_rpm, levels.values)
+        shift = np.nan_to_num(shift)  # of orders that the study lacks
+        raised[name] = levels + over_speed(speeds_rpm, study_rpm, shift)
+    noise = run_up["run_up_unmodelled_level"].sel(receiver=published[0])
+    of_sample = over_speed(np.array([published[1]]), speeds_rpm, noise.values)
+    shift = results["level_unmodelled"].item() - of_sample[0]
+    raised["run_up_unmodelled_level"] = run_up["run_up_unmodelled_level"] + shift
+    return run_up.assign({name: run_up[name].copy(data=each) for name, each in raised.items()})
+
+
+def over_speed(wanted_rpm: Array, speed_rpm: Array, values: Array) -> Array:
+    """Interpolate values (speed, ...) linearly; beyond the ends they are constant."""
+    flat = values.reshape(len(speed_rpm), -1)
+    columns = [np.interp(wanted_rpm, speed_rpm, column) for column in flat.T]
+    return np.asarray(np.transpose(columns).reshape(len(wanted_rpm), *values.shape[1:]))
 
 
 def _orders(sound: Mapping[float, ReceivedSound]) -> tuple[Array, Array]:

@@ -6,9 +6,16 @@ from typing import Final
 
 import xarray as xr
 
+from ..base.arrays import Array
 from ..base.registry import register
 from ..levels.bands import Band
-from ..levels.polar import frequencies_of, loudest_bands, points_around, polar_variables
+from ..levels.polar import (
+    frequencies_of,
+    loudest_bands,
+    points_around,
+    polar_variables,
+    shift_to_medians,
+)
 from ..radiation.cost import Cost
 from ..radiation.field_points import key_at, vectors_at, within
 from ..radiation.pressure import pressure_per_shell_velocity
@@ -38,7 +45,7 @@ class Directivity(Stage):
     """
 
     name = "directivity"
-    reads = (*SHOWN, ShellPath)
+    reads = (*SHOWN, ShellPath, "sources_band_level")
     gives = ("polar_*",)
 
     def applies(self, study: Study) -> bool:
@@ -61,7 +68,11 @@ class Directivity(Stage):
         around = replace(path, microphones=_observers(vectors, bands, path.shell is not None))
         sound = shown.received(around, shown.receiver)
         names = vectors["receiver"].values.tolist()
-        return Given(polar_variables(shown.options, bands, position, names, sound))
+        shift: Array | float = 0.0
+        if shown.gain:  # of a sample
+            case = {"speed": shown.speed_rpm, "option": list(shown.options)}
+            shift = shift_to_medians(chain.results.sel(case), received, bands, shown.receiver)
+        return Given(polar_variables(shown.options, bands, position, names, sound, shift))
 
     def tried(self, chain: Chain, study: Study) -> Trial:
         how = "not measured: up to 30 frequencies of boundary elements"

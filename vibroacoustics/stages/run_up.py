@@ -8,7 +8,7 @@ from ..base.progress import no_progress
 from ..base.registry import register
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.nominal import NominalSound
-from ..levels.run_up import run_up_variables, unmodelled_over_speed
+from ..levels.run_up import at_study_levels, run_up_variables, unmodelled_over_speed
 from ..machine.cases import Cases
 from ..sources.cases import cases_of, loaded_cases, wrench_lines
 from ..study.selection import running_up
@@ -28,7 +28,9 @@ class RunUp(Stage):
 
     name = "run-up"
     is_tried = True
-    reads = (*SHOWN, NominalSound)
+    reads = (
+        *SHOWN, NominalSound, "level_total", "level_unmodelled", "source_level", "order_level"
+    )  # fmt: skip
     gives = ("run_up_*",)
 
     def applies(self, study: Study) -> bool:
@@ -53,7 +55,11 @@ class RunUp(Stage):
             speeds,
         )
         by_speed = dict(zip(speeds, sound, strict=True))
-        return Given(run_up_variables(chain[NominalSound].axes, by_speed, noise))
+        levels = run_up_variables(chain[NominalSound].axes, by_speed, noise)
+        if shown.gain:  # of a sample
+            published = study.catalogue_receiver, study.catalogue_speed_rpm
+            levels = at_study_levels(levels, chain.results, published)
+        return Given(levels)
 
 
 def _cases(study: Study) -> Cases:

@@ -187,7 +187,7 @@ def section_picture(results: xr.Dataset) -> Picture | None:
         "section",
         "Section of the machine with the forces of its sources at order 1 and at the loudest line.",
         f"Section across y at {float(results['shown_speed']):g} rpm, option {REFERENCE_OPTION}, of "
-        "the representative sample: force of all sources on each part, semi-major axis, peak. "
+        "one weighted sample: force of all sources on each part, semi-major axis, peak. "
         "Loops: path of the force vector over a period. Above order 1, below the line with the "
         "highest A-weighted level. Parts are cylinders at their nominal heights.",
         svg.drawing(_WIDTH, 8.0 + 2 * _VIEW, views, "Section of the machine with forces"),

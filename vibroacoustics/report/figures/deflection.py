@@ -46,7 +46,7 @@ def deflection_picture(results: xr.Dataset) -> Picture:
         "deflection",
         alt,
         "Deflection of the shell by all modelled sources at the line with the highest A-weighted "
-        f"level, {float(results['shown_speed']):g} rpm, of the representative sample. Largest "
+        f"level, {float(results['shown_speed']):g} rpm, of one weighted sample. Largest "
         f"displacement, peak: {largest}. Grey: at rest. Displacements are enlarged.",
         "\n".join([head, *parts, "</svg>\n"]).encode(),
         "svg",

@@ -125,8 +125,9 @@ def polar_levels(results: xr.Dataset) -> Chart:
         "and a vertical plane.",
         f"Modelled A-weighted level in the loudest third octaves, dB(A), "
         f"{float(results['polar_radius']):.2f} m from the centre of mass at "
-        f"{float(results['shown_speed']):g} rpm, of the representative sample. The vertical plane "
-        f"holds {catalogue_receiver(results)}. The middle is {_DEPTH_DB:g} dB below the edge.",
+        f"{float(results['shown_speed']):g} rpm. The vertical plane holds "
+        f"{catalogue_receiver(results)}. With samples, levels there are medians, and differences "
+        f"around the machine those of one sample. The middle is {_DEPTH_DB:g} dB below the edge.",
         tuple(panels),
         columns=2,
     )

@@ -37,7 +37,7 @@ _PHASES: Final = ("steady", "stopping")
 def _finding(results: xr.Dataset) -> str:
     steady, stopping = results["stopping_foot_force"].sel(stopping_phase=list(_PHASES)).values
     speed = int(np.argmax(stopping))
-    whose = "Representative sample: switched" if "representative_value" in results else "Switched"
+    whose = "One weighted sample: switched" if "representative_value" in results else "Switched"
     return (
         f"{whose} off at {speeds(results)[speed]:g} rpm the shaft comes to rest in "
         f"{rounding.significant(results['stopping_duration'].values[speed])} s, after "
