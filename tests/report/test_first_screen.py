@@ -435,3 +435,14 @@ def test_a_change_is_shown_where_it_goes_the_way_that_is_said(gain_db, grown, fa
     one = np.ones(2)
     of_total = Shift(TOTAL, one, one, np.array(gain_db), bands, grown, fallen, Measurable())
     assert of_total.largest == speed
+
+
+def test_a_run_without_the_published_speed_is_complete_and_read() -> None:
+    results = sources_run().copy()
+    parameters = json.loads(results.attrs["parameters"])
+    parameters["machine"]["overall_noise"]["speed_rpm"] = 3000.0
+    attrs = {**results.attrs, "parameters": json.dumps(parameters)}
+    attrs.pop("parameters_sha256")
+    results.attrs = attrs
+    check_run(results)
+    assert "at 2900 rpm" in render(results)["report.html"].decode()

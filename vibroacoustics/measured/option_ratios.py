@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from ..base.arrays import Array, ComplexArray
+from ..base.arrays import Array, ComplexArray, IndexArray
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import amplitude_of_level, level_of_amplitude, level_of_power, power_of_level
 from ..base.errors import ParameterError, SchemaError
@@ -19,6 +19,7 @@ from ..results.order_comparison import NEGLIGIBLE, channel_orders, channel_units
 LARGEST_RATIO_DB: Final = 20.0
 _LARGEST_ERROR: Final = 1.0
 """Relative error of interpolation, 6 dB, above which an order is not changed."""
+_TOO_FAR: Final = "the study's speeds are too far apart to interpolate its ratio"
 PRESSURE_UNIT: Final = "Pa"
 """Unit of the responses at microphones."""
 _SAME_RATIO: Final = 1e-3
@@ -97,12 +98,14 @@ def option_ratios(
     for name, order, old, new in rows:
         if order == 0.0 or np.all(np.abs(new - old)[used] <= _SAME_RATIO * np.abs(old[used])):
             continue
+        known = used[(old[used] != 0.0) | (new[used] != 0.0)]  # others are above its frequencies
+        reason = _reason(float(order), old[known], new[known])
         ratio = new / np.where(old == 0.0, 1.0, old)
-        (error,) = interpolation_error(speeds[used], ratio[None, used])
-        reason = _reason(float(order), old[used], new[used], error)
-        if reason:
-            unchanged[str(name)] = reason
+        error = 0.0 if reason else interpolation_error(speeds[known], ratio[None, known])[0]
+        if reason or error > _LARGEST_ERROR:
+            unchanged[str(name)] = reason or _TOO_FAR
             continue
+        ratio = ratio[_nearest(speeds, known)]
         ends = _interval(results, option, response, float(order), np.abs(ratio), error)
         orders.append(OrderRatio(str(name), float(order), ratio, *ends, error))
     _check_apart(orders)
@@ -196,7 +199,13 @@ def _square(results: xr.Dataset, name: str, option: str) -> Array:
     return square if "receiver" in dims else square[None]
 
 
-def _reason(order: float, before: ComplexArray, after: ComplexArray, error: float) -> str:
+def _nearest(speed_rpm: Array, known: IndexArray) -> IndexArray:
+    """Number of the nearest known speed for each speed."""
+    distance = np.abs(speed_rpm[:, None] - speed_rpm[known])
+    return np.asarray(known[np.argmin(distance, axis=1)])
+
+
+def _reason(order: float, before: ComplexArray, after: ComplexArray) -> str:
     """Say why a line that the option changes stays as it is; empty where it can be changed."""
     if not order > 0.0:
         return "no shaft order"
@@ -204,9 +213,7 @@ def _reason(order: float, before: ComplexArray, after: ComplexArray, error: floa
         return "the study has it with the option only"
     most_db = float(np.max(level_of_amplitude(np.abs(after / before))))
     if most_db > LARGEST_RATIO_DB:
-        return f"the ratio reaches {most_db:.0f} dB, above {LARGEST_RATIO_DB:g} dB"
-    if error > _LARGEST_ERROR:
-        return "the study's speeds are too far apart to interpolate its ratio"
+        return f"the ratio exceeds {LARGEST_RATIO_DB:g} dB"
     return ""
 
 

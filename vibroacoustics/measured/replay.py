@@ -120,7 +120,7 @@ def replay(
         motion = _studied_part(every, results)
         signals = [_audible(recording, channel) for channel in pairs]
         part = _known_part(motion, rate_hz, signals[0].size)
-        before, after, lines, reasons, errors = [], [], [], {}, [0.0]
+        before, after, lines, reasons, errors = [], [], [], {}, []
         for number, (channel, response) in enumerate(pairs.items()):
             progress("replay", number, len(pairs))
             ratios = option_ratios(results, option, response, *_speeds(motion))
@@ -147,12 +147,18 @@ def replay(
             "recorded_rpm": _speeds(every),
             "study_rpm": (float(results["speed"].min()), float(results["speed"].max())),
             "speed_gap": ratios.gap,
-            "interpolation_error_db": float(level_of_amplitude(1.0 + np.max(errors))),
+            "interpolation_error_db": _largest_error_db(errors),
         }
         sounds = (np.array(before), np.array(after))
         units = {channel: response_units(results)[response] for channel, response in pairs.items()}
         summary = summary_of(units, *sounds, rate_hz, lines)
         return Replay(summary.assign_attrs(about), *sounds, rate_hz)
+
+
+def _largest_error_db(errors: Sequence[float]) -> float:
+    """Largest of the errors that are known; not a number where none of them is."""
+    known = [error for error in errors if np.isfinite(error)]
+    return float(level_of_amplitude(1.0 + max(known))) if known else np.nan
 
 
 def _check(

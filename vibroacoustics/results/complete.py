@@ -93,9 +93,6 @@ def _check_parts(results: xr.Dataset, parameters: Parameters) -> None:
         "machine.suspension": not has_block or suspended,
         "machine.stopping": machine.stopping or "stopping_force" not in results,
         "scoring.published": parameters.scoring.published or "published_score" not in results,
-        "machine.overall_noise.speed_rpm": alone
-        or noise is None
-        or noise.speed_rpm in results["speed"].values,
         "machine.overall_noise.spectral_share": not has_share
         or (noise is not None and noise.spectral_share is not None),
         "radiation.maximum_frequency_hz": alone

@@ -9,6 +9,7 @@ from replay_study import ratio, replay_study
 from vibroacoustics import NominalSpeed, SpeedChannel, TacholessSpeed, label_recording, replay
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.measured.option_ratios import changed_noise_bands, option_ratios
+from vibroacoustics.report.replay import analysis_of_replay
 
 RATE = 8192.0
 DURATION = 20.0
@@ -108,6 +109,17 @@ def test_what_cannot_be_interpolated_stays():
     assert two.summary["replayed_line_change_low"].isnull().all()
 
 
+def test_an_order_above_the_frequencies_of_the_study_keeps_its_last_ratio():
+    """At the two fastest speeds the study has no order 3, with the option or without."""
+    results = replay_study(RUN_UP)
+    wanted = option_ratios(results, "ring", "front", 1550.0, RUN_UP[-1]).orders[2].ratio
+    results["pressure_line"][-2:, :, :, 0, 3] = 0.0
+    found = option_ratios(results, "ring", "front", 1550.0, RUN_UP[-1]).orders[2]
+    assert found.line == "order 3"
+    np.testing.assert_allclose(found.ratio[:-2], wanted[:-2])
+    np.testing.assert_allclose(found.ratio[-2:], wanted[-3])
+
+
 def test_an_error_between_speeds_widens_the_interval():
     results = replay_study([1550.0, 1755.0, 1988.0, 2251.0, 2550.0])
     narrow = option_ratios(results, "ring", "front", 1550.0, 2550.0).orders[0]
@@ -127,6 +139,9 @@ def test_only_speeds_of_the_study_are_replayed():
     )
     assert RISING[first] == pytest.approx(1710.0, abs=2.0)
     assert RISING[end] == pytest.approx(2310.0, abs=2.0)
+    first_sentence = analysis_of_replay(replayed.summary, {}).summary[0]
+    assert first_sentence.startswith("Replayed from 3.2")
+    assert "the recording has 1550 to 2550 rpm, the study 1800 to 2200." in first_sentence
     within = np.clip(RISING, 1800.0, 2200.0)
     angle = shaft(RISING)
     change = sum(
@@ -143,7 +158,7 @@ def test_what_stays_is_listed():
     assert json.loads(replayed.summary.attrs["unchanged"]) == {
         "mic": {
             "order 4": "the study has it with the option only",
-            "order 5": "the ratio reaches 26 dB, above 20 dB",
+            "order 5": "the ratio exceeds 20 dB",
             "order 20": "below the recording's noise",
             "motor: 2 x line": "no shaft order",
         }
