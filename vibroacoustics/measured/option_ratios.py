@@ -98,14 +98,14 @@ def option_ratios(
     for name, order, old, new in rows:
         if order == 0.0 or np.all(np.abs(new - old)[used] <= _SAME_RATIO * np.abs(old[used])):
             continue
-        known = used[(old[used] != 0.0) | (new[used] != 0.0)]  # others are above its frequencies
-        reason = _reason(float(order), old[known], new[known])
+        studied = used[(old[used] != 0.0) | (new[used] != 0.0)]  # others are above its frequencies
+        reason = _reason(float(order), old[studied], new[studied])
         ratio = new / np.where(old == 0.0, 1.0, old)
-        error = 0.0 if reason else interpolation_error(speeds[known], ratio[None, known])[0]
+        error = 0.0 if reason else interpolation_error(speeds[studied], ratio[None, studied])[0]
         if reason or error > _LARGEST_ERROR:
             unchanged[str(name)] = reason or _TOO_FAR
             continue
-        ratio = ratio[_nearest(speeds, known)]
+        ratio = ratio[_nearest(speeds, studied)]
         ends = _interval(results, option, response, float(order), np.abs(ratio), error)
         orders.append(OrderRatio(str(name), float(order), ratio, *ends, error))
     _check_apart(orders)
@@ -199,10 +199,10 @@ def _square(results: xr.Dataset, name: str, option: str) -> Array:
     return square if "receiver" in dims else square[None]
 
 
-def _nearest(speed_rpm: Array, known: IndexArray) -> IndexArray:
-    """Number of the nearest known speed for each speed."""
-    distance = np.abs(speed_rpm[:, None] - speed_rpm[known])
-    return np.asarray(known[np.argmin(distance, axis=1)])
+def _nearest(speed_rpm: Array, studied: IndexArray) -> IndexArray:
+    """Number of the nearest of some speeds for each speed."""
+    distance = np.abs(speed_rpm[:, None] - speed_rpm[studied])
+    return np.asarray(studied[np.argmin(distance, axis=1)])
 
 
 def _reason(order: float, before: ComplexArray, after: ComplexArray) -> str:

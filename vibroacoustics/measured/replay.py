@@ -156,9 +156,9 @@ def replay(
 
 
 def _largest_error_db(errors: Sequence[float]) -> float:
-    """Largest of the errors that are known; not a number where none of them is."""
-    known = [error for error in errors if np.isfinite(error)]
-    return float(level_of_amplitude(1.0 + max(known))) if known else np.nan
+    """Largest error; not a number where none is a number."""
+    finite = [error for error in errors if np.isfinite(error)]
+    return float(level_of_amplitude(1.0 + max(finite))) if finite else np.nan
 
 
 def _check(

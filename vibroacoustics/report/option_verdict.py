@@ -81,7 +81,9 @@ def _reason(shifts: Sequence[Shift], elsewhere: Mapping[str, Shift], judgement: 
         if shift.rises
     ]
     better = [shift.short(better=True) for shift in shifts if shift.falls]
-    unsure = [shift.short(better=not shift.worsens) for shift in shifts if shift.is_uncertain]
+    unsure = [
+        shift.short(better=shift.fallen > shift.grown) for shift in shifts if shift.is_uncertain
+    ]
     parts = {BETTER: better, WORSE: worse, UNCERTAIN: unsure}
     said = {word: ", ".join(of_word) for word, of_word in parts.items() if of_word}
     if list(said) == [judgement]:

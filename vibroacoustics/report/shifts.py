@@ -72,8 +72,8 @@ class Shift:
 
     @property
     def is_uncertain(self) -> bool:
-        """Whether most samples change measurably, but the interval holds smaller changes."""
-        return (self.worsens or self.improves) and not (self.rises or self.falls)
+        """Whether one sample in ten or more changes measurably, but no change is sure."""
+        return not (self.rises or self.falls) and max(self.grown, self.fallen) > UNSURE
 
     @property
     def largest(self) -> int:
@@ -129,7 +129,8 @@ def level_word(of_total: Shift) -> Literal["louder", "quieter", "uncertain", "no
         return "louder"
     if of_total.falls and not of_total.worsens:
         return "quieter"
-    return "uncertain" if max(of_total.grown, of_total.fallen) > UNSURE else "no change"
+    sure = of_total.rises or of_total.falls
+    return "uncertain" if sure or of_total.is_uncertain else "no change"
 
 
 @remembered

@@ -140,9 +140,8 @@ def _chart(name: str, what: str, results: xr.Dataset, panel: Panel) -> Chart:
     )
 
 
-_COURSE: Final = (
-    " With samples, levels at the study's speeds are medians; between them the course is that of "
-    "one sample."
+_BETWEEN: Final = (
+    " With samples, levels at the study's speeds are medians; between them they follow one sample."
 )
 
 
@@ -171,8 +170,8 @@ def run_up_levels(results: xr.Dataset, receiver: str | None = None) -> Chart:
     return Chart(
         "run_up_levels",
         f"A-weighted levels of the machine and its sources at {mic} over speed.",
-        f"A-weighted levels at {mic} in a run-up, option {REFERENCE_OPTION}.{_COURSE} Sources more "
-        f"than {DEPTH_DB:g} dB below the machine are not drawn.",
+        f"A-weighted levels at {mic} in a run-up, option {REFERENCE_OPTION}.{_BETWEEN} Sources "
+        f"more than {DEPTH_DB:g} dB below the machine are not drawn.",
         (Panel(Axis("Speed, rpm"), y, (*parts, machine), height=3.0),),
     )
 
@@ -195,6 +194,6 @@ def run_up_orders(results: xr.Dataset, receiver: str | None = None) -> Chart:
         "run_up_orders",
         f"A-weighted level of each order at {mic} over speed.",
         f"A-weighted level of each order of all sources at {mic} in a run-up, option "
-        f"{REFERENCE_OPTION}; {DEPTH_DB:g} dB shown.{_COURSE}",
+        f"{REFERENCE_OPTION}; {DEPTH_DB:g} dB shown.{_BETWEEN}",
         (Panel(Axis("Shaft order", integer=True), Axis("Speed, rpm"), (image,), height=3.0),),
     )

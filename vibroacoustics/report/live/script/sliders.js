@@ -1,45 +1,34 @@
-// Sliders of uncertain parameters: each gives all samples one value. Changes of a sample by third
-// octave are linear between nodes and add in dB; what is shown is the median of the samples.
+// Sliders: each gives all samples one value. Changes are linear between nodes and add in dB.
 Object.assign(Model.prototype, {
-  // Numbers of the sliders that do not leave the samples their own values.
   moved(values) {
     const { sliders } = this.page;
-    return sliders ? sliders.list.map((_, k) => k).filter((k) => values.positions[k] !== sliders.list[k].own) : [];
+    return sliders ? [...sliders.list.keys()].filter((k) => values.positions[k] !== sliders.list[k].own) : [];
   },
 
-  // Changes of the third octaves of a sample at a microphone, dB.
-  sampleChanges(values, m, sample) {
-    const { sliders, bands, microphones } = this.page, sum = new Float64Array(bands.length);
-    const node = sliders.samples * microphones.length * bands.length;
-    this.moved(values).forEach((k) => {
-      const one = sliders.list[k], at = values.positions[k];
-      const lower = Math.min(Math.floor(at), one.values.length - 2), share = at - lower;
-      const first = one.change + lower * node + (sample * microphones.length + m) * bands.length;
-      for (let band = 0; band < sum.length; band++) {
-        sum[band] += (1 - share) * this.numbers[first + band] + share * this.numbers[first + node + band];
-      }
-    });
-    return sum;
-  },
-
-  // Changes in the samples: of each third octave in the median, and of the total, rising, dB.
+  // Changes in the samples: of each third octave in the median, and of the total, dB.
   changes(values, m) {
-    const { sliders, bands, microphones } = this.page;
-    const of = Array.from({ length: sliders.samples }, (_, sample) => this.sampleChanges(values, m, sample));
-    const total = of.map((changes, sample) => {
-      const first = sliders.before[values.option] + (sample * microphones.length + m) * bands.length;
-      let before = 0, after = 0;
-      changes.forEach((change, band) => {
-        before += 10 ** (this.numbers[first + band] / 10);
-        after += 10 ** ((this.numbers[first + band] + change) / 10);
+    const { sliders, bands, microphones } = this.page, { numbers } = this, size = bands.length;
+    const node = sliders.samples * microphones.length * size, of = [], total = [];
+    for (let sample = 0; sample < sliders.samples; sample++) {
+      const row = (sample * microphones.length + m) * size;
+      const sum = Array(size).fill(0);
+      this.moved(values).forEach((k) => {
+        const one = sliders.list[k], at = values.positions[k];
+        const lower = Math.min(Math.floor(at), one.values.length - 2), share = at - lower;
+        const first = one.change + lower * node + row;
+        sum.forEach((_, band) => {
+          sum[band] += (1 - share) * numbers[first + band] + share * numbers[first + node + band];
+        });
       });
-      return 10 * Math.log10(after / before);
-    });
-    const middle = bands.map((_, band) => quantile(of.map((each) => each[band]), 0.5));
-    return { bands: middle, total };
+      const first = sliders.before[values.option] + row;
+      const energy = (extra) => sum.reduce(
+        (all, change, band) => all + 10 ** ((numbers[first + band] + extra * change) / 10), 0);
+      of.push(sum);
+      total.push(10 * Math.log10(energy(1) / energy(0)));
+    }
+    return { bands: bands.map((_, band) => quantile(of.map((each) => each[band]), 0.5)), total };
   },
 
-  // Median change of the total by the sliders, and the ends of its interval with its error, dB.
   change(values, m) {
     const { total } = this.changes(values, m), error = this.error(values, m);
     return [quantile(total, 0.1) - error, quantile(total, 0.5), quantile(total, 0.9) + error];
@@ -65,7 +54,6 @@ Object.assign(Model.prototype, {
       return louder;
     });
     of.total += quantile(total, 0.5);
-    // All of it at the level that is shown.
     of.rest = (of.rest * after) / Math.max(before, 1e-30);
     const louder = (10 ** (of.total / 10) * REFERENCE) / Math.max(square + of.rest, 1e-30);
     of.rest *= louder;
@@ -82,7 +70,6 @@ Object.assign(Model.prototype, {
 });
 
 Object.assign(Panel.prototype, {
-  // What the sliders do, in the samples.
   sliderWords(s, m) {
     const { values } = this.state, moved = this.model.moved(values).length;
     if (!moved || s !== this.page.sliders.speed) return "";
@@ -129,7 +116,6 @@ Object.assign(Panel.prototype, {
   },
 });
 
-// Quantile of values, linear between them.
 const quantile = (values, share) => {
   const rising = [...values].sort((a, b) => a - b), at = share * (rising.length - 1);
   const lower = Math.floor(at), upper = Math.min(lower + 1, rising.length - 1);

@@ -14,7 +14,7 @@ from ...blocks import Beside, Block, Bullets, Details, Light, LightRow, Lights, 
 from ...drawing.picture import machine_picture
 from ...option_verdict import BETTER, MIXED, NO_CHANGE, UNCERTAIN, WORSE, judge, option_verdicts
 from ...quantities import FOOT_FORCE, FORCE, LINE, MOMENT, TOTAL
-from ...shifts import UNSURE, Shift, extent, level_word, measurable, shift
+from ...shifts import Shift, extent, level_word, measurable, shift
 from .. import Section, text
 from ..example import example_words
 from ..scores import ranking_sentence
@@ -80,7 +80,7 @@ def _row(results: xr.Dataset, option: str) -> tuple[Light, ...]:
 def _word(shifts: Sequence[Shift]) -> Word:
     if shifts[0].quantity == TOTAL:
         return _OF_TOTAL[level_word(shifts[0])]
-    unsure = any(max(shift.grown, shift.fallen) > UNSURE for shift in shifts)
+    unsure = any(shift.is_uncertain for shift in shifts)
     rises = any(shift.rises for shift in shifts)
     return _WORDS[judge(rises, any(shift.falls for shift in shifts), unsure)]
 
