@@ -8,6 +8,7 @@ import xarray as xr
 
 from ...base import rounding
 from ...base.constants import LOWEST_AUDIBLE_TONE_HZ, LOWEST_PROMINENT_TONE_HZ
+from ...base.decibel import SILENCE_DB
 from ...base.registry import register
 from ...base.units import shaft_frequency_hz
 from ...results.estimates import Estimate, estimate, is_sampled
@@ -23,6 +24,7 @@ HEAD: Final = ("Option", "Prominent", "Tone", "Hz", "dB", "excess, dB")
 AUDIBILITY: Final = "decisive_audibility"
 AUDIBILITY_HEAD: Final = ("audibility, dB", "K_T, dB")
 NOT_PROMINENT: Final = "not prominent"
+NOT_RATED: Final = "not rated: no noise is modelled"
 NO_LOUDNESS: Final = (
     "The results have no loudness: they are of a version that computed it with mosqito only. Run "
     "the study again."
@@ -44,11 +46,14 @@ def tone_table(results: xr.Dataset) -> Table:
     rows = []
     for option in options(results):
         case = {"option": option, "receiver": microphone, "speed": speed}
-        cells = [option, _names(listed_tones(results, option, microphone, speed))]
+        cells = [_names(listed_tones(results, option, microphone, speed))]
         cells += _cells(nearest_tone(results, option, microphone, speed), sampled)
         if sampled:
             cells.append(_percent(estimate(results, "any_tone_probability", **case).value))
-        rows.append((*cells, *_audibility(results, case), *loud.get(option, ())))
+        cells += _audibility(results, case)
+        if not has_noise(results, case):
+            cells = [NOT_RATED, *[""] * (len(cells) - 1)]
+        rows.append((option, *cells, *loud.get(option, ())))
     of_samples = ("probability", "some tone") if sampled else ()
     headings = AUDIBILITY_HEAD if AUDIBILITY in results else ()
     with_loudness = ("sone", "acum") if loud else ()
@@ -65,7 +70,7 @@ def tone_data(results: xr.Dataset) -> dict[str, DataTable]:
     for option, speed, microphone in cases:
         tone = nearest_tone(results, option, microphone, speed)
         case = {"option": option, "speed": speed, "receiver": microphone}
-        values = (
+        values = [
             float(results[name].sel(case)) if name in results else ""
             for name in (
                 "any_tone_probability",
@@ -74,9 +79,11 @@ def tone_data(results: xr.Dataset) -> dict[str, DataTable]:
                 "loudness",
                 "sharpness",
             )
-        )
+        ]
         cells: tuple[str | float, ...] = ("",) * 7
-        if tone is not None:
+        if not has_noise(results, case):
+            values[:3] = ("", "", "")
+        elif tone is not None:
             excess, share = tone.excess_db, tone.probability
             cells = (tone.name, tone.frequency_hz, tone.level_db, *excess, share)
         rows.append((option, speed, microphone, *cells, *values))
@@ -85,6 +92,16 @@ def tone_data(results: xr.Dataset) -> dict[str, DataTable]:
             "some_tone_probability", "audibility_db", "tonal_adjustment_db", "loudness_sone",
             "sharpness_acum")  # fmt: skip
     return {"tones.csv": columns_of(head, rows)}
+
+
+def has_noise(results: xr.Dataset, case: dict[str, Any]) -> bool:
+    """Whether there is any noise beside the lines, by which a tone can be rated."""
+    levels = [
+        float(results[name].sel(case).max())
+        for name in ("noise_band_level", "unmodelled_band_level")
+        if name in results
+    ]
+    return not levels or max(levels) > SILENCE_DB
 
 
 def _audibility(results: xr.Dataset, case: dict[str, Any]) -> tuple[str, ...]:
