@@ -1,0 +1,200 @@
+"""Claims with their conditions: a value, what it needs, what was given, and what falls without."""
+
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Final, Literal
+
+import xarray as xr
+
+Effect = Literal["no value", "at least", "at most", "remark", "lower value"]
+"""What a missing condition does: the value is withdrawn, is a bound, has a remark, or is lower."""
+ATTRIBUTE: Final = "conditional_claims"
+"""Attribute of a dataset that holds its claims."""
+COLUMNS: Final = (
+    "claim", "subject", "statement", "condition", "needed", "given", "met", "effect",
+)  # fmt: skip
+_BOUNDS: Final = ("at least", "at most")
+
+
+@dataclass(frozen=True)
+class Condition:
+    """Requirement of a kind of claim.
+
+    Attributes
+    ----------
+    name : noun, unique in its kind
+    needed : requirement with its unit
+    effect : what a claim loses without it
+    lacking : words where it is not met; `{given}` is what was given, `{needed}` what is needed.
+        Empty for `needed: given`
+    """
+
+    name: str
+    needed: str
+    effect: Effect
+    lacking: str = ""
+
+
+@dataclass(frozen=True)
+class ClaimKind:
+    """Kind of claim that headlines state.
+
+    Attributes
+    ----------
+    name : noun, unique
+    commands : commands whose headline states it
+    conditions : requirements
+    source : document that sets them; empty for those of the method itself
+    """
+
+    name: str
+    commands: tuple[str, ...]
+    conditions: tuple[Condition, ...]
+    source: str = ""
+
+    def claim(
+        self, value: str, given: Mapping[str, "Given"], subject: str = ""
+    ) -> "ConditionalClaim":
+        """Return a claim of this kind.
+
+        Parameters
+        ----------
+        value : with its unit, as it is printed where all conditions are met
+        given : what was given, by name of each condition
+        subject : channel, microphone or option whose claim it is
+        """
+        names = {condition.name for condition in self.conditions}
+        if names != set(given):
+            raise KeyError(f"{self.name}: conditions {sorted(names ^ set(given))}")
+        checks = tuple(_check(each, given[each.name]) for each in self.conditions)
+        return ConditionalClaim(self.name, subject, value, checks)
+
+
+@dataclass(frozen=True)
+class Given:
+    """What was given of a condition.
+
+    Attributes
+    ----------
+    words : value with its unit
+    is_met : whether it is enough
+    needed : requirement in this case; empty for that of the condition
+    """
+
+    words: str
+    is_met: bool
+    needed: str = ""
+
+
+@dataclass(frozen=True)
+class Check:
+    """Condition of one claim beside what was given; see `Condition`."""
+
+    condition: str
+    needed: str
+    given: str
+    is_met: bool
+    effect: Effect
+    lacking: str
+
+
+@dataclass(frozen=True)
+class ConditionalClaim:
+    """Value with the conditions under which it holds.
+
+    Attributes
+    ----------
+    kind : name of its kind
+    subject : channel, microphone or option; empty where there is one only
+    value : with its unit
+    checks : every condition of the kind
+    """
+
+    kind: str
+    subject: str
+    value: str
+    checks: tuple[Check, ...]
+
+    def missing(self, *effects: Effect) -> tuple[Check, ...]:
+        """Conditions that are not met, with one of some effects; default: all."""
+        return tuple(
+            each for each in self.checks
+            if not each.is_met and (not effects or each.effect in effects)
+        )  # fmt: skip
+
+    @property
+    def is_withdrawn(self) -> bool:
+        """Whether there is no value."""
+        return bool(self.missing("no value"))
+
+    @property
+    def bound(self) -> str:
+        """`at least`, `at most`, `about` where errors of both signs remain, else empty."""
+        signs = [effect for effect in _BOUNDS if self.missing(effect)]
+        return "about" if len(signs) > 1 else "".join(signs)
+
+    @property
+    def short(self) -> str:
+        """Value with its bound, or what it lacks; without the reasons of bounds and remarks."""
+        if self.is_withdrawn:
+            needed = dict.fromkeys(each.needed for each in self.missing("no value"))
+            return f"no {self.kind} without {' and '.join(needed)}"
+        return f"{self.bound} {self.value}".lstrip()
+
+
+def stated(claim: ConditionalClaim) -> str:
+    """Return a claim in words: headline, table, CSV and JSON state these.
+
+    Examples
+    --------
+    >>> bands = Condition("bands", "to 12.5 kHz", "at least", "bands above {given} are missing")
+    >>> loudness = ClaimKind("loudness", ("tones",), (bands,))
+    >>> stated(loudness.claim("35 sone", {"bands": Given("6.3 kHz", False)}))
+    'at least 35 sone (bands above 6.3 kHz are missing)'
+    """
+    lacking = dict.fromkeys(each.lacking for each in claim.missing("at least", "at most", "remark"))
+    reasons = "" if claim.is_withdrawn or not lacking else f" ({'; '.join(lacking)})"
+    return f"{claim.short}{reasons}"
+
+
+def named(claim: ConditionalClaim) -> str:
+    """Return a claim in words that begin with its kind, for values that do not name it."""
+    return stated(claim) if claim.is_withdrawn else f"{claim.kind} {stated(claim)}"
+
+
+def condition_table(claims: Iterable[ConditionalClaim]) -> dict[str, list[str | float]]:
+    """Return columns `COLUMNS` with a row for each condition of each claim."""
+    rows: list[tuple[str, ...]] = [
+        (claim.kind, claim.subject, stated(claim), each.condition, each.needed, each.given,
+         "yes" if each.is_met else "no", each.effect)
+        for claim in claims
+        for each in claim.checks
+    ]  # fmt: skip
+    return {head: [row[column] for row in rows] for column, head in enumerate(COLUMNS)}
+
+
+def with_claims(results: xr.Dataset, claims: Sequence[ConditionalClaim]) -> xr.Dataset:
+    """Return a dataset that keeps its claims."""
+    kept = json.dumps([asdict(claim) for claim in claims], ensure_ascii=False)
+    return results.assign_attrs({ATTRIBUTE: kept})
+
+
+def claims_of(results: xr.Dataset) -> tuple[ConditionalClaim, ...]:
+    """Return the claims that a dataset keeps."""
+    return tuple(
+        ConditionalClaim(**{**row, "checks": tuple(Check(**each) for each in row["checks"])})
+        for row in json.loads(results.attrs.get(ATTRIBUTE, "[]"))
+    )
+
+
+def claim_of(results: xr.Dataset, kind: str, subject: str = "") -> ConditionalClaim:
+    """Return the claim of a kind and a subject that a dataset keeps."""
+    return next(c for c in claims_of(results) if (c.kind, c.subject) == (kind, subject))
+
+
+def _check(condition: Condition, given: Given) -> Check:
+    needed = given.needed or condition.needed
+    template = condition.lacking or "{needed} needed, given {given}"
+    lacking = template.format(given=given.words, needed=needed)
+    return Check(condition.name, needed, given.words, given.is_met, condition.effect, lacking)
