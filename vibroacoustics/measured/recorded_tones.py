@@ -97,9 +97,13 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         .T
         for name, field in FIELDS.items()
     }
-    values["recorded_loudness"] = np.array([each.loudness.loudness_sone for each in heard])
-    values["recorded_sharpness"] = np.array([each.loudness.sharpness_acum for each in heard])
-    results = stamped({**values, **_audibility([each.mean for each in heard])}, coords)
+    loud_values = {
+        "recorded_loudness": np.array([each.loudness.loudness_sone for each in heard]),
+        "recorded_sharpness": np.array([each.loudness.sharpness_acum for each in heard]),
+    }
+    results = stamped(
+        {**values, **loud_values, **_audibility([each.mean for each in heard])}, coords
+    )
     results.attrs = provenance.of_recording(recording.attrs, "tones")
     results = with_claims(results, [claim for each in heard for claim in claims_of_channel(each)])
     for line in remarks:

@@ -9,7 +9,7 @@ from urllib.parse import quote
 import xarray as xr
 
 from ..base.folder import Content
-from ..results.conditional import COLUMNS, ConditionalClaim, condition_table
+from ..results.conditional import COLUMNS, ConditionalClaim, condition_table, named
 from ..results.number import Number
 from .blocks import (
     Beside,
@@ -136,8 +136,14 @@ class Analysis:
         return f"{self.name}.html"
 
     def text(self) -> str:
-        """Return summary and tables for a terminal."""
-        return "\n".join([*map(to_ascii, self.summary), *map(_in_terminal, self.shown)])
+        """Return summary and tables for a terminal, and what claims lack that these do not say."""
+        text = "\n".join([*map(to_ascii, self.summary), *map(_in_terminal, self.shown)])
+        lines = [
+            to_ascii(f"{claim.subject}: {named(claim)}".removeprefix(": "))
+            for claim in self.claims
+            if any(to_ascii(reason) not in text for reason in claim.reasons)
+        ]
+        return "\n".join([text, *lines]) if lines else text
 
     def html(self, results_sha256: str = "") -> bytes:
         """Return the page, with the hash of its results."""

@@ -65,3 +65,128 @@ ADJUSTMENT: Final = ClaimKind(
     ),
     "ISO/PAS 20065, ISO 1996-2",
 )
+
+_SAMPLES: Final = ("samples", "weighted samples")
+INTERVAL: Final = ClaimKind(
+    "80 % interval",
+    ("run", "report", "score"),
+    (
+        Condition(*_SAMPLES, "no value"),
+        Condition(
+            "effective samples", "30 effective samples", "remark", "{given} effective samples"
+        ),
+    ),
+)
+CHANGE: Final = ClaimKind(
+    "change of the level",
+    ("run", "report", "score"),
+    (
+        Condition("change", "a measurable change in most samples", "lower value"),
+        Condition("interval", "an interval beyond the smallest measurable change", "lower value"),
+    ),
+)
+KWAVE: Final = ClaimKind(
+    "radiation",
+    ("run", "report", "score", "radiation"),
+    (Condition("k-Wave", "k-Wave beside the closed form", "remark", "k-Wave did not run"),),
+)
+RANKING: Final = ClaimKind(
+    "ranking",
+    ("run", "report", "score"),
+    (Condition(*_SAMPLES, "remark", "of nominal values alone"),),
+)
+UNCERTAINTY: Final = ClaimKind(
+    "K_WA", ("datasheet",), (Condition(*_SAMPLES, "no value"),), "ISO 4871"
+)
+SHEET_LEVEL: Final = ClaimKind(
+    "L_WA",
+    ("datasheet",),
+    (Condition("published level", "a published level", "remark", "of the modelled sources alone"),),
+)
+PROMISE: Final = ClaimKind(
+    "promise of a design",
+    ("sweep", "optimise"),
+    (
+        Condition("constraints", "a design that meets every constraint", "no value"),
+        Condition(*_SAMPLES, "remark", "for nominal values of the machine"),
+    ),
+)
+COHERENCE: Final = ClaimKind(
+    "coherence",
+    ("orders", "compare"),
+    (
+        Condition("any speed", "8 blocks at a speed", "no value"),
+        Condition("every speed", "8 blocks at each speed", "remark", "at {given} speeds"),
+    ),
+)
+MEAN_INTERVAL: Final = ClaimKind(
+    "95 % interval of the mean",
+    ("orders",),
+    (Condition("runs", "2 runs, of several machines 2 machines", "no value"),),
+)
+REPLAYED: Final = ClaimKind(
+    "level with the option",
+    ("replay",),
+    (
+        Condition("lines", "a line that can be changed", "no value"),
+        Condition(*_SAMPLES, "remark", "no interval: the study has no samples"),
+    ),
+)
+BAND: Final = ClaimKind(
+    "90 % band",
+    ("predict", "blocked-forces"),
+    (Condition("faults", "measurements without accepted faults", "no value"),),
+)
+TRUNCATION: Final = ClaimKind(
+    "choice of the truncation",
+    ("blocked-forces",),
+    (Condition("responses", "more responses than forces", "no value"),),
+)
+FUNCTIONS: Final = ClaimKind(
+    "verdict",
+    ("check-functions",),
+    (
+        Condition("passivity", "driving points", "remark", "passivity not tested at {given}"),
+        Condition("reciprocity", "pairs", "remark", "reciprocity not tested at {given}"),
+    ),
+)
+BALANCE_GRADE: Final = ClaimKind(
+    "grade",
+    ("balance",),
+    (
+        Condition("mass", "mass of the rotor", "no value"),
+        Condition("scatter", "scatter of the readings", "no value"),
+    ),
+    "ISO 21940-11",
+)
+PROBABILITY: Final = ClaimKind(
+    "probability",
+    ("permit",),
+    (Condition("deviation", "a deviation above 0 dB", "no value"),),
+)
+LEAST_DISTANCE: Final = ClaimKind(
+    "least distance",
+    ("permit",),
+    (Condition("distance", "a limit that is met within 2 km", "no value"),),
+)
+
+KINDS: Final = (
+    GRADE, POWER_LEVEL, LOUDNESS, SHARPNESS, ADJUSTMENT, INTERVAL, CHANGE, KWAVE, RANKING,
+    UNCERTAINTY, SHEET_LEVEL, PROMISE, COHERENCE, MEAN_INTERVAL, REPLAYED, BAND, TRUNCATION,
+    FUNCTIONS, BALANCE_GRADE, PROBABILITY, LEAST_DISTANCE,
+)  # fmt: skip
+"""All kinds."""
+UNCONDITIONAL: Final = {
+    "check": "Costs; each line says whether it is measured.",
+    "curves": "Names of the curves.",
+    "new": "Names of the files.",
+    "listen": "Names of the sounds; the gain is in the name.",
+    "impulse-responses": "Largest value of each response.",
+    "track": "Largest amplitude of each order; refused where the speed is not known.",
+    "map": "Names of the files; speeds to avoid are listed for run-ups alone.",
+    "export": "Name of the file.",
+    "cache": "Stored results.",
+    "doctor": "Versions and memory.",
+    "schema": "Schemas.",
+}
+"""What the headlines of commands without a conditional claim state."""

@@ -135,6 +135,14 @@ class ConditionalClaim:
         return "about" if len(signs) > 1 else "".join(signs)
 
     @property
+    def reasons(self) -> tuple[str, ...]:
+        """Words on each missing condition that its value does not show."""
+        if self.is_withdrawn:
+            return (self.short,)
+        lacking = (each.lacking for each in self.missing("at least", "at most", "remark"))
+        return tuple(dict.fromkeys(lacking))
+
+    @property
     def short(self) -> str:
         """Value with its bound, or what it lacks; without the reasons of bounds and remarks."""
         if self.is_withdrawn:
@@ -153,9 +161,9 @@ def stated(claim: ConditionalClaim) -> str:
     >>> stated(loudness.claim("35 sone", {"bands": Given("6.3 kHz", False)}))
     'at least 35 sone (bands above 6.3 kHz are missing)'
     """
-    lacking = dict.fromkeys(each.lacking for each in claim.missing("at least", "at most", "remark"))
-    reasons = "" if claim.is_withdrawn or not lacking else f" ({'; '.join(lacking)})"
-    return f"{claim.short}{reasons}"
+    if claim.is_withdrawn or not claim.reasons:
+        return claim.short
+    return f"{claim.short} ({'; '.join(claim.reasons)})"
 
 
 def named(claim: ConditionalClaim) -> str:
