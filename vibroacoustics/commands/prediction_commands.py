@@ -59,7 +59,7 @@ def check_functions_command(
     """Test measured functions against physics; each fault names its point and what to do."""
     from ..measured.function_check import check_functions
     from ..results.claim_kinds import FUNCTIONS
-    from ..results.conditional import Given, condition_table, stated
+    from ..results.conditional import Finding, condition_table, stated
     from .outcome import columns
 
     checked = check_functions(file)
@@ -70,7 +70,7 @@ def check_functions_command(
     ]
     verdict = "no fault was found" if not checked.faults else f"faults: {len(checked.faults)}"
     tested = {
-        name: Given(", ".join(missing) or "every point", not missing)
+        name: Finding(", ".join(missing) or "every point", not missing)
         for name, column in (("passivity", "passivity"), ("reciprocity", "reciprocity_residual"))
         for missing in [[str(row["point"]) for row in checked.rows if isnan(float(row[column]))]]
     }

@@ -19,7 +19,7 @@ from ..sound.loudness import Loudness, recorded_loudness
 from ..sound.mean_audibility import MeanAudibility, drift_octaves, mean_audibility
 from ..sound.recorded import narrow_bands, recorded_spectrum
 from ..sound.tonality import Tone, tones
-from .tone_claims import VARIES_DB, Heard, claims_of_channel
+from .tone_claims import VARIES_DB, ChannelSound, claims_of_channel
 
 FIELDS: Final = {
     "recorded_tone_frequency": "frequency_hz",
@@ -62,7 +62,7 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         units = ", ".join(sorted(set(map(str, signal["channel_unit"].values))))
         raise ParameterError(f"channels: none is in Pa (available: {units}); see --unit")
     rate_hz = float(recording.attrs["sample_rate_hz"])
-    listed, heard, remarks = [], list[Heard](), list[str]()
+    listed, sounds, remarks = [], list[ChannelSound](), list[str]()
     for name, channel in zip(microphones["channel"].values, microphones, strict=True):
         octaves = drift_octaves(channel.values, rate_hz)
         if octaves:
@@ -84,11 +84,11 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         except ParameterError as error:  # a channel that is too loud leaves the others theirs
             loud = Loudness(np.nan, np.nan)
             remarks.append(f"channel {str(name)!r}: no {error}")
-        heard.append(Heard(str(name), loud, mean, variation_db, octaves, rate_hz))
+        sounds.append(ChannelSound(str(name), loud, mean, variation_db, octaves, rate_hz))
     coords = {
         "channel": microphones["channel"].values,
         "recorded_tone": np.arange(1.0, max(map(len, listed)) + 1.0),
-        "audible_spectrum": np.arange(1.0, len(heard[0].mean.decisive) + 1.0),
+        "audible_spectrum": np.arange(1.0, len(sounds[0].mean.decisive) + 1.0),
     }
     table = list(zip_longest(*listed)) or []
     values = {
@@ -98,14 +98,14 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         for name, field in FIELDS.items()
     }
     loud_values = {
-        "recorded_loudness": np.array([each.loudness.loudness_sone for each in heard]),
-        "recorded_sharpness": np.array([each.loudness.sharpness_acum for each in heard]),
+        "recorded_loudness": np.array([each.loudness.loudness_sone for each in sounds]),
+        "recorded_sharpness": np.array([each.loudness.sharpness_acum for each in sounds]),
     }
     results = stamped(
-        {**values, **loud_values, **_audibility([each.mean for each in heard])}, coords
+        {**values, **loud_values, **_audibility([each.mean for each in sounds])}, coords
     )
     results.attrs = provenance.of_recording(recording.attrs, "tones")
-    results = with_claims(results, [claim for each in heard for claim in claims_of_channel(each)])
+    results = with_claims(results, [claim for each in sounds for claim in claims_of_channel(each)])
     for line in remarks:
         warnings.warn(f"{provenance.recording_name(recording.attrs)}: {line}", stacklevel=2)
     if remarks:

@@ -18,14 +18,18 @@ from ..base.vocabulary import label_coordinates, stamped
 from ..levels.bands import measurable_bands
 from ..levels.measured_power import BANDS, MeasuredPower, a_weighted_sum, measured_power, spread_dba
 from ..levels.signal_levels import band_levels
-from ..levels.sound_power import box_area_m2, hemisphere_area_m2
+from ..levels.sound_power import (
+    LARGEST_ENVIRONMENT_CORRECTION_DB,
+    box_area_m2,
+    hemisphere_area_m2,
+)
 from ..radiation.arrangements import TABLE_B1, box_positions
 from ..recordings import LabelledBlocks
 from ..recordings.equality import identities
 from ..recordings.remarks import RecordingWarning
 from ..results import provenance
 from ..results.claim_kinds import GRADE, POWER_LEVEL
-from ..results.conditional import ConditionalClaim, Given, with_claims
+from ..results.conditional import ConditionalClaim, Finding, with_claims
 from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 
 
@@ -185,30 +189,30 @@ def _claims(
     complete = int(np.isfinite(by_position).all(axis=0).sum())
     count, behind = len(levels), 0 if quiet is None else len(quiet)
     margin_dba, k2_dba = measured.margin_dba, measured.environment_dba
+    is_clear = not margin_dba < MINIMUM_BACKGROUND_MARGIN_DB
     needed = f"{' or '.join(map(str, surface.positions))} microphones"
     room = "stated" if measured.has_environment else "not stated"
     shared = {
-        "background": Given(f"{behind} positions", quiet is not None),
-        "room": Given(room, measured.has_environment),
-        "sound": Given(
+        "background": Finding(f"{behind} positions", quiet is not None),
+        "room": Finding(room, measured.has_environment),
+        "sound": Finding(
             f"{count - len(dead)} of {count}",
             not dead,
             f"sound at {', '.join(dead)}" if dead else "",
         ),
-        "bands": Given(f"{BAND_HZ[complete - 1] / 1000.0:g} kHz", complete == len(BAND_HZ)),
+        "bands": Finding(f"{BAND_HZ[complete - 1] / 1000.0:g} kHz", complete == len(BAND_HZ)),
     }
     margin = f"{rounding.fixed(margin_dba)} dB"
     of_grade = {
-        "microphones": Given(f"{count} microphones", count in surface.positions, needed),
-        "background positions": Given(f"{behind} of {count}", quiet is None or behind == count),
-        "margin": Given(margin, measured.grade is not None),
-        "K2A": Given(f"{rounding.fixed(k2_dba)} dB", measured.grade is not None),
+        "microphones": Finding(f"{count} microphones", count in surface.positions, needed),
+        "background positions": Finding(f"{behind} of {count}", quiet is None or behind == count),
+        "margin": Finding(margin, is_clear),
+        "K2A": Finding(f"{rounding.fixed(k2_dba)} dB", k2_dba <= LARGEST_ENVIRONMENT_CORRECTION_DB),
     }
-    is_clear = not margin_dba < MINIMUM_BACKGROUND_MARGIN_DB
     level = f"{rounding.fixed(measured.power_dba)} dB(A) re 1 pW"
     return (
         GRADE.claim(GRADES[measured.grade], shared | of_grade),
-        POWER_LEVEL.claim(level, shared | {"margin": Given(margin, is_clear)}),
+        POWER_LEVEL.claim(level, shared | {"margin": Finding(margin, is_clear)}),
     )
 
 

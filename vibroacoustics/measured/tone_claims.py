@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base import rounding
 from ..results.claim_kinds import ADJUSTMENT, LOUDNESS, SHARPNESS
-from ..results.conditional import ConditionalClaim, Given
+from ..results.conditional import ConditionalClaim, Finding
 from ..sound.audibility import tonal_adjustment_db
 from ..sound.audible_tones import HIGHEST_HZ
 from ..sound.loudness import QUIET_SONE, Loudness
@@ -23,7 +23,7 @@ _SPECTRA: Final = 12
 
 
 @dataclass(frozen=True)
-class Heard:
+class ChannelSound:
     """What was found in a channel.
 
     Attributes
@@ -44,35 +44,35 @@ class Heard:
     rate_hz: float
 
 
-def claims_of_channel(heard: Heard) -> Iterator[ConditionalClaim]:
+def claims_of_channel(sound: ChannelSound) -> Iterator[ConditionalClaim]:
     """Give loudness, sharpness and tonal adjustment with their conditions."""
-    loud = heard.loudness
+    loud = sound.loudness
     is_audible = not loud.loudness_sone < QUIET_SONE
     is_too_loud = bool(np.isnan(loud.loudness_sone))
     loudest = f"{'above' if is_too_loud else 'at most'} {LOUDEST_DB:g} dB"
     shared = {
-        "bands": Given(f"{loud.highest_band_hz / 1000.0:g} kHz", not loud.is_lower_bound),
-        "third octaves below 300 Hz": Given(loudest, not is_too_loud),
-        "steady level": Given(f"{heard.variation_db:.0f} dB", heard.variation_db < VARIES_DB),
+        "bands": Finding(f"{loud.highest_band_hz / 1000.0:g} kHz", not loud.is_lower_bound),
+        "third octaves below 300 Hz": Finding(loudest, not is_too_loud),
+        "steady level": Finding(f"{sound.variation_db:.0f} dB", sound.variation_db < VARIES_DB),
     }
-    yield LOUDNESS.claim(f"{rounding.three_digits(loud.loudness_sone)} sone", shared, heard.channel)
+    yield LOUDNESS.claim(f"{rounding.three_digits(loud.loudness_sone)} sone", shared, sound.channel)
     is_bounded = is_too_loud or not is_audible or not np.isnan(loud.sharpness_acum)
     sharp = {
         **shared,
-        "sound below the missing bands": Given(
+        "sound below the missing bands": Finding(
             "loud enough" if is_bounded else "too weak", is_bounded
         ),
-        "audible sound": Given(rounding.three_digits(loud.loudness_sone), is_audible),
+        "audible sound": Finding(rounding.three_digits(loud.loudness_sone), is_audible),
     }
-    yield SHARPNESS.claim(f"{rounding.fixed(loud.sharpness_acum, 2)} acum", sharp, heard.channel)
-    highest_hz, spectra = 0.5 * heard.rate_hz, len(heard.mean.decisive)
-    direction = "rise" if heard.drift_octaves > 0.0 else "fall"
-    octaves = abs(heard.drift_octaves)
+    yield SHARPNESS.claim(f"{rounding.fixed(loud.sharpness_acum, 2)} acum", sharp, sound.channel)
+    highest_hz, spectra = 0.5 * sound.rate_hz, len(sound.mean.decisive)
+    direction = "rise" if sound.drift_octaves > 0.0 else "fall"
+    octaves = abs(sound.drift_octaves)
     of_lines = f"{direction} by {octaves:.1g} octaves" if octaves else "are constant"
     judged = {
-        "range": Given(f"{highest_hz / 1000.0:g} kHz", highest_hz >= HIGHEST_HZ),
-        "spectra": Given(str(spectra), spectra >= _SPECTRA),
-        "steady lines": Given(of_lines, not octaves),
+        "range": Finding(f"{highest_hz / 1000.0:g} kHz", highest_hz >= HIGHEST_HZ),
+        "spectra": Finding(str(spectra), spectra >= _SPECTRA),
+        "steady lines": Finding(of_lines, not octaves),
     }
-    adjustment = tonal_adjustment_db(np.array(heard.mean.audibility_db)).item()
-    yield ADJUSTMENT.claim(f"{adjustment:g} dB", judged, heard.channel)
+    adjustment = tonal_adjustment_db(np.array(sound.mean.audibility_db)).item()
+    yield ADJUSTMENT.claim(f"{adjustment:g} dB", judged, sound.channel)

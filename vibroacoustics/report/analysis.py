@@ -163,7 +163,7 @@ class Analysis:
             "tables": {
                 name.removesuffix(".csv"): {head: list(map(_cell, values)) for head, values in
                                             table.items()}
-                for name, table in self._every_table().items()
+                for name, table in self.every_table().items()
             },
             "numbers": [each.data() for each in by_selection.values()],
             "charts": [chart.data() for chart in charts(self._blocks())],
@@ -174,7 +174,7 @@ class Analysis:
         pictures_of_file = {picture_file(each): each.content for each in pictures(self._blocks())}
         return {
             self.page: self.html(results_sha256),
-            **{name: to_csv(table) for name, table in self._every_table().items()},
+            **{name: to_csv(table) for name, table in self.every_table().items()},
             **({self.in_markdown: self.markdown()} if self.in_markdown else {}),
             **self.further,
             **{f"{self.figures}{name}": content for name, content in pictures_of_file.items()},
@@ -184,7 +184,7 @@ class Analysis:
         computed = f" Computed {self.created}." if self.created else ""
         return f"{self.kind}. {self.about}{computed}"
 
-    def _every_table(self) -> Mapping[str, DataTable]:
+    def every_table(self) -> Mapping[str, DataTable]:
         """Tables of data, with that of the conditions of claims."""
         if not self.claims:
             return self.tables
@@ -196,7 +196,7 @@ class Analysis:
             return ()
         columns = condition_table(self.claims)
         rows = tuple(tuple(map(str, row)) for row in zip(*columns.values(), strict=True))
-        caption = "What each claim needs, and what was given"
+        caption = "What each claim needs, and what was found"
         table = Table(caption, COLUMNS, rows, frozenset(range(len(COLUMNS))))
         return (Part("conditions", "Claims and their conditions", (table,), folded=True),)
 

@@ -21,7 +21,7 @@ from ..results.claim_kinds import (
     TRUNCATION,
     UNCERTAINTY,
 )
-from ..results.conditional import ConditionalClaim, Given
+from ..results.conditional import ConditionalClaim, Finding
 from ..results.data_sheet import SoundPower
 from ..results.estimates import effective_samples, has_samples
 from ..results.stored_study import at_catalogue, balancers, catalogue_receiver, nearest_speed
@@ -44,36 +44,36 @@ def interval_claim(results: xr.Dataset) -> ConditionalClaim:
     level = band(results, "level_total", **at_catalogue(results, speed=nearest_speed(results)))
     is_sampled = has_samples(results)
     effective = effective_samples(results) if is_sampled else np.inf
-    given = {
+    findings = {
         "samples": _samples(is_sampled),
-        "effective samples": Given(f"{effective:.0f}", effective >= FEW_SAMPLES),
+        "effective samples": Finding(f"{effective:.0f}", effective >= FEW_SAMPLES),
     }
     ends = f"{level.around_middle(rounding.level)} dB(A)"
-    return INTERVAL.claim(ends, given, catalogue_receiver(results))
+    return INTERVAL.claim(ends, findings, catalogue_receiver(results))
 
 
-def _samples(is_sampled: bool) -> Given:
-    return Given("weighted samples" if is_sampled else "nominal values", is_sampled)
+def _samples(is_sampled: bool) -> Finding:
+    return Finding("weighted samples" if is_sampled else "nominal values", is_sampled)
 
 
 def _change(results: xr.Dataset, option: str) -> ConditionalClaim:
     of_total = shift(results, TOTAL, option)
     word = level_word(of_total)
     ends = of_total.band.middle_and_ends(rounding.signed)
-    given = {
-        "change": Given(word, of_total.worsens or of_total.improves),
-        "interval": Given(word, word in {"louder", "quieter"}),
+    findings = {
+        "change": Finding(word, of_total.worsens or of_total.improves),
+        "interval": Finding(word, word in {"louder", "quieter"}),
     }
-    return CHANGE.claim(f"{word}, {ends} dB", given, option)
+    return CHANGE.claim(f"{word}, {ends} dB", findings, option)
 
 
 def kwave_claim(results: xr.Dataset) -> ConditionalClaim:
     """Return the largest difference between k-Wave and the closed form."""
     difference = kwave_difference_db(results)
     if difference is None:
-        return KWAVE.claim("of the closed form", {"k-Wave": Given("not run", False)})
+        return KWAVE.claim("of the closed form", {"k-Wave": Finding("not run", False)})
     value = f"within {rounding.fixed(difference, 3)} dB of the closed form"
-    return KWAVE.claim(value, {"k-Wave": Given("run", True)})
+    return KWAVE.claim(value, {"k-Wave": Finding("run", True)})
 
 
 def _ranking(results: xr.Dataset) -> Iterator[ConditionalClaim]:
@@ -90,8 +90,11 @@ def coherence_claim(coherence: xr.DataArray) -> ConditionalClaim:
     known = coherence.notnull().any([dim for dim in coherence.dims if dim != "speed"])
     count, speeds = int(known.sum()), known.size
     words = f"{count} of {speeds}"
-    given = {"any speed": Given(words, count > 0), "every speed": Given(words, count == speeds)}
-    return COHERENCE.claim("stated", given)
+    findings = {
+        "any speed": Finding(words, count > 0),
+        "every speed": Finding(words, count == speeds),
+    }
+    return COHERENCE.claim("stated", findings)
 
 
 def mean_interval_claim(channel: str, words: str, half_width_db: float) -> ConditionalClaim:
@@ -105,21 +108,21 @@ def mean_interval_claim(channel: str, words: str, half_width_db: float) -> Condi
     """
     is_known = bool(np.isfinite(half_width_db))
     return MEAN_INTERVAL.claim(
-        words, {"runs": Given("several" if is_known else "1", is_known)}, channel
+        words, {"runs": Finding("several" if is_known else "1", is_known)}, channel
     )
 
 
 def band_claim(results: xr.Dataset, words: str, subject: str) -> ConditionalClaim:
     """Return a band of measured functions, of which accepted faults leave none."""
     faults = str(results.attrs.get("faults", "")).splitlines()
-    return BAND.claim(words, {"faults": Given(f"{len(faults)} faults", not faults)}, subject)
+    return BAND.claim(words, {"faults": Finding(f"{len(faults)} faults", not faults)}, subject)
 
 
 def truncation_claim(taken: float, errors: Array) -> ConditionalClaim:
     """Return the truncation, chosen by the error of responses that are left out in turn."""
     is_chosen = not bool(np.isnan(errors).all())
-    given = Given("more" if is_chosen else "as few", is_chosen)
-    return TRUNCATION.claim(f"{taken:.1%}", {"responses": given})
+    finding = Finding("more" if is_chosen else "as few", is_chosen)
+    return TRUNCATION.claim(f"{taken:.1%}", {"responses": finding})
 
 
 def sheet_claims(power: SoundPower, level: str) -> tuple[ConditionalClaim, ConditionalClaim]:
@@ -131,7 +134,7 @@ def sheet_claims(power: SoundPower, level: str) -> tuple[ConditionalClaim, Condi
     level : L_WA in words
     """
     has_rest = power.unmodelled_kind != "none"
-    of_level = {"published level": Given(power.unmodelled_kind, has_rest)}
+    of_level = {"published level": Finding(power.unmodelled_kind, has_rest)}
     _, uncertainty = power.declared or (0, 0)
     known = power.declared is not None
     return (
@@ -150,5 +153,5 @@ def promise_claim(values: Sequence[str], is_allowed: bool, is_sampled: bool) -> 
     is_sampled : whether the machine was sampled, not the pieces of the design alone
     """
     words = "met" if is_allowed else "not met"
-    given = {"constraints": Given(words, is_allowed), "samples": _samples(is_sampled)}
-    return PROMISE.claim("; ".join(values), given, "design 1")
+    findings = {"constraints": Finding(words, is_allowed), "samples": _samples(is_sampled)}
+    return PROMISE.claim("; ".join(values), findings, "design 1")

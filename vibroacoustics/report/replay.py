@@ -10,7 +10,7 @@ import xarray as xr
 
 from ..base import rounding
 from ..results.claim_kinds import REPLAYED
-from ..results.conditional import ConditionalClaim, Given
+from ..results.conditional import ConditionalClaim, Finding
 from ..results.number import Number
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Sound, Sounds, Text
@@ -193,11 +193,11 @@ def _claim(summary: xr.Dataset, channel: str) -> ConditionalClaim:
     changed = sum(each == channel for each, _ in _changed(summary))
     reasons = _unchanged(summary).get(channel, {})
     is_known, is_sampled = bool(changed or not reasons), after.low is not None or not changed
-    given = {
-        "lines": Given(f"{changed} of {changed + len(reasons)}", is_known),
-        "samples": Given("samples" if is_sampled else "none", is_sampled),
+    findings = {
+        "lines": Finding(f"{changed} of {changed + len(reasons)}", is_known),
+        "samples": Finding("samples" if is_sampled else "none", is_sampled),
     }
-    return REPLAYED.claim(f"{after} {unit}", given, channel)
+    return REPLAYED.claim(f"{after} {unit}", findings, channel)
 
 
 def _sentences(summary: xr.Dataset) -> Iterable[str]:

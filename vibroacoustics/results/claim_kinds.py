@@ -28,19 +28,19 @@ POWER_LEVEL: Final = ClaimKind(
     (
         Condition("background", "background", "at most", "K1 is 0"),
         Condition("room", "K2", "at most", "K2 is 0"),
-        Condition("margin", "6 dB over the background", "at most", "{given} over the background"),
+        Condition("margin", "6 dB over the background", "at most", "{found} over the background"),
         Condition("sound", "sound at every microphone", "at least", "no {needed}"),
-        Condition(*_BANDS_TO_10_KHZ, "at least", "bands above {given} are missing"),
+        Condition(*_BANDS_TO_10_KHZ, "at least", "bands above {found} are missing"),
     ),
     "ISO 3744",
 )
 
-_STEADY: Final = Condition("steady level", "range of 4 dB", "remark", "its level varies by {given}")
+_STEADY: Final = Condition("steady level", "range of 4 dB", "remark", "its level varies by {found}")
 _LOUD: Final = Condition(
     "third octaves below 300 Hz", "third octaves of 120 dB at most", "no value"
 )
 _TO_12_KHZ: Final = Condition(
-    "bands", "bands to 12.5 kHz", "at least", "bands above {given} are missing"
+    "bands", "bands to 12.5 kHz", "at least", "bands above {found} are missing"
 )
 LOUDNESS: Final = ClaimKind("loudness", ("tones",), (_TO_12_KHZ, _LOUD, _STEADY), "ISO 532-1")
 SHARPNESS: Final = ClaimKind(
@@ -59,9 +59,9 @@ ADJUSTMENT: Final = ClaimKind(
     "tonal adjustment",
     ("tones",),
     (
-        Condition("range", "tones to 11.22 kHz", "at least", "tones above {given} are not rated"),
-        Condition("spectra", "12 spectra of 3 s", "remark", "{given} of {needed}"),
-        Condition("steady lines", "lines of constant frequency", "remark", "its lines {given}"),
+        Condition("range", "tones to 11.22 kHz", "at least", "tones above {found} are not rated"),
+        Condition("spectra", "12 spectra of 3 s", "remark", "{found} of {needed}"),
+        Condition("steady lines", "lines of constant frequency", "remark", "its lines {found}"),
     ),
     "ISO/PAS 20065, ISO 1996-2",
 )
@@ -73,7 +73,7 @@ INTERVAL: Final = ClaimKind(
     (
         Condition(*_SAMPLES, "no value"),
         Condition(
-            "effective samples", "30 effective samples", "remark", "{given} effective samples"
+            "effective samples", "30 effective samples", "remark", "{found} effective samples"
         ),
     ),
 )
@@ -96,7 +96,7 @@ RANKING: Final = ClaimKind(
     (Condition(*_SAMPLES, "remark", "of nominal values alone"),),
 )
 UNCERTAINTY: Final = ClaimKind(
-    "K_WA", ("datasheet",), (Condition(*_SAMPLES, "no value"),), "ISO 4871"
+    "K_WA", ("datasheet",), (Condition("samples", "samples that differ", "no value"),), "ISO 4871"
 )
 SHEET_LEVEL: Final = ClaimKind(
     "L_WA",
@@ -116,7 +116,7 @@ COHERENCE: Final = ClaimKind(
     ("orders", "compare"),
     (
         Condition("any speed", "8 blocks at a speed", "no value"),
-        Condition("every speed", "8 blocks at each speed", "remark", "at {given} speeds"),
+        Condition("every speed", "8 blocks at each speed", "remark", "at {found} speeds"),
     ),
 )
 MEAN_INTERVAL: Final = ClaimKind(
@@ -146,12 +146,12 @@ FUNCTIONS: Final = ClaimKind(
     "verdict",
     ("check-functions",),
     (
-        Condition("passivity", "driving points", "remark", "passivity not tested at {given}"),
-        Condition("reciprocity", "pairs", "remark", "reciprocity not tested at {given}"),
+        Condition("passivity", "driving points", "remark", "passivity not tested at {found}"),
+        Condition("reciprocity", "pairs", "remark", "reciprocity not tested at {found}"),
     ),
 )
 BALANCE_GRADE: Final = ClaimKind(
-    "grade",
+    "balance quality grade",
     ("balance",),
     (
         Condition("mass", "mass of the rotor", "no value"),

@@ -1,4 +1,4 @@
-"""Claims with their conditions: a value, what it needs, what was given, and what falls without."""
+"""Claims with their conditions: a value, what it needs, what was found, and what falls without."""
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
@@ -12,7 +12,7 @@ Effect = Literal["no value", "at least", "at most", "remark", "lower value"]
 ATTRIBUTE: Final = "conditional_claims"
 """Attribute of a dataset that holds its claims."""
 COLUMNS: Final = (
-    "claim", "subject", "statement", "condition", "needed", "given", "met", "effect",
+    "claim", "subject", "statement", "condition", "needed", "found", "met", "effect",
 )  # fmt: skip
 _BOUNDS: Final = ("at least", "at most")
 
@@ -26,8 +26,8 @@ class Condition:
     name : noun, unique in its kind
     needed : requirement with its unit
     effect : what a claim loses without it
-    lacking : words where it is not met; `{given}` is what was given, `{needed}` what is needed.
-        Empty for `needed: given`
+    lacking : words where it is not met; `{found}` is the finding, `{needed}` what is needed.
+        Empty for `{found} for {needed}`
     """
 
     name: str
@@ -54,26 +54,26 @@ class ClaimKind:
     source: str = ""
 
     def claim(
-        self, value: str, given: Mapping[str, "Given"], subject: str = ""
+        self, value: str, findings: Mapping[str, "Finding"], subject: str = ""
     ) -> "ConditionalClaim":
         """Return a claim of this kind.
 
         Parameters
         ----------
         value : with its unit, as it is printed where all conditions are met
-        given : what was given, by name of each condition
+        findings : finding by name of each condition
         subject : channel, microphone or option whose claim it is
         """
         names = {condition.name for condition in self.conditions}
-        if names != set(given):
-            raise KeyError(f"{self.name}: conditions {sorted(names ^ set(given))}")
-        checks = tuple(_check(each, given[each.name]) for each in self.conditions)
+        if names != set(findings):
+            raise KeyError(f"{self.name}: conditions {sorted(names ^ set(findings))}")
+        checks = tuple(_check(each, findings[each.name]) for each in self.conditions)
         return ConditionalClaim(self.name, subject, value, checks)
 
 
 @dataclass(frozen=True)
-class Given:
-    """What was given of a condition.
+class Finding:
+    """What is available of a condition.
 
     Attributes
     ----------
@@ -89,11 +89,11 @@ class Given:
 
 @dataclass(frozen=True)
 class Check:
-    """Condition of one claim beside what was given; see `Condition`."""
+    """Condition of one claim beside its finding; see `Condition`."""
 
     condition: str
     needed: str
-    given: str
+    found: str
     is_met: bool
     effect: Effect
     lacking: str
@@ -156,9 +156,9 @@ def stated(claim: ConditionalClaim) -> str:
 
     Examples
     --------
-    >>> bands = Condition("bands", "to 12.5 kHz", "at least", "bands above {given} are missing")
+    >>> bands = Condition("bands", "to 12.5 kHz", "at least", "bands above {found} are missing")
     >>> loudness = ClaimKind("loudness", ("tones",), (bands,))
-    >>> stated(loudness.claim("35 sone", {"bands": Given("6.3 kHz", False)}))
+    >>> stated(loudness.claim("35 sone", {"bands": Finding("6.3 kHz", False)}))
     'at least 35 sone (bands above 6.3 kHz are missing)'
     """
     if claim.is_withdrawn or not claim.reasons:
@@ -174,7 +174,7 @@ def named(claim: ConditionalClaim) -> str:
 def condition_table(claims: Iterable[ConditionalClaim]) -> dict[str, list[str | float]]:
     """Return columns `COLUMNS` with a row for each condition of each claim."""
     rows: list[tuple[str, ...]] = [
-        (claim.kind, claim.subject, stated(claim), each.condition, each.needed, each.given,
+        (claim.kind, claim.subject, stated(claim), each.condition, each.needed, each.found,
          "yes" if each.is_met else "no", each.effect)
         for claim in claims
         for each in claim.checks
@@ -201,8 +201,8 @@ def claim_of(results: xr.Dataset, kind: str, subject: str = "") -> ConditionalCl
     return next(c for c in claims_of(results) if (c.kind, c.subject) == (kind, subject))
 
 
-def _check(condition: Condition, given: Given) -> Check:
-    needed = given.needed or condition.needed
-    template = condition.lacking or "{needed} needed, given {given}"
-    lacking = template.format(given=given.words, needed=needed)
-    return Check(condition.name, needed, given.words, given.is_met, condition.effect, lacking)
+def _check(condition: Condition, finding: Finding) -> Check:
+    needed = finding.needed or condition.needed
+    template = condition.lacking or "{found} for {needed}"
+    lacking = template.format(found=finding.words, needed=needed)
+    return Check(condition.name, needed, finding.words, finding.is_met, condition.effect, lacking)

@@ -15,7 +15,7 @@ from ...report.blocks import Bullets, Part, Pictures
 from ...report.charts.svg import Picture
 from ...report.tables import Table
 from ...results.claim_kinds import BALANCE_GRADE
-from ...results.conditional import ConditionalClaim, Given, stated
+from ...results.conditional import ConditionalClaim, Finding, stated
 from .of_study import study_part
 from .picture import plane_picture, weight_words
 from .tables import (
@@ -114,11 +114,11 @@ def _grade_claim(grade: Grade | None) -> ConditionalClaim:
     """Grade by the upper end of its band, which needs the mass of the rotor and a scatter."""
     has_mass = grade is not None
     has_scatter = grade is None or not np.isnan(grade.high)
-    given = {
-        "mass": Given("stated" if has_mass else "not stated", has_mass),
-        "scatter": Given("known" if has_scatter else "not known", has_scatter),
+    findings = {
+        "mass": Finding("stated" if has_mass else "not stated", has_mass),
+        "scatter": Finding("known" if has_scatter else "not known", has_scatter),
     }
-    return BALANCE_GRADE.claim(grade_name(grade.high) if grade else "", given)
+    return BALANCE_GRADE.claim(grade_name(grade.high) if grade else "", findings)
 
 
 def weights_in_words(result: BalancedRuns) -> str:

@@ -14,7 +14,7 @@ from ...report.analysis import Analysis
 from ...report.blocks import Bullets, Part
 from ...report.tables import DataTable, Table, columns_of
 from ...results.claim_kinds import LEAST_DISTANCE, PROBABILITY
-from ...results.conditional import ConditionalClaim, Given, stated
+from ...results.conditional import ConditionalClaim, Finding, stated
 
 _ABOUT: Final = "Units at windows, judged by the rules of authorities."
 _HEAD: Final = (
@@ -68,13 +68,13 @@ def _claims(
     verdicts: Mapping[str, PermitVerdict], deviation_db: float
 ) -> Iterator[ConditionalClaim]:
     """Probability and least distance of every window."""
-    deviation = Given(f"{deviation_db:g} dB", deviation_db > 0.0)
+    deviation = Finding(f"{deviation_db:g} dB", deviation_db > 0.0)
     for name, verdict in verdicts.items():
         chance = f"met with a probability of {100.0 * verdict.probability:.0f} %"
         yield PROBABILITY.claim(chance, {"deviation": deviation}, name)
         is_near = not np.isnan(verdict.least_distance_m)
         words = "within" if is_near else "not within"
-        distance = Given(f"{words} {FARTHEST_M / 1000.0:g} km", is_near)
+        distance = Finding(f"{words} {FARTHEST_M / 1000.0:g} km", is_near)
         metres = f"met from {_metres(verdict.least_distance_m)} m on"
         yield LEAST_DISTANCE.claim(metres, {"distance": distance}, name)
 
