@@ -106,13 +106,22 @@ def recorded_loudness(bands: NarrowBands) -> Loudness:
     measured = len(measurable_bands(BANDS, 2.0 * float(bands.frequency_hz[-1])))
     if measured == len(BANDS):
         return loudness
-    most = 0.11 * float(_sharpness_weight(np.array(lower_edge_bark(measured))))
-    is_bound = loudness.sharpness_acum <= most
+    is_bound = loudness.sharpness_acum <= largest_bounded_sharpness(measured)
     return Loudness(
         loudness.loudness_sone,
         loudness.sharpness_acum if is_bound else np.nan,
         BANDS[measured - 1].nominal_hz if measured else 0.0,
     )
+
+
+def largest_bounded_sharpness(measured: int) -> float:
+    """Return the sharpness up to which sound in missing bands raises it, acum.
+
+    Parameters
+    ----------
+    measured : number of third octaves from 25 Hz that were measured
+    """
+    return 0.11 * float(_sharpness_weight(np.array(lower_edge_bark(measured))))
 
 
 def loudness_of_thirds(mean_square: Array, field: SoundField = "free") -> list[Loudness]:
