@@ -6,6 +6,7 @@ import typer
 
 from vibroacoustics.commands import cli
 from vibroacoustics.results.claim_kinds import KINDS, UNCONDITIONAL
+from vibroacoustics.results.conditional import ClaimKind
 
 from .tables import code, table
 
@@ -19,25 +20,27 @@ A claim holds under conditions. Where one is missing, terminal, page, CSV and JS
 - **lower value**: the value is computed as a lower one
 
 The section *Claims and their conditions* of a page, `NAME_conditions.csv` and `--json` list each
-condition with what was found. A recording's netCDF has them as attribute `conditional_claims`.
+condition with its finding. A recording's netCDF has them as attribute `conditional_claims`.
 """
 
 
 def page() -> str:
-    """Markdown of the page: every condition of every command, then commands without one."""
+    """Markdown of the page: every condition of every kind, then commands without one."""
     commands = typer.main.get_command(cli.app).commands
     rows = [
-        (code(name), kind.name, each.needed, each.effect, kind.source)
-        for name in commands
+        (_commands(kind), kind.name, each.name, each.needed, each.effect, kind.source)
         for kind in KINDS
-        if name in kind.commands
         for each in kind.conditions
     ]
     others = [(code(name), UNCONDITIONAL[name]) for name in commands if name in UNCONDITIONAL]
     parts = [
         HEAD,
-        table(("command", "claim", "needs", "without it", "source"), rows),
+        table(("commands", "claim", "condition", "needs", "without it", "source"), rows),
         "## Commands without conditions",
         table(("command", "what it prints"), others),
     ]
     return "\n\n".join(parts) + "\n"
+
+
+def _commands(kind: ClaimKind) -> str:
+    return ", ".join(map(code, kind.commands))

@@ -86,10 +86,11 @@ def test_page_of_claims_has_every_command_and_every_condition():
     assert conditional | set(UNCONDITIONAL) == commands
     assert not conditional & set(UNCONDITIONAL)
     for kind in KINDS:
-        for name in kind.commands:
-            for each in kind.conditions:
-                assert f"| `{name}` | {kind.name} | {tables.cell(each.needed)} |" in page
-    assert all(f"\n| `{name}` |" in page for name in commands)
+        named = ", ".join(f"`{name}`" for name in kind.commands)
+        for each in kind.conditions:
+            row = f"| {named} | {kind.name} | {each.name} | {tables.cell(each.needed)} |"
+            assert f"\n{row} {each.effect} |" in page
+    assert all(f"\n| `{name}` |" in page for name in UNCONDITIONAL)
 
 
 def test_page_of_evidence_has_every_claim_and_every_known_miss():

@@ -24,7 +24,7 @@ _SPECTRA: Final = 12
 
 @dataclass(frozen=True)
 class ChannelSound:
-    """What was found in a channel.
+    """Findings on a channel.
 
     Attributes
     ----------

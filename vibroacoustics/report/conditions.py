@@ -87,8 +87,8 @@ def _ranking(results: xr.Dataset) -> Iterator[ConditionalClaim]:
 
 def coherence_claim(coherence: xr.DataArray) -> ConditionalClaim:
     """Return at how many speeds there is a coherence, which needs a mean of enough blocks."""
-    known = coherence.notnull().any([dim for dim in coherence.dims if dim != "speed"])
-    count, speeds = int(known.sum()), known.size
+    has_coherence = coherence.notnull().any([dim for dim in coherence.dims if dim != "speed"])
+    count, speeds = int(has_coherence.sum()), has_coherence.size
     words = f"{count} of {speeds}"
     findings = {
         "any speed": Finding(words, count > 0),
@@ -106,9 +106,9 @@ def mean_interval_claim(channel: str, words: str, half_width_db: float) -> Condi
     words : ends of the interval
     half_width_db : half its width; not a number of a single run
     """
-    is_known = bool(np.isfinite(half_width_db))
+    has_runs = bool(np.isfinite(half_width_db))
     return MEAN_INTERVAL.claim(
-        words, {"runs": Finding("several" if is_known else "1", is_known)}, channel
+        words, {"runs": Finding("several" if has_runs else "1", has_runs)}, channel
     )
 
 
@@ -119,7 +119,7 @@ def band_claim(results: xr.Dataset, words: str, subject: str) -> ConditionalClai
 
 
 def truncation_claim(taken: float, errors: Array) -> ConditionalClaim:
-    """Return the truncation, chosen by the error of responses that are left out in turn."""
+    """Return the truncation, chosen by the errors of responses that are omitted in turn."""
     is_chosen = not bool(np.isnan(errors).all())
     finding = Finding("more" if is_chosen else "as few", is_chosen)
     return TRUNCATION.claim(f"{taken:.1%}", {"responses": finding})
@@ -136,10 +136,10 @@ def sheet_claims(power: SoundPower, level: str) -> tuple[ConditionalClaim, Condi
     has_rest = power.unmodelled_kind != "none"
     of_level = {"published level": Finding(power.unmodelled_kind, has_rest)}
     _, uncertainty = power.declared or (0, 0)
-    known = power.declared is not None
+    is_declared = power.declared is not None
     return (
         SHEET_LEVEL.claim(level, of_level),
-        UNCERTAINTY.claim(f"{uncertainty} dB", {"samples": _samples(known)}),
+        UNCERTAINTY.claim(f"{uncertainty} dB", {"samples": _samples(is_declared)}),
     )
 
 

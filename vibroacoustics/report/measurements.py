@@ -55,8 +55,8 @@ def _blocked_claims(blocked: xr.Dataset) -> Iterator[ConditionalClaim]:
     point, line = np.unravel_index(int(size.argmax()), size.shape)
     ends = (float(blocked[f"blocked_force_{end}"][point, line]) for end in ("low", "high"))
     words = " to ".join(f"{rounding.significant(end)} N" for end in ends)
-    at = f"{blocked['force_point'].values[point]} at {blocked['frequency'].values[line]:g} Hz"
-    yield band_claim(blocked, words, at)
+    subject = f"{blocked['force_point'].values[point]} at {blocked['frequency'].values[line]:g} Hz"
+    yield band_claim(blocked, words, subject)
     errors = blocked["left_out_error"].values
     yield truncation_claim(float(blocked["inversion_truncation"]), errors)
 
@@ -65,8 +65,8 @@ def _predicted_claims(predicted: xr.Dataset) -> Iterator[ConditionalClaim]:
     """Bands of the A-weighted levels."""
     for option in _changes(predicted):
         for receiver in map(str, predicted["receiver"].values):
-            at = {"option": option, "receiver": receiver, "weighting": "A"}
-            ends = [predicted[f"predicted_total_level{end}"].sel(at).item() for end in _ENDS]
+            selection = {"option": option, "receiver": receiver, "weighting": "A"}
+            ends = [predicted[f"predicted_total_level{end}"].sel(selection).item() for end in _ENDS]
             words = f"{_band(ends, rounding.fixed)} dB(A)"
             yield band_claim(predicted, words, f"{option}, {receiver}")
 

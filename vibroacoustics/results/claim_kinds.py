@@ -28,19 +28,21 @@ POWER_LEVEL: Final = ClaimKind(
     (
         Condition("background", "background", "at most", "K1 is 0"),
         Condition("room", "K2", "at most", "K2 is 0"),
-        Condition("margin", "6 dB over the background", "at most", "{found} over the background"),
+        Condition("margin", "6 dB over the background", "at most", "{finding} over the background"),
         Condition("sound", "sound at every microphone", "at least", "no {needed}"),
-        Condition(*_BANDS_TO_10_KHZ, "at least", "bands above {found} are missing"),
+        Condition(*_BANDS_TO_10_KHZ, "at least", "bands above {finding} are missing"),
     ),
     "ISO 3744",
 )
 
-_STEADY: Final = Condition("steady level", "range of 4 dB", "remark", "its level varies by {found}")
+_STEADY: Final = Condition(
+    "steady level", "range of 4 dB", "remark", "its level varies by {finding}"
+)
 _LOUD: Final = Condition(
     "third octaves below 300 Hz", "third octaves of 120 dB at most", "no value"
 )
 _TO_12_KHZ: Final = Condition(
-    "bands", "bands to 12.5 kHz", "at least", "bands above {found} are missing"
+    "bands", "bands to 12.5 kHz", "at least", "bands above {finding} are missing"
 )
 LOUDNESS: Final = ClaimKind("loudness", ("tones",), (_TO_12_KHZ, _LOUD, _STEADY), "ISO 532-1")
 SHARPNESS: Final = ClaimKind(
@@ -59,9 +61,9 @@ ADJUSTMENT: Final = ClaimKind(
     "tonal adjustment",
     ("tones",),
     (
-        Condition("range", "tones to 11.22 kHz", "at least", "tones above {found} are not rated"),
-        Condition("spectra", "12 spectra of 3 s", "remark", "{found} of {needed}"),
-        Condition("steady lines", "lines of constant frequency", "remark", "its lines {found}"),
+        Condition("range", "tones to 11.22 kHz", "at least", "tones above {finding} are not rated"),
+        Condition("spectra", "12 spectra of 3 s", "remark", "{finding} of {needed}"),
+        Condition("steady lines", "lines of constant frequency", "remark", "its lines {finding}"),
     ),
     "ISO/PAS 20065, ISO 1996-2",
 )
@@ -73,7 +75,7 @@ INTERVAL: Final = ClaimKind(
     (
         Condition(*_SAMPLES, "no value"),
         Condition(
-            "effective samples", "30 effective samples", "remark", "{found} effective samples"
+            "effective samples", "30 effective samples", "remark", "{finding} effective samples"
         ),
     ),
 )
@@ -116,7 +118,7 @@ COHERENCE: Final = ClaimKind(
     ("orders", "compare"),
     (
         Condition("any speed", "8 blocks at a speed", "no value"),
-        Condition("every speed", "8 blocks at each speed", "remark", "at {found} speeds"),
+        Condition("every speed", "8 blocks at each speed", "remark", "at {finding} speeds"),
     ),
 )
 MEAN_INTERVAL: Final = ClaimKind(
@@ -146,8 +148,8 @@ FUNCTIONS: Final = ClaimKind(
     "verdict",
     ("check-functions",),
     (
-        Condition("passivity", "driving points", "remark", "passivity not tested at {found}"),
-        Condition("reciprocity", "pairs", "remark", "reciprocity not tested at {found}"),
+        Condition("passivity", "driving points", "remark", "passivity not tested at {finding}"),
+        Condition("reciprocity", "pairs", "remark", "reciprocity not tested at {finding}"),
     ),
 )
 BALANCE_GRADE: Final = ClaimKind(
@@ -189,4 +191,4 @@ UNCONDITIONAL: Final = {
     "doctor": "Versions and memory.",
     "schema": "Schemas.",
 }
-"""What the headlines of commands without a conditional claim state."""
+"""Content of the headlines of commands without a conditional claim."""

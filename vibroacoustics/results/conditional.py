@@ -8,11 +8,11 @@ from typing import Final, Literal
 import xarray as xr
 
 Effect = Literal["no value", "at least", "at most", "remark", "lower value"]
-"""What a missing condition does: the value is withdrawn, is a bound, has a remark, or is lower."""
+"""Consequence of a missing condition: no value, a bound, a value with a remark, a lower value."""
 ATTRIBUTE: Final = "conditional_claims"
 """Attribute of a dataset that holds its claims."""
 COLUMNS: Final = (
-    "claim", "subject", "statement", "condition", "needed", "found", "met", "effect",
+    "claim", "subject", "statement", "condition", "needed", "finding", "met", "effect",
 )  # fmt: skip
 _BOUNDS: Final = ("at least", "at most")
 
@@ -25,9 +25,9 @@ class Condition:
     ----------
     name : noun, unique in its kind
     needed : requirement with its unit
-    effect : what a claim loses without it
-    lacking : words where it is not met; `{found}` is the finding, `{needed}` what is needed.
-        Empty for `{found} for {needed}`
+    effect : consequence for a claim without it
+    lacking : words where it is not met; `{finding}` is the finding, `{needed}` the requirement.
+        Empty for `{finding} for {needed}`
     """
 
     name: str
@@ -73,7 +73,7 @@ class ClaimKind:
 
 @dataclass(frozen=True)
 class Finding:
-    """What is available of a condition.
+    """Finding on a condition.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class Check:
 
     condition: str
     needed: str
-    found: str
+    finding: str
     is_met: bool
     effect: Effect
     lacking: str
@@ -156,7 +156,7 @@ def stated(claim: ConditionalClaim) -> str:
 
     Examples
     --------
-    >>> bands = Condition("bands", "to 12.5 kHz", "at least", "bands above {found} are missing")
+    >>> bands = Condition("bands", "to 12.5 kHz", "at least", "bands above {finding} are missing")
     >>> loudness = ClaimKind("loudness", ("tones",), (bands,))
     >>> stated(loudness.claim("35 sone", {"bands": Finding("6.3 kHz", False)}))
     'at least 35 sone (bands above 6.3 kHz are missing)'
@@ -174,7 +174,7 @@ def named(claim: ConditionalClaim) -> str:
 def condition_table(claims: Iterable[ConditionalClaim]) -> dict[str, list[str | float]]:
     """Return columns `COLUMNS` with a row for each condition of each claim."""
     rows: list[tuple[str, ...]] = [
-        (claim.kind, claim.subject, stated(claim), each.condition, each.needed, each.found,
+        (claim.kind, claim.subject, stated(claim), each.condition, each.needed, each.finding,
          "yes" if each.is_met else "no", each.effect)
         for claim in claims
         for each in claim.checks
@@ -203,6 +203,6 @@ def claim_of(results: xr.Dataset, kind: str, subject: str = "") -> ConditionalCl
 
 def _check(condition: Condition, finding: Finding) -> Check:
     needed = finding.needed or condition.needed
-    template = condition.lacking or "{found} for {needed}"
-    lacking = template.format(found=finding.words, needed=needed)
+    template = condition.lacking or "{finding} for {needed}"
+    lacking = template.format(finding=finding.words, needed=needed)
     return Check(condition.name, needed, finding.words, finding.is_met, condition.effect, lacking)
