@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -74,8 +75,11 @@ def power(
     return analysis_of_sound_power(va.sound_power(running, surface, still, area_m2))
 
 
+whole_power = cache(power)
+
+
 def powers(**lacking: Any) -> Pair:
-    return power(), power(**lacking)
+    return whole_power(), power(**lacking)
 
 
 @pytest.fixture(scope="module")
@@ -100,11 +104,15 @@ def sounds(heard: xr.Dataset, **lacking: Any) -> Pair:
     return analysis_of_tones(whole), analysis_of_tones(fallen)
 
 
+@cache
+def whole_study() -> xr.Dataset:
+    results = with_sources({"none": 60.0, "good": 40.0}).drop_dims("prior_sample")
+    return _with_prior_weight(results, np.full(40, 1.0 / 40.0))
+
+
 def study(change: Callable[[xr.Dataset], xr.Dataset]) -> Pair:
     """First screen of a study with 40 effective samples, and of one that lacks something."""
-    results = with_sources({"none": 60.0, "good": 40.0})
-    results = results.drop_dims("prior_sample")
-    whole = _with_prior_weight(results, np.full(40, 1.0 / 40.0))
+    whole = whole_study()
     return tuple(
         Analysis("report", "", "", "", "", (), sentences(each), claims=study_claims(each))
         for each in (whole, change(whole))

@@ -1,6 +1,7 @@
 """Claims of analyses, with what their results hold of the conditions."""
 
 from collections.abc import Iterator, Sequence
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -29,7 +30,7 @@ from .kwave_words import kwave_difference_db
 from .quantities import TOTAL
 from .shifts import level_word, shift
 
-FEW_SAMPLES = 30
+FEW_SAMPLES: Final = 30
 """Effective samples below which their number is said."""
 
 
