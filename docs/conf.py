@@ -75,7 +75,7 @@ sphinx_gallery_conf = {
     "plot_gallery": True,
 }
 
-GENERATED = ("vocabulary", "command_line", "errors", "registered", "evidence")
+GENERATED = ("vocabulary", "command_line", "claims", "errors", "registered", "evidence")
 COPIED = {"changelog": "CHANGELOG.md", "contributing": "CONTRIBUTING.md"}
 
 

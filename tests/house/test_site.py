@@ -14,13 +14,14 @@ from vibroacoustics.commands import cli
 from vibroacoustics.machine.machine import MACHINES
 from vibroacoustics.machine.option import OPTIONS
 from vibroacoustics.machine.source import SOURCES
+from vibroacoustics.results.claim_kinds import KINDS, UNCONDITIONAL
 from vibroacoustics.results.claims import claims
 from vibroacoustics.study.criterion import CRITERIA
 
 DOCS = ROOT / "docs"
 MADE = {"generated/" + name for name in (
     "vocabulary.md", "command_line.md", "registered.md", "errors.md", "evidence.md", "changelog.md",
-    "contributing.md", "layers.svg",
+    "contributing.md", "layers.svg", "claims.md",
 )} | {"examples/index", "examples/balancer_of_your_own"}  # fmt: skip
 PAGES = sorted([*DOCS.glob("*.md"), *DOCS.glob("machines/*.md")])
 
@@ -72,6 +73,24 @@ def test_registered_kinds_are_listed():
     for registry in (MACHINES, OPTIONS, SOURCES, CRITERIA):
         for name in registry:
             assert f"| `{name}` |" in page, name
+
+
+def test_page_of_claims_has_every_command_and_every_condition():
+    """What a command states is compared with this list in test_grammar.py."""
+    from generators import claims as page_of_claims
+    from generators import tables
+
+    page = page_of_claims.page()
+    commands = set(typer.main.get_command(cli.app).commands)
+    conditional = {name for kind in KINDS for name in kind.commands}
+    assert conditional | set(UNCONDITIONAL) == commands
+    assert not conditional & set(UNCONDITIONAL)
+    for kind in KINDS:
+        named = ", ".join(f"`{name}`" for name in kind.commands)
+        for each in kind.conditions:
+            row = f"| {named} | {kind.name} | {each.name} | {tables.cell(each.needed)} |"
+            assert f"\n{row} {each.effect} |" in page
+    assert all(f"\n| `{name}` |" in page for name in UNCONDITIONAL)
 
 
 def test_page_of_evidence_has_every_claim_and_every_known_miss():

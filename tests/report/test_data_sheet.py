@@ -185,11 +185,11 @@ def test_deviations_of_a_batch_that_cannot_be_are_refused(
 
 
 def test_k_of_samples_that_hardly_differ_is_that_of_measuring(tiny: xr.Dataset) -> None:
-    """1.645 · 1.5 dB where samples differ a little; not known where they do not."""
+    """1.645 · 1.5 dB where samples differ a little; none where they do not."""
     weight = np.full(100, 0.01)
     same = va.data_sheet(_sampled(tiny, np.zeros(100), weight), "none")
     assert same.sound_power.uncertainty_k_db is None
-    assert "K_WA not known" in headline(same)
+    assert "no K_WA without samples that differ" in headline(same)
     level = va.data_sheet(tiny, "none").sound_power.level_dba
     shift = np.floor(level) + 0.6 - level  # 0.6 dB above a whole decibel rounds up
     little = va.data_sheet(_sampled(tiny, shift + np.linspace(-0.2, 0.2, 100), weight), "none")

@@ -49,6 +49,7 @@ REPORT_FILES: Final = (
             "paths",
             "provenance",
             "rating",
+            "report_conditions",
             "room",
             "scores",
             "scoring",

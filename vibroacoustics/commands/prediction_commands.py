@@ -1,5 +1,6 @@
 """Commands for measurements without a model. Heavy imports wait until they are needed."""
 
+from math import isnan
 from pathlib import Path
 from typing import Annotated
 
@@ -57,6 +58,8 @@ def check_functions_command(
 ) -> Outcome:
     """Test measured functions against physics; each fault names its point and what to do."""
     from ..measured.function_check import check_functions
+    from ..results.claim_kinds import FUNCTIONS
+    from ..results.conditional import Finding, condition_table, stated
     from .outcome import columns
 
     checked = check_functions(file)
@@ -66,5 +69,12 @@ def check_functions_command(
         for row in checked.rows
     ]
     verdict = "no fault was found" if not checked.faults else f"faults: {len(checked.faults)}"
-    text = "\n".join([*words, f"{file}: {verdict}"])
-    return Outcome(text, tables={"points": columns(checked.rows)}, broken=checked.faults)
+    tested = {
+        name: Finding(", ".join(missing) or "every point", not missing)
+        for name, column in (("passivity", "passivity"), ("reciprocity", "reciprocity_residual"))
+        for missing in [[str(row["point"]) for row in checked.rows if isnan(float(row[column]))]]
+    }
+    claim = FUNCTIONS.claim(verdict, tested)
+    text = "\n".join([*words, f"{file}: {stated(claim)}"])
+    tables = {"points": columns(checked.rows), "functions_conditions": condition_table([claim])}
+    return Outcome(text, tables=tables, broken=checked.faults)

@@ -248,6 +248,7 @@ def score_command(
 ) -> Outcome:
     """Score the options again: print the ranking, write results and report with it."""
     from .. import scoring
+    from ..report.blocks import Bullets
     from ..results import manifest
     from ..scoring.again import scored_again
     from ..study import loading
@@ -263,5 +264,5 @@ def score_command(
     with outputs.naming(scoring_of or results_file):
         scored = scored_again(results, settings)
     analysis, files = outputs.write_study(scored, folder, prints)
-    silent = replace(analysis, summary=(), shown=())
-    return Outcome(scoring.ranking_text(scored), files, analyses={"": silent})
+    ranking = Bullets(tuple(scoring.ranking_text(scored).splitlines()))
+    return Outcome(files=files, analyses={"": replace(analysis, summary=(), shown=(ranking,))})

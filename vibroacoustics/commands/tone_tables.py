@@ -13,19 +13,24 @@ from ..measured.recorded_tones import tones_of
 from ..report.analysis import Analysis, origin
 from ..report.blocks import Block, Bullets, Part, Text
 from ..report.tables import Cell, DataTable, Table, columns_of
-from ..results.number import Number
+from ..results.claim_kinds import ADJUSTMENT, LOUDNESS, SHARPNESS
+from ..results.conditional import ClaimKind, claim_of, claims_of, named, stated
+from ..results.number import VALUE, Number
 from ..sound.audibility import NO_TONE_AUDIBILITY_DB
 from ..sound.critical_bands import noise_criterion_db, prominence_criterion_db
 from ..sound.tonality import Tone
 
 MOST_TONES: Final = 20
+TONE_CLAIMS: Final = tuple(
+    kind.name.replace(" ", "_") for kind in (LOUDNESS, SHARPNESS, ADJUSTMENT)
+)
 TONE_HEAD: Final = ("Tone", "Hz", "dB", "over noise, dB", "over bands, dB")
 _TIME_HEAD: Final = ("time, %", "swing, dB")
 _PROMINENT: Final = {(True, True): "both", (True, False): "noise", (False, True): "bands"}
 _COLUMNS: Final = (
     "channel", "frequency_hz", "level_db", "tone_to_noise_db", "tone_to_noise_criterion_db",
     "prominence_db", "prominence_criterion_db", "share_of_time", "swing_db", "prominent",
-    "loudness_sone", "sharpness_acum",
+    "loudness_sone", "sharpness_acum", *TONE_CLAIMS,
 )  # fmt: skip
 _METHOD: Final = (
     "Tone-to-noise ratio and prominence ratio: ECMA-418-1, the criterion in brackets.",
@@ -56,7 +61,8 @@ def analysis_of_tones(tones: xr.Dataset) -> Analysis:
         parts=tuple(parts),
         shown=(*shown, Text(_BELOW_RANGE)),
         tables={"tones.csv": _rows(tones), "audibility.csv": _over_time(tones)},
-        numbers=(*_loudness(tones), *_rated(tones)),
+        numbers=tuple(_numbers_of(tones)),
+        claims=claims_of(tones),
         **origin(tones, "Recording"),
     )
 
@@ -67,7 +73,11 @@ def _rows(tones: xr.Dataset) -> DataTable:
     for name in _channels(tones):
         values = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
         loudness = ["" if math.isnan(value) else value for value in values]
-        rows += [(name, *_numbers(tone), _which(tone), *loudness) for tone in tones_of(tones, name)]
+        claims = [stated(claim) for claim in claims_of(tones) if claim.subject == name]
+        rows += [
+            (name, *_numbers(tone), _which(tone), *loudness, *claims)
+            for tone in tones_of(tones, name)
+        ]
     return columns_of(_COLUMNS, rows)
 
 
@@ -82,28 +92,29 @@ def _over_time(tones: xr.Dataset) -> DataTable:
     return columns_of(("channel", "spectrum", "audibility_db", "frequency_hz"), rows)
 
 
-def _rated(tones: xr.Dataset) -> Iterator[Number]:
-    """Mean audibility of every channel, its uncertainty and the adjustment."""
+def _numbers_of(tones: xr.Dataset) -> Iterator[Number]:
+    """Loudness and sharpness of every channel where they are available, audibility, adjustment."""
     for name in _channels(tones):
-        for variable in _RATED:
+        for variable, unit in (_LOUDNESS | dict.fromkeys(_RATED, "dB")).items():
             value = tones[variable].sel(channel=name).item()
-            yield Number(value, "dB", variable, {"channel": name}, text=rounding.fixed(value))
-
-
-def _loudness(tones: xr.Dataset) -> Iterator[Number]:
-    """Loudness and sharpness of every channel where they are available."""
-    for name in _channels(tones):
-        for variable, unit in _LOUDNESS.items():
-            value = tones[variable].sel(channel=name).item()
-            if not math.isnan(value):
-                text = f"{value:.3g}" if unit == "sone" else f"{value:.2f}"
-                yield Number(value, unit, variable, {"channel": name}, text=text)
+            if math.isnan(value):
+                continue
+            text, statistic = rounding.fixed(value), VALUE
+            if variable in _CLAIMS:
+                claim = claim_of(tones, _CLAIMS[variable].name, name)
+                text, statistic = claim.short, claim.bound or VALUE
+            yield Number(value, unit, variable, {"channel": name}, statistic, text=text)
 
 
 _RATED: Final = (
     "recorded_audibility", "recorded_audibility_uncertainty", "recorded_tonal_adjustment",
 )  # fmt: skip
 _LOUDNESS: Final = {"recorded_loudness": "sone", "recorded_sharpness": "acum"}
+_CLAIMS: Final[dict[str, ClaimKind]] = {
+    "recorded_loudness": LOUDNESS, "recorded_sharpness": SHARPNESS,
+    "recorded_tonal_adjustment": ADJUSTMENT,
+}  # fmt: skip
+"""Kind of the claim that a variable is the value of."""
 
 
 def _channels(tones: xr.Dataset) -> list[str]:
@@ -119,23 +130,22 @@ def _of_channel(tones: xr.Dataset, name: str) -> Iterator[Table | Bullets | Text
         yield Table(caption, (*TONE_HEAD, *_TIME_HEAD, "prominent"), rows, frozenset({0, 7}))
     else:
         yield Text(f"{name}: no tone exceeds the noise of its critical band")
-    loudness, sharpness = (tones[variable].sel(channel=name).item() for variable in _LOUDNESS)
-    loud = f"loudness {loudness:.3g} sone, sharpness {sharpness:.2f} acum"
-    yield Bullets((_audibility(tones, name), *([] if math.isnan(loudness) else [loud])))
+    loud = (named(claim_of(tones, kind.name, name)) for kind in (LOUDNESS, SHARPNESS))
+    yield Bullets((_audibility(tones, name), ", ".join(loud)))
 
 
 def _audibility(tones: xr.Dataset, name: str) -> str:
     """Mean audibility of the tones of a channel and the adjustment for them."""
     here = tones.sel(channel=name)
     spectra_db = here["recorded_decisive_audibility"].values
+    adjustment = named(claim_of(tones, ADJUSTMENT.name, name))
     if not np.any(spectra_db > NO_TONE_AUDIBILITY_DB):
-        return f"no audible tone in {spectra_db.size} spectra of 3 s: adjustment 0 dB"
+        return f"no audible tone in {spectra_db.size} spectra of 3 s: {adjustment}"
     hertz = here["recorded_decisive_frequency"].values[int(np.argmax(spectra_db))]
-    mean_db, uncertainty_db, adjustment_db = (here[name].item() for name in _RATED)
+    mean_db, uncertainty_db = (here[name].item() for name in _RATED[:2])
     return (
         f"mean audibility {rounding.level(mean_db)} ± {rounding.level(uncertainty_db)} dB in "
-        f"{spectra_db.size} spectra of 3 s, most audible {rounding.fixed(hertz)} Hz: adjustment "
-        f"{adjustment_db:g} dB"
+        f"{spectra_db.size} spectra of 3 s, most audible {rounding.fixed(hertz)} Hz: {adjustment}"
     )
 
 

@@ -13,11 +13,13 @@ from ..base.decibel import level_of_amplitude
 from ..base.errors import ParameterError
 from ..base.vocabulary import label_coordinates, stamped
 from ..results import provenance
+from ..results.conditional import with_claims
 from ..sound.audibility import tonal_adjustment_db
-from ..sound.loudness import recorded_loudness
+from ..sound.loudness import Loudness, recorded_loudness
 from ..sound.mean_audibility import MeanAudibility, drift_octaves, mean_audibility
 from ..sound.recorded import narrow_bands, recorded_spectrum
 from ..sound.tonality import Tone, tones
+from .tone_claims import VARIES_DB, ChannelSound, claims_of_channel
 
 FIELDS: Final = {
     "recorded_tone_frequency": "frequency_hz",
@@ -32,9 +34,6 @@ _FAST_S: Final = 0.125
 """Blocks of a level, s: the time constant F of IEC 61672-1."""
 _LEAST_BLOCKS: Final = 8
 _QUANTILES: Final = (0.05, 0.95)
-_VARIES_DB: Final = 4.0
-"""Range of the levels of a sound that varies. Assumed, 3 to 6 dB: of broadband noise the blocks are
-within 2 dB. Loudness of the 25 such sounds of ISO 532-1 is 4 to 41 % below their N5."""
 
 
 def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
@@ -45,7 +44,7 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     variables `recorded_tone_*` (channel, recorded_tone), `recorded_loudness` and
     `recorded_sharpness` (channel); tones above the noise of their critical band, the strongest
     first; `recorded_decisive_*` (channel, audible_spectrum), `recorded_audibility*` and
-    `recorded_tonal_adjustment` (channel)
+    `recorded_tonal_adjustment` (channel). Attribute `conditional_claims`: which of these are bounds
 
     Raises
     ------
@@ -63,7 +62,7 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         units = ", ".join(sorted(set(map(str, signal["channel_unit"].values))))
         raise ParameterError(f"channels: none is in Pa (available: {units}); see --unit")
     rate_hz = float(recording.attrs["sample_rate_hz"])
-    listed, loudness, means, remarks = [], [], [], list[str]()
+    listed, sounds, remarks = [], list[ChannelSound](), list[str]()
     for name, channel in zip(microphones["channel"].values, microphones, strict=True):
         octaves = drift_octaves(channel.values, rate_hz)
         if octaves:
@@ -73,21 +72,23 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
                 f"{abs(octaves):.1g} octaves; tones are means over time; "
                 "give a steady part, or use `orders`"
             )
-        remarks += _variation(str(name), channel.values, rate_hz)
+        variation_db = _variation_db(channel.values, rate_hz)
+        if variation_db >= VARIES_DB:
+            remarks.append(_variation(str(name), variation_db))
         bands = narrow_bands(channel.values, rate_hz)
         judged = tones(recorded_spectrum(bands))
         listed.append([tone for tone in judged if tone.noise_ratio_db > 0.0])
-        means.append(mean_audibility(channel.values, rate_hz))
+        mean = mean_audibility(channel.values, rate_hz)
         try:
             loud = recorded_loudness(bands)
-            loudness.append((loud.loudness_sone, loud.sharpness_acum))
         except ParameterError as error:  # a channel that is too loud leaves the others theirs
-            loudness.append((np.nan, np.nan))
+            loud = Loudness(np.nan, np.nan)
             remarks.append(f"channel {str(name)!r}: no {error}")
+        sounds.append(ChannelSound(str(name), loud, mean, variation_db, octaves, rate_hz))
     coords = {
         "channel": microphones["channel"].values,
         "recorded_tone": np.arange(1.0, max(map(len, listed)) + 1.0),
-        "audible_spectrum": np.arange(1.0, len(means[0].decisive) + 1.0),
+        "audible_spectrum": np.arange(1.0, len(sounds[0].mean.decisive) + 1.0),
     }
     table = list(zip_longest(*listed)) or []
     values = {
@@ -96,11 +97,15 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
         .T
         for name, field in FIELDS.items()
     }
-    loud_values = dict(
-        zip(("recorded_loudness", "recorded_sharpness"), np.transpose(loudness), strict=True)
+    loud_values = {
+        "recorded_loudness": np.array([each.loudness.loudness_sone for each in sounds]),
+        "recorded_sharpness": np.array([each.loudness.sharpness_acum for each in sounds]),
+    }
+    results = stamped(
+        {**values, **loud_values, **_audibility([each.mean for each in sounds])}, coords
     )
-    results = stamped({**values, **loud_values, **_audibility(means)}, coords)
     results.attrs = provenance.of_recording(recording.attrs, "tones")
+    results = with_claims(results, [claim for each in sounds for claim in claims_of_channel(each)])
     for line in remarks:
         warnings.warn(f"{provenance.recording_name(recording.attrs)}: {line}", stacklevel=2)
     if remarks:
@@ -109,21 +114,24 @@ def recorded_tones(recording: xr.Dataset) -> xr.Dataset:
     return label_coordinates(results)
 
 
-def _variation(name: str, pressure_pa: Array, rate_hz: float) -> list[str]:
-    """A line on a channel whose level varies: ISO 532-1 has another method for such sound."""
+def _variation_db(pressure_pa: Array, rate_hz: float) -> float:
+    """Range of the level over time (L5 - L95), dB; 0 of a short or silent channel."""
     samples = round(_FAST_S * rate_hz)
     blocks = pressure_pa[: pressure_pa.size // samples * samples].reshape(-1, samples)
     if len(blocks) < _LEAST_BLOCKS or not blocks.any():
-        return []
+        return 0.0
     rms = np.sqrt(np.mean(blocks**2, axis=1))
     lowest, highest = np.quantile(level_of_amplitude(rms), _QUANTILES)
-    if highest - lowest < _VARIES_DB:
-        return []
-    return [
-        f"channel {name!r}: its level varies by {highest - lowest:.0f} dB (L5 - L95 of "
+    return float(highest - lowest)
+
+
+def _variation(name: str, variation_db: float) -> str:
+    """A line on a channel whose level varies: ISO 532-1 has another method for such sound."""
+    return (
+        f"channel {name!r}: its level varies by {variation_db:.0f} dB (L5 - L95 of "
         f"{1e3 * _FAST_S:.0f} ms): loudness and sharpness are those of steady sound (ISO 532-1), "
         "N5 may be 1.7 times as high: analyse a steady part"
-    ]
+    )
 
 
 def _audibility(means: Sequence[MeanAudibility]) -> dict[str, Array]:

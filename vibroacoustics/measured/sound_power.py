@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from ..base import rounding
 from ..base.allowed import check_range
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
@@ -17,12 +18,19 @@ from ..base.vocabulary import label_coordinates, stamped
 from ..levels.bands import measurable_bands
 from ..levels.measured_power import BANDS, MeasuredPower, a_weighted_sum, measured_power, spread_dba
 from ..levels.signal_levels import band_levels
-from ..levels.sound_power import box_area_m2, hemisphere_area_m2
+from ..levels.sound_power import (
+    LARGEST_ENVIRONMENT_CORRECTION_DB,
+    box_area_m2,
+    hemisphere_area_m2,
+)
 from ..radiation.arrangements import TABLE_B1, box_positions
 from ..recordings import LabelledBlocks
 from ..recordings.equality import identities
 from ..recordings.remarks import RecordingWarning
 from ..results import provenance
+from ..results.claim_kinds import GRADE, POWER_LEVEL
+from ..results.conditional import ConditionalClaim, Finding, with_claims
+from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 
 
 @dataclass(frozen=True)
@@ -111,7 +119,7 @@ def sound_power(
     levels at each position, their mean, K1, K2 and the sound power level, by band and A-weighted;
     bands that cannot be measured at the sample rate are empty. Attribute `grade`: 2 (ISO 3744),
     3 (ISO 3746) or 0, neither; `missing_for_grade`: `background`, `K2` and others, without which
-    no grade is stated
+    no grade is stated; `conditional_claims`: level and grade with all conditions
 
     Raises
     ------
@@ -140,7 +148,8 @@ def sound_power(
     measured_db = np.array(list(levels.values()))
     still = None if quiet is None else np.array(list(quiet.values()))
     measured = measured_power(measured_db, still, surface.area_m2, area)
-    missing = [*measured.missing, *_missing(levels, quiet, surface)]
+    grade, power = _claims(measured, levels, quiet, surface)
+    missing = [check.needed for check in grade.missing("no value")]
     labelled = _labelled(list(levels), measured_db, measured)
     labelled.attrs = {
         **provenance.software_attributes("sound power of recordings"),
@@ -156,23 +165,55 @@ def sound_power(
         "positions_of_the_standard": list(surface.positions),
         **({"reading_remarks": "; ".join(remarks)} if remarks else {}),
     }
-    return label_coordinates(labelled)
+    return label_coordinates(with_claims(labelled, (grade, power)))
 
 
-def _missing(
-    levels: Mapping[str, Array], quiet: Mapping[str, Array] | None, surface: MeasurementSurface
-) -> Iterator[str]:
-    """Conditions of both grades that the microphones and their bands lack."""
-    if len(levels) not in surface.positions:
-        yield f"{' or '.join(map(str, surface.positions))} microphones"
-    if quiet is not None and len(quiet) != len(levels):
-        yield "background at each microphone"
-    levels_dba = a_weighted_sum(np.array(list(levels.values())))
-    silent = levels_dba < np.median(levels_dba) - SILENT_MARGIN_DB
-    yield from (f"sound at {name}" for name, is_silent in zip(levels, silent, strict=True)
-                if is_silent)  # fmt: skip
-    if np.isnan(list(levels.values())).any():
-        yield f"bands to {BAND_HZ[-1] / 1000.0:g} kHz"
+GRADES: Final = {
+    2: "grade 2 (ISO 3744, engineering)",
+    3: "grade 3 (ISO 3746, survey), not grade 2",
+    None: "neither grade 2 (ISO 3744) nor grade 3 (ISO 3746)",
+}
+
+
+def _claims(
+    measured: MeasuredPower,
+    levels: Mapping[str, Array],
+    quiet: Mapping[str, Array] | None,
+    surface: MeasurementSurface,
+) -> tuple[ConditionalClaim, ConditionalClaim]:
+    """Grade and A-weighted level, with what the microphones and their bands lack."""
+    by_position = np.array(list(levels.values()))
+    levels_dba = a_weighted_sum(by_position)
+    is_dead = levels_dba < np.median(levels_dba) - SILENT_MARGIN_DB
+    dead = [name for name, silent in zip(levels, is_dead, strict=True) if silent]
+    complete = int(np.isfinite(by_position).all(axis=0).sum())
+    count, behind = len(levels), 0 if quiet is None else len(quiet)
+    margin_dba, k2_dba = measured.margin_dba, measured.environment_dba
+    is_clear = not margin_dba < MINIMUM_BACKGROUND_MARGIN_DB
+    needed = f"{' or '.join(map(str, surface.positions))} microphones"
+    room = "stated" if measured.has_environment else "not stated"
+    shared = {
+        "background": Finding(f"{behind} positions", quiet is not None),
+        "room": Finding(room, measured.has_environment),
+        "sound": Finding(
+            f"{count - len(dead)} of {count}",
+            not dead,
+            f"sound at {', '.join(dead)}" if dead else "",
+        ),
+        "bands": Finding(f"{BAND_HZ[complete - 1] / 1000.0:g} kHz", complete == len(BAND_HZ)),
+    }
+    margin = f"{rounding.fixed(margin_dba)} dB"
+    of_grade = {
+        "microphones": Finding(f"{count} microphones", count in surface.positions, needed),
+        "background positions": Finding(f"{behind} of {count}", quiet is None or behind == count),
+        "margin": Finding(margin, is_clear),
+        "K2A": Finding(f"{rounding.fixed(k2_dba)} dB", k2_dba <= LARGEST_ENVIRONMENT_CORRECTION_DB),
+    }
+    level = f"{rounding.fixed(measured.power_dba)} dB(A) re 1 pW"
+    return (
+        GRADE.claim(GRADES[measured.grade], shared | of_grade),
+        POWER_LEVEL.claim(level, shared | {"margin": Finding(margin, is_clear)}),
+    )
 
 
 def _kept_remarks(recordings: Sequence[xr.Dataset]) -> Iterator[str]:

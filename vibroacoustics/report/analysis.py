@@ -9,6 +9,7 @@ from urllib.parse import quote
 import xarray as xr
 
 from ..base.folder import Content
+from ..results.conditional import COLUMNS, ConditionalClaim, condition_table, named
 from ..results.number import Number
 from .blocks import (
     Beside,
@@ -111,6 +112,7 @@ class Analysis:
     further : content of other files by name
     figures : folder of the pictures, ending in `/`; empty for that of the page
     in_markdown : name of a file with the page as Markdown; empty for none
+    claims : claims that summary, shown blocks and tables state, with their conditions
     """
 
     name: str
@@ -126,6 +128,7 @@ class Analysis:
     further: Mapping[str, Content] = field(default_factory=dict)
     figures: str = ""
     in_markdown: str = ""
+    claims: tuple[ConditionalClaim, ...] = ()
 
     @property
     def page(self) -> str:
@@ -133,8 +136,14 @@ class Analysis:
         return f"{self.name}.html"
 
     def text(self) -> str:
-        """Return summary and tables for a terminal."""
-        return "\n".join([*map(to_ascii, self.summary), *map(_in_terminal, self.shown)])
+        """Return summary and tables for a terminal, and what claims lack that these do not say."""
+        text = "\n".join([*map(to_ascii, self.summary), *map(_in_terminal, self.shown)])
+        lines = [
+            to_ascii(f"{claim.subject}: {named(claim)}".removeprefix(": "))
+            for claim in self.claims
+            if any(to_ascii(reason) not in text for reason in claim.reasons)
+        ]
+        return "\n".join([text, *lines]) if lines else text
 
     def html(self, results_sha256: str = "") -> bytes:
         """Return the page, with the hash of its results."""
@@ -154,7 +163,7 @@ class Analysis:
             "tables": {
                 name.removesuffix(".csv"): {head: list(map(_cell, values)) for head, values in
                                             table.items()}
-                for name, table in self.tables.items()
+                for name, table in self.every_table().items()
             },
             "numbers": [each.data() for each in by_selection.values()],
             "charts": [chart.data() for chart in charts(self._blocks())],
@@ -165,7 +174,7 @@ class Analysis:
         pictures_of_file = {picture_file(each): each.content for each in pictures(self._blocks())}
         return {
             self.page: self.html(results_sha256),
-            **{name: to_csv(table) for name, table in self.tables.items()},
+            **{name: to_csv(table) for name, table in self.every_table().items()},
             **({self.in_markdown: self.markdown()} if self.in_markdown else {}),
             **self.further,
             **{f"{self.figures}{name}": content for name, content in pictures_of_file.items()},
@@ -175,21 +184,36 @@ class Analysis:
         computed = f" Computed {self.created}." if self.created else ""
         return f"{self.kind}. {self.about}{computed}"
 
+    def every_table(self) -> Mapping[str, DataTable]:
+        """Tables of data, with that of the conditions of claims."""
+        if not self.claims:
+            return self.tables
+        return {**self.tables, f"{self.name}_conditions.csv": condition_table(self.claims)}
+
+    def _conditions(self) -> tuple[Part, ...]:
+        """Section with the conditions of the claims; none without claims."""
+        if not self.claims:
+            return ()
+        columns = condition_table(self.claims)
+        rows = tuple(tuple(map(str, row)) for row in zip(*columns.values(), strict=True))
+        caption = "What each claim needs, and what was found"
+        table = Table(caption, COLUMNS, rows, frozenset(range(len(COLUMNS))))
+        return (Part("conditions", "Claims and their conditions", (table,), folded=True),)
+
     def _blocks(self) -> list[Block]:
         return [block for part in self.parts for block in part.blocks]
 
     def _headed(self) -> tuple[Part, ...]:
         """Sections, the first that is not folded begins with the summary."""
+        parts = (*self.parts, *self._conditions())
         if not self.summary:
-            return self.parts
+            return parts
         first, *others = self.summary
         head = (Text(first, "headline"), *map(Text, others))
-        unfolded = next(
-            (unfolded for unfolded, part in enumerate(self.parts) if not part.folded), 0
-        )
-        part = self.parts[unfolded]
+        unfolded = next((unfolded for unfolded, part in enumerate(parts) if not part.folded), 0)
+        part = parts[unfolded]
         headed = part._replace(blocks=(*head, *part.blocks))
-        return (*self.parts[:unfolded], headed, *self.parts[unfolded + 1 :])
+        return (*parts[:unfolded], headed, *parts[unfolded + 1 :])
 
 
 def origin(results: xr.Dataset, kind: str) -> dict[str, Any]:

@@ -4,15 +4,16 @@ from collections.abc import Iterator
 from functools import partial
 from typing import Final
 
-import numpy as np
 import xarray as xr
 
 from ..base import rounding
 from ..results.bands import fixed
+from ..results.conditional import ConditionalClaim
 from ..results.mean_of_runs import omitted_of, runs_of
 from ..results.number import number
 from .analysis import Analysis, origin
 from .blocks import Block, Bullets, Part, Pictures, Text
+from .conditions import mean_interval_claim
 from .figures.campaign import campaign_charts, order_level, reference
 from .limit_tables import limits_data, limits_words, order_limits_table
 from .operating_points import branch_column, branched_table, omitted_points, shown_speeds
@@ -93,6 +94,7 @@ def analysis_of_campaign(mean: xr.Dataset) -> Analysis:
         about="Orders and levels of several recordings.",
         parts=tuple(parts),
         summary=tuple(_sentences(mean)),
+        claims=tuple(_claims(mean)),
         shown=tuple(shown),
         tables=tables,
         **origin(mean, "Recordings"),
@@ -108,14 +110,21 @@ def _sentences(mean: xr.Dataset) -> Iterator[str]:
     omitted = len(omitted_of(mean))
     if omitted:
         yield f"{omitted} of {runs + omitted} recordings are omitted; the page lists the reasons."
+    for claim in _claims(mean):
+        level_db = mean["equivalent_level"].sel(channel=claim.subject, weighting="A").item()
+        interval = "" if claim.is_withdrawn else f" (95 %: {claim.value})"
+        yield f"{claim.subject}: {rounding.fixed(level_db)} dB(A){interval}."
+
+
+def _claims(mean: xr.Dataset) -> Iterator[ConditionalClaim]:
+    """Intervals of the mean levels."""
     for channel in _pressures(mean)[:_MOST_CHANNELS]:
         level_db, reach = (
             mean[name].sel(channel=channel, weighting="A").item()
             for name in ("equivalent_level", "equivalent_mean_interval")
         )
         low, high = (rounding.fixed(level_db + sign * reach) for sign in (-1.0, 1.0))
-        interval = f" (95 %: {low} to {high})" if np.isfinite(reach) else ""
-        yield f"{channel}: {rounding.fixed(level_db)} dB(A){interval}."
+        yield mean_interval_claim(channel, f"{low} to {high}", reach)
 
 
 def _pressures(mean: xr.Dataset) -> list[str]:

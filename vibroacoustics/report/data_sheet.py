@@ -5,10 +5,12 @@ from typing import Final
 
 from ..base import rounding
 from ..base.decibel import NO_TONE_DB
+from ..results.conditional import ConditionalClaim
 from ..results.data_sheet import BandPower, DataSheet, SoundPower, Tone, Vibration
 from ..results.estimates import Estimate
 from .analysis import Analysis
 from .blocks import Bullets, Part, Pictures, Text
+from .conditions import sheet_claims
 from .figures.sources import sheet_chart
 from .file_names import file_name
 from .sections.tones import excess_words
@@ -60,6 +62,7 @@ def analysis_of_data_sheet(sheet: DataSheet) -> Analysis:
         summary=tuple(filter(None, (sheet.example, headline(sheet)))),
         tables={f"data_sheet_{name}.csv": columns_of(_HEAD, _rows(sheet))},
         further={f"data_sheet_{name}.json": content},
+        claims=_claims(sheet),
         figures=f"data_sheet_{name}_",
     )
 
@@ -67,16 +70,22 @@ def analysis_of_data_sheet(sheet: DataSheet) -> Analysis:
 def headline(sheet: DataSheet) -> str:
     """Return L_WA and K_WA in a sentence."""
     power = sheet.sound_power
-    alone = ", of the modelled sources alone" if power.unmodelled_kind == "none" else ""
+    level, uncertainty = _claims(sheet)
+    alone = "".join(f", {check.lacking}" for check in level.missing("remark"))
     whose = "single machine" if power.batch_deviation_db is None else "batch"
-    if power.declared is not None:
-        level, uncertainty = power.declared
+    words = f"{level.value} dB re 1 pW, {uncertainty.short}"
+    if not uncertainty.is_withdrawn:
         words = (
-            f"{level} dB, K_WA = {uncertainty} dB re 1 pW (dual number, as in ISO 4871; {whose})"
+            f"{level.value} dB, K_WA = {uncertainty.value} re 1 pW "
+            f"(dual number, as in ISO 4871; {whose})"
         )
-    else:
-        words = f"{_shown(power.level_dba) or rounding.NOTHING} dB re 1 pW, K_WA not known"
     return f"L_WA = {words}: {sheet.statement}{alone}."
+
+
+def _claims(sheet: DataSheet) -> tuple[ConditionalClaim, ConditionalClaim]:
+    power = sheet.sound_power
+    level = str(power.declared[0]) if power.declared else _shown(power.level_dba)
+    return sheet_claims(power, level or rounding.NOTHING)
 
 
 def _words(power: SoundPower) -> tuple[Text, ...]:

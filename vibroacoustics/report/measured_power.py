@@ -1,5 +1,6 @@
 """Analysis of the sound power from recorded microphones."""
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -8,18 +9,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..base import rounding
 from ..results.bands import fixed
-from ..results.number import number
+from ..results.claim_kinds import GRADE, POWER_LEVEL
+from ..results.conditional import claim_of, claims_of, stated
+from ..results.number import VALUE, number
 from ..study.sound_power import MINIMUM_BACKGROUND_MARGIN_DB
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Pictures
 from .figures.sources import power_chart
 from .tables import Cell, DataTable, Table, cell
 
-GRADES: Final = {
-    2: "grade 2 (ISO 3744, engineering)",
-    3: "grade 3 (ISO 3746, survey), not grade 2",
-    0: "neither grade 2 (ISO 3744) nor grade 3 (ISO 3746)",
-}
 _COLUMNS: Final = {
     "mean_position_level": "mean_level_db",
     "background_margin": "background_margin_db",
@@ -45,12 +43,16 @@ def analysis_of_sound_power(measured: xr.Dataset) -> Analysis:
         summary=(headline(measured),),
         shown=(table, remarks),
         tables={"sound_power.csv": _bands(measured)},
+        claims=claims_of(measured),
         **origin(measured, "Recording"),
     )
 
 
 def _bands(measured: xr.Dataset) -> DataTable:
-    """Every band, and the A-weighted sums in the last row; empty where nothing was measured."""
+    """Every band, and the A-weighted sums in the last row; empty where nothing was measured.
+
+    The last row has the claims on the A-weighted level.
+    """
     margins = [*measured["background_margin"].values, measured["background_margin_a"].item()]
     columns = {head: [*measured[name].values.tolist(), measured.get(f"{name}_a", _NONE).item()]
                for name, head in _COLUMNS.items()}  # fmt: skip
@@ -58,21 +60,20 @@ def _bands(measured: xr.Dataset) -> DataTable:
         "band_hz": [*measured["band"].values.tolist(), "A"],
         **{head: [*map(cell, values)] for head, values in columns.items()},
         "is_upper_bound": [*map(_bound, margins)],
+        **{
+            kind.name.replace(" ", "_"): [
+                *[""] * measured.sizes["band"],
+                stated(claim_of(measured, kind.name)),
+            ]
+            for kind in (POWER_LEVEL, GRADE)
+        },
     }
 
 
 def headline(measured: xr.Dataset) -> str:
     """Level and grade in a sentence."""
-    level = rounding.fixed(measured["measured_power_level_a"].item())
-    at_most = "at most " if _bound(measured["background_margin_a"].item()) == "yes" else ""
-    return f"L_WA = {at_most}{level} dB(A) re 1 pW: {_grade(measured)}."
-
-
-def _grade(measured: xr.Dataset) -> str:
-    missing = str(measured.attrs.get("missing_for_grade", ""))
-    if missing:
-        return f"no grade without {missing.replace(', ', ' and ')}"
-    return GRADES[int(measured.attrs["grade"])]
+    level, grade = (claim_of(measured, kind.name) for kind in (POWER_LEVEL, GRADE))
+    return f"L_WA = {level.short}: {stated(grade)}."
 
 
 def _table(measured: xr.Dataset) -> Table:
@@ -82,13 +83,13 @@ def _table(measured: xr.Dataset) -> Table:
                                               for name in _COLUMNS))
         for band, bound in zip(measured["band"].values.tolist(), bounds, strict=True)
     ]  # fmt: skip
-    units = {"measured_power_level": "dB(A)"}
-    sums = (
-        number(measured, f"{name}_a", fixed, units.get(name, "dB")) for name in list(_COLUMNS)[1:]
-    )
+    *sums, level = (number(measured, f"{name}_a", fixed, "dB") for name in list(_COLUMNS)[1:])
+    bound = claim_of(measured, POWER_LEVEL.name).bound
+    text = f"{bound} {level.text}".lstrip()
+    level = replace(level, unit="dB(A)", text=text, statistic=bound or VALUE)
     head = ("Band, Hz", "Mean Lp", "over background", "K1", "K2", "L_W")
     caption = "Sound power level in third octaves, dB"
-    return Table(caption, head, (*rows, ("A", "", *sums)))
+    return Table(caption, head, (*rows, ("A", "", *sums, level)))
 
 
 def _remarks(measured: xr.Dataset) -> list[str]:

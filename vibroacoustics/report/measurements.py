@@ -1,7 +1,8 @@
 """Analyses of what was computed from measurements: blocked forces, and predicted changes."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -10,9 +11,11 @@ from ..base import rounding
 from ..base.arrays import Array
 from ..base.decibel import SILENCE_DB
 from ..base.vocabulary import REFERENCE_OPTION
+from ..results.conditional import ConditionalClaim
 from ..results.number import Number
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Pictures
+from .conditions import band_claim, truncation_claim
 from .figures.predicted import blocked_charts, predicted_charts
 from .tables import Cell, DataTable, Table, data_table, phase_deg, records
 
@@ -40,9 +43,35 @@ def analysis_of_blocked_forces(
         ),
         shown=(*tables, notes),
         tables={"blocked_forces.csv": _forces(blocked), "validation.csv": _validations(blocked)},
+        claims=tuple(_blocked_claims(blocked)),
         further=further or {},
         in_markdown="blocked_forces.md",
     )
+
+
+def _blocked_claims(blocked: xr.Dataset) -> Iterator[ConditionalClaim]:
+    """Band of the forces at the line with the largest, and the choice of the truncation."""
+    size = np.abs(blocked["blocked_force"].values)
+    point, line = np.unravel_index(int(size.argmax()), size.shape)
+    ends = (float(blocked[f"blocked_force_{end}"][point, line]) for end in ("low", "high"))
+    words = " to ".join(f"{rounding.significant(end)} N" for end in ends)
+    subject = f"{blocked['force_point'].values[point]} at {blocked['frequency'].values[line]:g} Hz"
+    yield band_claim(blocked, words, subject)
+    errors = blocked["left_out_error"].values
+    yield truncation_claim(float(blocked["inversion_truncation"]), errors)
+
+
+def _predicted_claims(predicted: xr.Dataset) -> Iterator[ConditionalClaim]:
+    """Bands of the A-weighted levels."""
+    for option in _changes(predicted):
+        for receiver in map(str, predicted["receiver"].values):
+            selection = {"option": option, "receiver": receiver, "weighting": "A"}
+            ends = [predicted[f"predicted_total_level{end}"].sel(selection).item() for end in _ENDS]
+            words = f"{_band(ends, rounding.fixed)} dB(A)"
+            yield band_claim(predicted, words, f"{option}, {receiver}")
+
+
+_ENDS: Final = ("", "_low", "_high")
 
 
 def _forces(blocked: xr.Dataset) -> DataTable:
@@ -149,6 +178,7 @@ def analysis_of_prediction(predicted: xr.Dataset) -> Analysis:
         ),
         shown=(totals, truncations, notes),
         tables={"prediction.csv": _lines(predicted)},
+        claims=tuple(_predicted_claims(predicted)),
         in_markdown="prediction.md",
     )
 
@@ -175,7 +205,7 @@ def _changes(predicted: xr.Dataset) -> list[str]:
 
 def _totals(predicted: xr.Dataset) -> Table:
     def cells(name: str, unit: str, **selection: str) -> tuple[Cell, str]:
-        values = [predicted[f"{name}{end}"].sel(selection).item() for end in ("", "_low", "_high")]
+        values = [predicted[f"{name}{end}"].sel(selection).item() for end in _ENDS]
         write = rounding.signed if name.endswith("change") else rounding.fixed
         return _number(name, selection, values, unit, write), _band(values, write)
 

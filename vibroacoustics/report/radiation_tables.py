@@ -13,6 +13,7 @@ from ..base.decibel import level_of_amplitude
 from .analysis import Analysis, origin
 from .blocks import Block, Part, Pictures, Text
 from .charts.svg import Picture, picture
+from .conditions import kwave_claim
 from .figures.directivity import directivity
 from .figures.maps import names, silent_dofs, transfer_vectors, unit_level_db, unit_level_map
 from .kwave_words import kwave_line
@@ -42,6 +43,7 @@ def analysis_of_radiation(radiated: xr.Dataset) -> Analysis:
             Part("figures", "Over frequency and direction", (figures,)),
         ),
         shown=blocks,
+        claims=(kwave_claim(radiated),),
     )
 
 

@@ -20,6 +20,7 @@ from .analysis import Analysis, origin
 from .avoid import RECORDED_RULE, recorded_avoid_table
 from .blocks import Block, Bullets, Live, Part, Pictures, Text
 from .charts.marks import Chart
+from .conditions import coherence_claim
 from .figures.channel_orders import recorded_order_charts, speed_map_charts, tracked_order_charts
 from .limit_tables import limits_data, limits_words, order_limits_table
 from .live.run_up_data import run_up_data
@@ -123,6 +124,7 @@ def analysis_of_orders(
         summary=loudest_sentences(loudest),
         shown=tuple(shown),
         tables=data,
+        claims=(coherence_claim(results["channel_order_coherence"]),),
         **origin(results, "Recording"),
     )
 

@@ -2,12 +2,15 @@
 
 import json
 from collections.abc import Iterable, Mapping
+from functools import partial
 from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 
 from ..base import rounding
+from ..results.claim_kinds import REPLAYED
+from ..results.conditional import ConditionalClaim, Finding
 from ..results.number import Number
 from .analysis import Analysis, origin
 from .blocks import Bullets, Part, Sound, Sounds, Text
@@ -59,6 +62,7 @@ def analysis_of_replay(summary: xr.Dataset, sounds: Mapping[str, Mapping[str, st
             Part("certainty", "Assumptions and limits", (Bullets(_SURE), about)),
         ),
         summary=tuple(_sentences(summary)),
+        claims=tuple(map(partial(_claim, summary), _channels(summary))),
         shown=(totals, lines, stays, about),
         tables={
             "replay_lines.csv": _line_data(summary),
@@ -196,6 +200,22 @@ def _between_speeds(attrs: Mapping[str, Any]) -> Iterable[str]:
         f"Speeds of the study are up to {100.0 * attrs['speed_gap']:.0f} % apart. Between them "
         f"ratios are interpolated, whose error {words}"
     )
+
+
+def _claim(summary: xr.Dataset, channel: str) -> ConditionalClaim:
+    """Level of a channel with the option: it needs a line that can be changed, and samples."""
+    is_sound = summary["channel_unit"].sel(channel=channel) == "Pa"
+    weighting, unit = (_SUMMARY_WEIGHTING, "dB(A)") if is_sound else (_UNWEIGHTED, "dB")
+    ends = ("replayed_total_level_low", "replayed_total_level_high")
+    after = _number(summary, "replayed_total_level", ends, channel=channel, weighting=weighting)
+    changed = sum(each == channel for each, _ in _changed(summary))
+    reasons = _unchanged(summary).get(channel, {})
+    is_known, is_sampled = bool(changed or not reasons), after.low is not None or not changed
+    findings = {
+        "lines": Finding(f"{changed} of {changed + len(reasons)}", is_known),
+        "samples": Finding("samples" if is_sampled else "none", is_sampled),
+    }
+    return REPLAYED.claim(f"{after} {unit}", findings, channel)
 
 
 def _sentences(summary: xr.Dataset) -> Iterable[str]:

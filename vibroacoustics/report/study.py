@@ -17,6 +17,7 @@ from .analysis import Analysis
 from .avoid import avoid_data
 from .blocks import Part, Text
 from .columns import COLUMNS
+from .conditions import study_claims
 from .kept_columns import columns_of, keep_columns
 from .kept_columns import kept as kept_columns
 from .kept_sections import keep_sections, sections_of
@@ -61,6 +62,7 @@ def _analysis(results: xr.Dataset) -> Analysis:
         title=of_study["title"],
         kind=of_study["machine"]["name"],
         created=named.attrs["created_utc"],
+        claims=study_claims(named),
     )
 
 

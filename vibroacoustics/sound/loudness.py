@@ -10,23 +10,32 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.constants import REFERENCE_PRESSURE_PA
 from ..base.decibel import mean_square_level
-from ..levels.bands import HALF_BAND, bands_between
+from ..levels.bands import HALF_BAND, bands_between, measurable_bands
 from .ingredients import Ingredients
 from .recorded import NarrowBands
-from .zwicker import SoundField, core_loudness, specific_loudness, total_loudness
+from .zwicker import (
+    SoundField,
+    core_loudness,
+    lower_edge_bark,
+    specific_loudness,
+    total_loudness,
+)
 
-CENTRES_HZ: Final[Array] = np.array([band.middle_hz for band in bands_between(3, 25.0, 12500.0)])
+BANDS: Final = bands_between(3, 25.0, 12500.0)
+CENTRES_HZ: Final[Array] = np.array([band.middle_hz for band in BANDS])
 """Exact midband frequencies of the third octaves from 25 Hz to 12.5 kHz."""
 _ACROSS: Final = 20
 _SILENT_DB: Final = -60.0
-_QUIET_SONE: Final = 0.1
+QUIET_SONE: Final = 0.1
 """Loudness below which sharpness is not judged."""
 _BARK: Final[Array] = np.arange(1, 241) / 10.0
 """Critical-band rates at which sharpness reads the specific loudness, Bark (DIN 45692)."""
-_SHARPNESS_WEIGHT: Final[Array] = _BARK * np.where(
-    _BARK > 15.8, 0.15 * np.exp(0.42 * (_BARK - 15.8)) + 0.85, 1.0
-)
-"""Weight of specific loudness in sharpness, z g(z) (DIN 45692, clause 5)."""
+
+
+def _sharpness_weight(bark: Array) -> Array:
+    """Weight of specific loudness in sharpness, z g(z) (DIN 45692, clause 5)."""
+    rise = np.maximum(bark - 15.8, 0.0)
+    return np.asarray(bark * np.where(rise > 0.0, 0.15 * np.exp(0.42 * rise) + 0.85, 1.0))
 
 
 @dataclass(frozen=True)
@@ -35,12 +44,20 @@ class Loudness:
 
     Attributes
     ----------
-    loudness_sone : N, in the field that was asked for
-    sharpness_acum : S; not a number of a sound that is hardly audible
+    loudness_sone : N, in the field that was asked for; a lower bound where bands are missing
+    sharpness_acum : S, a lower bound like N; not a number of a sound that is hardly audible, and
+        where missing bands may lower it
+    highest_band_hz : nominal midband frequency of the highest third octave that was measured
     """
 
     loudness_sone: float
     sharpness_acum: float
+    highest_band_hz: float = BANDS[-1].nominal_hz
+
+    @property
+    def is_lower_bound(self) -> bool:
+        """Whether third octaves below 12.5 kHz, or that one, are missing."""
+        return self.highest_band_hz < BANDS[-1].nominal_hz
 
     @property
     def level_phon(self) -> float:
@@ -69,6 +86,11 @@ def loudness_of(parts: Sequence[Ingredients], field: SoundField = "free") -> lis
 def recorded_loudness(bands: NarrowBands) -> Loudness:
     """Loudness and sharpness of a stationary recording.
 
+    The method needs third octaves to 12.5 kHz. At sample rates below 28.3 kHz some are missing:
+    both are then lower bounds. Loudness grows with the level of any band. Sound in the missing
+    bands adds specific loudness above their lower edge alone, which raises the sharpness where the
+    weight at that edge exceeds it.
+
     Parameters
     ----------
     bands : result of `narrow_bands`
@@ -81,7 +103,25 @@ def recorded_loudness(bands: NarrowBands) -> Loudness:
     audible = bands.frequency_hz > 0.0
     square = bands.even_mean_square[audible] @ filter_gain(bands.frequency_hz[audible])
     (loudness,) = loudness_of_thirds(square[None])
-    return loudness
+    measured = len(measurable_bands(BANDS, 2.0 * float(bands.frequency_hz[-1])))
+    if measured == len(BANDS):
+        return loudness
+    is_bound = loudness.sharpness_acum <= largest_bounded_sharpness(measured)
+    return Loudness(
+        loudness.loudness_sone,
+        loudness.sharpness_acum if is_bound else np.nan,
+        BANDS[measured - 1].nominal_hz if measured else 0.0,
+    )
+
+
+def largest_bounded_sharpness(measured: int) -> float:
+    """Return the sharpness up to which sound in missing bands raises it, acum.
+
+    Parameters
+    ----------
+    measured : number of third octaves from 25 Hz that were measured
+    """
+    return 0.11 * float(_sharpness_weight(np.array(lower_edge_bark(measured))))
 
 
 def loudness_of_thirds(mean_square: Array, field: SoundField = "free") -> list[Loudness]:
@@ -116,8 +156,8 @@ def sharpness(core: Array, loudness_sone: Array) -> Array:
     core : core loudness, shape (..., 20), sone/Bark
     loudness_sone : loudness, shape (...), sone
     """
-    weighted = 0.1 * specific_loudness(core, _BARK) @ _SHARPNESS_WEIGHT
-    is_loud = loudness_sone >= _QUIET_SONE
+    weighted = 0.1 * specific_loudness(core, _BARK) @ _sharpness_weight(_BARK)
+    is_loud = loudness_sone >= QUIET_SONE
     return np.where(is_loud, 0.11 * weighted / np.where(is_loud, loudness_sone, 1.0), np.nan)
 
 

@@ -213,4 +213,12 @@ def specific_loudness(core: Array, bark: Array) -> Array:
     return specific
 
 
+def lower_edge_bark(third: int) -> float:
+    """Return the lower edge of the critical band of a third octave, counted from that at 25 Hz."""
+    for band, thirds in enumerate(_LOW_BANDS):
+        if third < thirds.stop:
+            return float(UPPER_EDGE_BARK[band - 1]) if band else 0.0
+    return float(UPPER_EDGE_BARK[third - _LOW_BANDS[-1].stop + len(_LOW_BANDS) - 1])
+
+
 _ROUNDING: Final = 1e-9

@@ -24,6 +24,7 @@ from vibroacoustics.base.fault import FaultError, Owner, leave_out
 from vibroacoustics.commands import cli, starter
 from vibroacoustics.commands.command import COMMANDS, JOBS
 from vibroacoustics.commands.outcome import SCHEMA
+from vibroacoustics.results.claim_kinds import KINDS, MEAN_INTERVAL, UNCONDITIONAL
 from vibroacoustics.results.storage import write_results
 
 WRITES_ONLY = {"report", "new", "export", "schema", "cache", "doctor"}
@@ -104,12 +105,25 @@ def test_json_and_quiet(name: str, inputs: Path, tmp_path: Path) -> None:
             head = next(csv.reader(path.read_text(encoding="utf-8").splitlines()))
             assert list(envelope["tables"][label.removesuffix(".csv")]) == head
     check_numbers(envelope["numbers"], files.get("results", Path()))
+    check_claims(name, envelope["tables"])
     if log:
         assert (tmp_path / "log.txt").read_text()
     again = tmp_path / "again" if name == "new" else tmp_path / "out"
     outcome = command_here(*words_of(name, inputs, again), "--quiet")
     assert (outcome.returncode, outcome.stdout) == (0, "")
     assert all(line.startswith("warning: ") for line in outcome.stderr.splitlines())
+
+
+def check_claims(name: str, tables: dict[str, Any]) -> None:
+    """A command states the kinds of claims that the table of the docs lists for it, and no others.
+
+    The interval of a mean is that of several recordings.
+    """
+    stated = {claim for each in tables if each.endswith("_conditions")
+              for claim in tables[each]["claim"]}  # fmt: skip
+    listed = {kind.name for kind in KINDS if name in kind.commands and kind is not MEAN_INTERVAL}
+    assert stated == listed
+    assert bool(listed) != (name in UNCONDITIONAL)
 
 
 def check_numbers(numbers: list[dict[str, Any]], file: Path) -> None:

@@ -9,7 +9,8 @@ import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
 from vibroacoustics.base.weighting import a_weighting
 from vibroacoustics.radiation.arrangements import box_positions, hemisphere_positions
-from vibroacoustics.report.measured_power import headline
+from vibroacoustics.report.measured_power import analysis_of_sound_power, headline
+from vibroacoustics.results.conditional import claim_of
 
 POWER_DB = 60.0 + 8.0 * np.sin(np.arange(len(BANDS)))
 MARGIN_DB = np.resize([6.5, 8.0, 10.0, 14.0, 25.0], len(BANDS))
@@ -172,4 +173,9 @@ def test_a_grade_falls_with_each_condition(
     measured = va.sound_power([running], va.MeasurementSurface.hemisphere(RADIUS_M), [still], 1e6)
     assert measured.attrs["grade"] == 0
     assert measured.attrs["missing_for_grade"] == missing
-    assert headline(measured).endswith(f"no grade without {missing}.")
+    words = f"no grade without {missing}"
+    assert headline(measured).endswith(f"{words}.")
+    analysis = analysis_of_sound_power(measured)
+    assert analysis.files()["sound_power.csv"].decode().splitlines()[-1].endswith(f",{words}")
+    assert analysis.json()["tables"]["sound_power"]["grade"][-1] == words
+    assert f"L_WA = {claim_of(measured, 'sound power level').short}" in analysis.text()

@@ -143,3 +143,27 @@ def test_too_loud_bass_is_refused_in_one_line():
         ParameterError, match=r"^loudness: .*has 12\d.* dB; ISO 532-1 holds up to 120 dB$"
     ):
         loudness_of([tone(50.0, 125.0)])
+
+
+@pytest.mark.parametrize("measured", [16, 22, 25, 27])
+def test_sound_in_missing_bands_raises_loudness_and_bounded_sharpness(measured):
+    """Of random third octaves, those above the measured ones silent or not."""
+    levels_db = np.random.default_rng(measured).uniform(0.0, 90.0, (200, CENTRES_HZ.size))
+    square = REFERENCE * 10.0 ** (levels_db / 10.0)
+    low = square * (np.arange(CENTRES_HZ.size) < measured)
+    low[:, measured] = 0.1 * square[:, measured]  # half the sample rate is within a band
+    part, whole = (loudness.loudness_of_thirds(each) for each in (low, square))
+    most = loudness.largest_bounded_sharpness(measured)
+    bounded = [each for each in zip(part, whole, strict=True) if each[0].sharpness_acum <= most]
+    assert len(bounded) >= 100
+    assert all(one.loudness_sone <= other.loudness_sone for one, other in bounded)
+    assert all(one.sharpness_acum <= other.sharpness_acum * 1.001 for one, other in bounded)
+
+
+def test_sharpness_that_missing_bands_may_lower_is_none():
+    """Noise about 3.5 kHz at 8 kHz: sound in the next critical band may be less sharp."""
+    time = np.arange(4 * 8000) / 8000.0
+    peak = np.sqrt(2.0 * REFERENCE) * 10.0**3.0
+    sharp = loudness.recorded_loudness(narrow_bands(peak * np.sin(2 * np.pi * 3900 * time), 8000.0))
+    assert sharp.is_lower_bound
+    assert np.isnan(sharp.sharpness_acum)

@@ -8,12 +8,14 @@ import numpy as np
 
 from ...base import rounding
 from ...design.bench.balanced_runs import BalancedRuns, other_reading, shown_angle
-from ...design.bench.grade import grade_name, grade_of
+from ...design.bench.grade import Grade, grade_name, grade_of
 from ...mechanics.balancing.planes import DEPENDENT
 from ...report.analysis import Analysis
 from ...report.blocks import Bullets, Part, Pictures
 from ...report.charts.svg import Picture
 from ...report.tables import Table
+from ...results.claim_kinds import BALANCE_GRADE
+from ...results.conditional import ConditionalClaim, Finding, stated
 from .of_study import study_part
 from .picture import plane_picture, weight_words
 from .tables import (
@@ -70,6 +72,7 @@ def analysis_of_balancing(result: BalancedRuns, remarks: list[str]) -> Analysis:
         _ABOUT,
         parts,
         summary=tuple(headlines(result)),
+        claims=(_grade_claim(grade_of(result)),),
         shown=(weights, readings, answers),
         tables=data_tables(result) | study_tables,
         further={BENCH_NAME: bench_sheet(result).html()},
@@ -102,9 +105,20 @@ def headlines(result: BalancedRuns) -> Iterator[str]:
     if grade is not None:
         yield (
             f"Balance quality: {rounding.three_digits(grade.before)} to "
-            f"{rounding.three_digits(grade.after)} mm/s (80 %: {band(grade.low, grade.high)})"
-            f"{'' if np.isnan(grade.high) else f', {grade_name(grade.high)}'}."
+            f"{rounding.three_digits(grade.after)} mm/s (80 %: {band(grade.low, grade.high)}), "
+            f"{stated(_grade_claim(grade))}."
         )
+
+
+def _grade_claim(grade: Grade | None) -> ConditionalClaim:
+    """Grade by the upper end of its band, which needs the mass of the rotor and a scatter."""
+    has_mass = grade is not None
+    has_scatter = grade is None or not np.isnan(grade.high)
+    findings = {
+        "mass": Finding("stated" if has_mass else "not stated", has_mass),
+        "scatter": Finding("known" if has_scatter else "not known", has_scatter),
+    }
+    return BALANCE_GRADE.claim(grade_name(grade.high) if grade else "", findings)
 
 
 def weights_in_words(result: BalancedRuns) -> str:

@@ -13,6 +13,8 @@ from ...permits.verdict import FARTHEST_M, PermitVerdict, judged
 from ...report.analysis import Analysis
 from ...report.blocks import Bullets, Part
 from ...report.tables import DataTable, Table, columns_of
+from ...results.claim_kinds import LEAST_DISTANCE, PROBABILITY
+from ...results.conditional import ConditionalClaim, Finding, stated
 
 _ABOUT: Final = "Units at windows, judged by the rules of authorities."
 _HEAD: Final = (
@@ -37,6 +39,7 @@ def analysis_of_permit(file: PermitFile) -> Analysis:
     verdicts = {name: judged(file.units, window) for name, window in file.windows.items()}
     rules = {name: next(iter(window.values())) for name, window in file.windows.items()}
     labels = {name: label_limits(unit) for name, unit in file.units.items()}
+    deviation_db = max(unit.deviation_db for unit in file.units.values())
     table = _verdict_table(verdicts, rules)
     blocks = [table, *([_label_table(labels)] if any(labels.values()) else [])]
     parts = (
@@ -54,29 +57,42 @@ def analysis_of_permit(file: PermitFile) -> Analysis:
         f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         _ABOUT,
         parts,
-        summary=tuple(_headlines(verdicts)),
+        summary=tuple(_headlines(verdicts, deviation_db)),
+        claims=tuple(_claims(verdicts, deviation_db)),
         shown=tuple(blocks),
         tables=_data_tables(verdicts, rules, labels),
     )
 
 
-def _headlines(verdicts: Mapping[str, PermitVerdict]) -> Iterator[str]:
+def _claims(
+    verdicts: Mapping[str, PermitVerdict], deviation_db: float
+) -> Iterator[ConditionalClaim]:
+    """Probability and least distance of every window."""
+    deviation = Finding(f"{deviation_db:g} dB", deviation_db > 0.0)
+    for name, verdict in verdicts.items():
+        chance = f"met with a probability of {100.0 * verdict.probability:.0f} %"
+        yield PROBABILITY.claim(chance, {"deviation": deviation}, name)
+        is_near = not np.isnan(verdict.least_distance_m)
+        words = "within" if is_near else "not within"
+        distance = Finding(f"{words} {FARTHEST_M / 1000.0:g} km", is_near)
+        metres = f"met from {_metres(verdict.least_distance_m)} m on"
+        yield LEAST_DISTANCE.claim(metres, {"distance": distance}, name)
+
+
+def _headlines(verdicts: Mapping[str, PermitVerdict], deviation_db: float) -> Iterator[str]:
     """The window with the least to spare, then how many meet their limits."""
     name, worst = min(verdicts.items(), key=lambda each: each[1].spare_db)
+    chance, distance = _claims({name: worst}, deviation_db)
+    is_met = "" if chance.is_withdrawn else "the limit is "
     words = "to spare" if worst.is_met else "too much"
     yield (
         f"{name}: {rounding.fixed(worst.level_dba)} dB(A) for a limit of "
         f"{rounding.fixed(worst.limit_dba)}, {rounding.fixed(abs(worst.spare_db))} dB {words}; "
-        f"the limit is met with a probability of {100.0 * worst.probability:.0f} %."
+        f"{is_met}{stated(chance)}."
     )
     met = sum(verdict.is_met for verdict in verdicts.values())
-    yield f"{met} of {len(verdicts)} windows meet their limits. {_distance(worst)}"
-
-
-def _distance(verdict: PermitVerdict) -> str:
-    if np.isnan(verdict.least_distance_m):
-        return f"That one is not met within {FARTHEST_M:.0f} m."
-    return f"That one is met from {verdict.least_distance_m:.1f} m on."
+    is_near = "That one has " if distance.is_withdrawn else "That one is "
+    yield f"{met} of {len(verdicts)} windows meet their limits. {is_near}{stated(distance)}."
 
 
 def _verdict_table(verdicts: Mapping[str, PermitVerdict], rules: Mapping[str, PermitRule]) -> Table:

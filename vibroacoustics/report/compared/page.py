@@ -22,6 +22,7 @@ from ...results.validation import (
 from ..analysis import Analysis
 from ..blocks import Block, Bullets, Details, Part, Pictures, Text
 from ..charts.marks import Chart
+from ..conditions import coherence_claim
 from ..figures.campbell import campbell
 from ..figures.channel_orders import compared_order_charts, order_differences
 from ..figures.levels_over_speed import levels_over_speed
@@ -179,6 +180,7 @@ def analysis_of_comparison(compared: Compared, figures: Sequence[CheckedFigure])
         parts=tuple(part for part in parts if part.blocks),
         shown=tuple(shown),
         tables=tables,
+        claims=(coherence_claim(orders["channel_order_coherence"]),),
     )
 
 

@@ -9,10 +9,12 @@ import xarray as xr
 
 from ...base import rounding
 from ...base.vocabulary import MEDIAN
+from ...results.conditional import ConditionalClaim, stated
 from ...results.number import Number
 from ...results.stored_study import parameters
 from ..analysis import Analysis, origin
 from ..blocks import Block, Bullets, Details, Part, Pictures, Text
+from ..conditions import promise_claim
 from ..sections.unknowns import NOT_RESOLVED, share_words
 from ..tables import Cell, DataTable, Table
 from .evaluated import (
@@ -69,6 +71,7 @@ def analysis_of_designs(search: xr.Dataset) -> Analysis:
         about="Designs, what each objective costs the others, and what built pieces will keep.",
         parts=tuple(part for part in parts if part.blocks),
         summary=(_sentence(reason) if reason else _headline(search, designs),),
+        claims=(_claim(search, designs, not reason),),
         shown=(*shown_best, Text(search.attrs["method"])),
         tables=tables,
         figures="figures/",
@@ -79,7 +82,10 @@ def analysis_of_no_designs(swept: xr.Dataset) -> Analysis:
     """Return the analysis of a sweep in which no design meets the constraints."""
     words = "No design meets the constraints."
     part = Part("best", "The best few", (Text(words),))
-    return Analysis("designs", about=words, parts=(part,), **origin(swept, "Designs"))
+    claims = (promise_claim((), False, True),)
+    return Analysis(
+        "designs", about=words, parts=(part,), claims=claims, **origin(swept, "Designs")
+    )
 
 
 def _promised(search: xr.Dataset) -> str:
@@ -102,6 +108,17 @@ def _sentence(words: str) -> str:
 
 def _headline(search: xr.Dataset, designs: Evaluated) -> str:
     """Say what the first of the best few promises, beside the machine without an option."""
+    return f"Design 1 promises {stated(_claim(search, designs, True))}."
+
+
+def _claim(search: xr.Dataset, designs: Evaluated, is_allowed: bool) -> ConditionalClaim:
+    """Promise of the first of the best few."""
+    reached = _promised_values(search, designs) if is_allowed else []
+    return promise_claim(reached, is_allowed, bool(search.attrs["is_sampled"]))
+
+
+def _promised_values(search: xr.Dataset, designs: Evaluated) -> list[str]:
+    """Value of each objective of the first of the best few, and without an option."""
     reached = []
     roles = search["wanted_role"].values
     aims = [number for number, role in enumerate(roles) if role in ("least", "greatest")]
@@ -109,7 +126,7 @@ def _headline(search: xr.Dataset, designs: Evaluated) -> str:
         promised = shown(float(search["wanted_promised"].values[0, number]), column.unit)
         before = shown(float(search["wanted_reference"].values[number]), column.unit)
         reached.append(f"{column.label} {promised} {column.unit} (without an option {before})")
-    return f"Design 1 promises {'; '.join(reached)}."
+    return reached
 
 
 def _precision(search: xr.Dataset) -> str:

@@ -14,7 +14,7 @@ import xarray as xr
 from ....base import rounding
 from ....base.vocabulary import REFERENCE_OPTION
 from ....results.bands import Band, band
-from ....results.estimates import effective_samples, has_samples
+from ....results.estimates import has_samples
 from ....results.stored_study import (
     at_catalogue,
     balancers,
@@ -28,14 +28,13 @@ from ....results.stored_study import (
     speeds,
 )
 from ...blocks import Interval, Intervals, IntervalWord
+from ...conditions import interval_claim
 from ...quantities import FOOT_FORCE, NO_BREAK, TOTAL
 from ...shifts import Shift, level_word, measurable, shift
 from ..rating import rating_sentence, windows, worst_window
 from ..sources.words import UNMODELLED, dominant_source, ranked, source_share
 from ..unknowns import most_valuable
 
-_FEW_SAMPLES: Final = 30
-"""Effective samples below which their number is said."""
 _QUIETEST_DB: Final = 30.0
 """Sources so far below the machine are not shown."""
 _LEAST_SPAN_DB: Final = 2.0
@@ -122,7 +121,8 @@ def _level(results: xr.Dataset) -> str:
     speed = nearest_speed(results)
     level = band(results, "level_total", **at_catalogue(results, speed=speed))
     around = level.around_middle(rounding.level)
-    interval = f" (80{NO_BREAK}% interval {around})" if around else ""
+    is_stated = around and not interval_claim(results).is_withdrawn
+    interval = f" (80{NO_BREAK}% interval {around})" if is_stated else ""
     return (
         f"{parameters(results)['machine']['name']} at {speed:g} rpm: "
         f"{level.middle_text(rounding.level)} dB(A) at {catalogue_receiver(results)}{interval}, "
@@ -146,8 +146,7 @@ def _model_alone(results: xr.Dataset) -> str:
         alone = Band(*results["model_level"].values.tolist())
         text = alone.middle_and_ends(partial(rounding.fixed, decimals=0))
         parts.append(f"model alone: {text} dB(A)")
-    if has_samples(results) and effective_samples(results) < _FEW_SAMPLES:
-        parts.append(f"{effective_samples(results):.0f} effective samples")
+    parts += [check.lacking for check in interval_claim(results).missing("remark")]
     text = "; ".join(parts)
     return f"{text[0].upper()}{text[1:]}." if text else ""
 
