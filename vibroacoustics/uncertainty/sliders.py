@@ -18,7 +18,9 @@ from ..study.uncertainty import Range
 from .evidence import PAIRS, systematic
 
 LEAST_DB: Final = 0.5
-"""Least change of the level over the range of a slider, and largest error between its nodes."""
+"""Least change of the level over the range of a slider."""
+MOST_ERROR_DB: Final = 1.0
+"""Largest error between the nodes of a slider."""
 MOST_CANDIDATES: Final = 10
 """Parameters whose ends of the range are computed."""
 MOST_SLIDERS: Final = 5
@@ -73,6 +75,7 @@ def spread_pairs(results: xr.Dataset, weight: Array) -> list[tuple[int, int]]:
     others = [dim for dim in level_db.dims if dim != "sample"]
     order = np.argsort(level_db.mean(others).values)
     picks = order[systematic(weight[order], MACHINES, 0.5)]
+    picks = np.roll(picks, TRIED + 1)  # candidates are tried with loud ones, not the loudest
     return [divmod(row, PAIRS) for row in picks.tolist()]
 
 
@@ -171,7 +174,7 @@ def _slider(limits: Range, before: Array, receiver: int, compute: Compute) -> Sl
     halfway = [change_at(value, nodes, change[::2]) for value in values[1::2].tolist()]
     error = total_change(bands[tried], np.array(halfway)) - total_change(bands[tried], change[1::2])
     largest_db = float(np.abs(error[..., receiver]).max())
-    if largest_db > LEAST_DB:
+    if largest_db > MOST_ERROR_DB:
         return None
     more = _swept(limits, _SHARES[::2], others.tolist(), compute)
     if more is None:

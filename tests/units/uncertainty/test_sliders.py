@@ -26,6 +26,7 @@ from vibroacoustics.uncertainty.sliders import (
     LEAST_DB,
     MACHINES,
     MOST_CANDIDATES,
+    MOST_ERROR_DB,
     NODES,
     TRIED,
     band_levels,
@@ -248,7 +249,7 @@ def random_settings(chain, count, seed):
     ]
 
 
-def test_one_slider_is_within_half_a_decibel_of_the_chain(chain):
+def test_one_slider_is_within_a_decibel_of_the_chain(chain):
     """In the two samples with which its error was found."""
     for machine, pair in enumerate(pairs_of(chain)[:TRIED]):
         before = chain_total(chain, pair, {})
@@ -257,7 +258,7 @@ def test_one_slider_is_within_half_a_decibel_of_the_chain(chain):
                 (value,) = sample.values()
                 expected = (chain_total(chain, pair, sample) - before)[0]
                 found = interpolated(chain.results, machine, {name: value})[0]
-                assert found == pytest.approx(expected, abs=LEAST_DB), (name, value)
+                assert found == pytest.approx(expected, abs=MOST_ERROR_DB), (name, value)
 
 
 def test_the_error_of_several_sliders_covers_new_settings(chain):
