@@ -68,3 +68,19 @@ def check_functions_command(
     verdict = "no fault was found" if not checked.faults else f"faults: {len(checked.faults)}"
     text = "\n".join([*words, f"{file}: {verdict}"])
     return Outcome(text, tables={"points": columns(checked.rows)}, broken=checked.faults)
+
+
+@command("hammer", "Measurements", "hammer.toml")
+def hammer_command(
+    file: Annotated[Path, "FILE: File, .toml, of channels, points and records."],
+    out: FileOut = None,
+    *,
+    printing: Printing,
+) -> Outcome:
+    """Find frequency responses from time records of hammer hits: H1, H2, coherence, faults."""
+    from ..measured.hammer_test import hammer_test
+    from .hammer_tables import analysis_of_hammer
+
+    target = printing.target(out or Path("reports") / file.stem)
+    found = hammer_test(file)
+    return target.outcome(analysis_of_hammer(found), broken=found.faults)

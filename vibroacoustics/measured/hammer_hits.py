@@ -1,6 +1,5 @@
 """Hits of a hammer in the record of its force: where they are, and which are double."""
 
-from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -144,10 +143,12 @@ def longest_block(found: Pulses, samples: int, sample_rate_hz: float) -> int:
     sample_rate_hz : its sample rate
     """
     peaks = found.sample[_leading(found, round(LONGEST_BOUNCE_S * sample_rate_hz))]
-    to_end = samples - peaks + round(BEFORE * found.width)
-    gaps: Sequence[int] = np.diff(peaks).tolist()
-    usual = [gap for gap in gaps if 2 * gap > np.median(gaps)]
-    return min([int(SPARE * gap) for gap in usual] + [int(max(to_end, default=0))])
+    if not peaks.size:
+        return 0
+    to_end = samples - int(peaks[-1]) + round(BEFORE * found.width)
+    gaps: list[int] = [int(SPARE * gap) for gap in np.diff(peaks)]
+    lengths = [*gaps, to_end]
+    return min(length for length in lengths if 2 * length > np.median(gaps or lengths))
 
 
 def windowed_force(force_n: Array, peak: int, width: int) -> Array:

@@ -17,7 +17,6 @@ from .hammer_responses import (
     LARGEST_END,
     STEADY,
     Ending,
-    Estimates,
     block_ending,
     estimates,
     highest_frequency_hz,
@@ -38,7 +37,7 @@ class HitOutcome:
     file : name of its file
     reference : node and direction of the push
     time_s : time of its peak
-    force_n : height of its peak, smoothed over the width of the pulse
+    force_n : force at its peak
     omitted : reason why it is in no function; empty if it is in one
     """
 
@@ -96,7 +95,7 @@ class HammerResults:
             functions.append(pair.h1)
             if pair.hits > 1:
                 functions.append(replace(
-                    pair.h1, kind="coherence", values=pair.coherence + 0j,
+                    pair.h1, kind="coherence", values=np.asarray(pair.coherence + 0j),
                     response_unit="1", reference_unit="",
                 ))  # fmt: skip
         return functions
@@ -160,9 +159,8 @@ def hammer_test(path: str | Path) -> HammerResults:
         if not used:
             reasons = ", ".join(dict.fromkeys(hit.omitted for hit in hits)) or "none was found"
             raise ParameterError(f"hits: none can be used: {reasons}")
-        faults = [line for pair, each in used.items() for line in _faults(pair, each)]
         return HammerResults(
-            test.title, tuple(_pairs(used, test)), tuple(hits), tuple(faults),
+            test.title, tuple(_pairs(used, test)), tuple(hits), tuple(_faults(used)),
             tuple(_reversed(reads)), block_s,
         )  # fmt: skip
 
@@ -175,9 +173,7 @@ def _read(record: Record, test: HammerTest) -> _Read:
             f"{record.path}: {test.hammer.force_channel}: unit {units[0]}: must be that of a force"
         )
     signal = recording["signal"].values
-    return _Read(
-        record, signal, units, float(recording.attrs["sample_rate_hz"]), pulses(signal[0])
-    )
+    return _Read(record, signal, units, float(recording.attrs["sample_rate_hz"]), pulses(signal[0]))
 
 
 def _block_s(reads: Sequence[_Read]) -> float:
@@ -227,9 +223,9 @@ def _cut(
                     kept.window_s.append(constant_s)
         if clipped:
             omitted = f"overload of {', '.join(clipped)}"
-        yield HitOutcome(
-            read.record.path.name, reference, hit.peak / read.rate_hz, hit.force_n, omitted
-        )
+        peak_n = sign * float(read.signal[0, hit.peak] - np.median(part[0]))
+        name = read.record.path.name
+        yield HitOutcome(name, reference, hit.peak / read.rate_hz, peak_n, omitted)
 
 
 def _omitted(hit: Hit, part: Array, length: int) -> str:
@@ -251,12 +247,10 @@ def _spectra(blocks: _Blocks) -> tuple[Array, ComplexArray, ComplexArray]:
     force, response = (
         np.fft.rfft(np.array(each), axis=1)[:, lines] for each in (blocks.force_n, blocks.response)
     )
-    return frequency_hz, force, response
+    return np.asarray(frequency_hz), force, response
 
 
-def _pairs(
-    used: dict[tuple[Node, Node], _Blocks], test: HammerTest
-) -> Iterator[HammerFunction]:
+def _pairs(used: dict[tuple[Node, Node], _Blocks], test: HammerTest) -> Iterator[HammerFunction]:
     """Functions of all pairs, at the frequencies that all have."""
     spectra = {pair: _spectra(blocks) for pair, blocks in used.items()}
     highest_hz = test.hammer.highest_frequency_hz or min(
@@ -269,7 +263,7 @@ def _pairs(
                 f"hammer.highest_frequency_hz = {highest_hz:g} Hz: must be {frequency_hz[1]:g} Hz "
                 "or above"
             )
-        found = Estimates(*(each[kept] for each in estimates(force, values)))
+        found = estimates(force[:, kept], values[:, kept])
         h1 = MeasuredFunction(
             "frequency response", frequency_hz[kept], found.h1, response, reference,
             used[response, reference].unit, "N",
@@ -278,19 +272,23 @@ def _pairs(
         yield HammerFunction(h1, h2, found.coherence, found.scatter, len(force))
 
 
-def _faults(pair: tuple[Node, Node], blocks: _Blocks) -> Iterator[str]:
-    """Windows that are too short, and windows of the recorder."""
-    label, response = f"{pair[0]}/{pair[1]}", np.array(blocks.response)
-    length_s = response.shape[1] / blocks.rate_hz
-    constant_s = float(np.median(blocks.window_s or [0.0]))
-    if constant_s:
-        yield (
-            f"{label}: noise falls with the record, as under an exponential window of about "
-            f"{constant_s:.2g} s; it adds damping: state hammer.recorder_window_s"
-        )
-    ending = block_ending(response, blocks.rate_hz)
-    if ending.share > LARGEST_END:
-        yield f"{label}: {_ending_words(ending, length_s)}"
+def _faults(used: dict[tuple[Node, Node], _Blocks]) -> Iterator[str]:
+    """Windows that are too short, and windows of the recorder, by the point of the hits."""
+    for reference in dict.fromkeys(pair[1] for pair in used):
+        each = [blocks for pair, blocks in used.items() if pair[1] == reference]
+        medians = [float(np.median(blocks.window_s or [0.0])) for blocks in each]
+        constants = [constant for constant in medians if constant]
+        if constants:
+            yield (
+                f"hits at {reference}: noise falls within records, as under an exponential window "
+                f"of about {min(constants):.2g} s, which adds damping: give it as "
+                "hammer.recorder_window_s"
+            )
+        endings = [block_ending(np.array(blocks.response), blocks.rate_hz) for blocks in each]
+        worst = max(endings, key=lambda ending: ending.share)
+        length_s = len(each[0].force_n[0]) / each[0].rate_hz
+        if worst.share > LARGEST_END:
+            yield f"hits at {reference}: {_ending_words(worst, length_s)}"
 
 
 def _ending_words(ending: Ending, length_s: float) -> str:
