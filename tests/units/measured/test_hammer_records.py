@@ -42,7 +42,8 @@ def test_functions_are_those_of_the_structure(tmp_path):
         # Bendat and Piersol, Random Data, 9.2.3: standard error of H1 by coherence.
         error = np.sqrt((1.0 - pair.coherence) / (pair.coherence * HITS))[good]
         deviation = ratio_to_truth(pair)[good] - 1.0
-        assert 0.8 < np.sqrt(np.mean(np.abs(deviation / error) ** 2)) < 1.25
+        # Of ten hits it is itself uncertain: mean squares of the ratio are 9/8 · 10/9 and more.
+        assert 1.0 < np.mean(np.abs(deviation / error) ** 2) < 2.0
         # Of lines of this error at most exp(-2.5²) = 0.2 % are beyond 1 %, which is 0.6° too.
         certain = error < 0.004
         assert certain.sum() > 100
@@ -57,7 +58,8 @@ def test_functions_without_noise_are_exact(tmp_path):
         truth = pair.h1.values / ratio_to_truth(pair)
         # Without an anti-aliasing filter the pulse's spectrum beyond the sample rate is 1e-3.
         assert np.abs(pair.h1.values - truth).max() < 1e-3 * np.abs(truth).max()
-        assert pair.coherence.min() > 1.0 - 1e-6
+        high = np.abs(truth) > 0.1 * np.abs(truth).max()
+        assert pair.coherence[high].min() > 1.0 - 1e-6
 
 
 def test_h1_h2_and_coherence_by_hand():
