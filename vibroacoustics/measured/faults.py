@@ -169,7 +169,7 @@ def _of_all_forces(matrix: ResponseMatrix) -> list[Fault]:
         return []
     for node in dict.fromkeys(reference for _, reference in matrix.values):
         matrix.scale_references(node, np.exp(-2j * np.pi * matrix.frequency_hz * delay_s))
-    channel = "force channel" if delay_s > 0.0 else "response channels"
+    channel = "force channel" if delay_s > 0.0 else "channel of responses"
     return [delayed((), f"{channel} of all hits", abs(delay_s), "about ")]
 
 

@@ -101,7 +101,7 @@ LATE = {
     "delay": "sensor is 1 ms late",
     "late force": "force of the hits here is 1 ms late",
     "late hammer": "force channel of all",
-    "late sensors": "response channels of all",
+    "late sensors": "channel of responses of all",
 }
 
 
@@ -123,7 +123,7 @@ def test_mistake_of_all_points_is_named(structure, mistake):
     assert found[0].words.startswith(LATE.get(mistake, ""))
     if mistake in LATE:
         delay_ms = float(re.search(r"about ([\d.]+) ms late", found[0].words)[1])
-        assert delay_ms == pytest.approx(1.0, abs=0.1)
+        assert delay_ms == pytest.approx(1.0, abs=0.2)
 
 
 def test_mass_line_finds_a_wrong_mass_and_a_common_factor():
