@@ -23,8 +23,9 @@ def severity(signal, rate_hz, unit="m/s²", speed=None, step_rpm=100.0):
     return va.analyse_orders(recording, settings)
 
 
-@pytest.mark.parametrize("hertz", [10.0, 10.3, 160.0, 1000.0])
-@pytest.mark.parametrize("rate_hz", [4096.0, 25600.0])
+@pytest.mark.parametrize(
+    ("hertz", "rate_hz"), [(10.0, 4096.0), (10.3, 25600.0), (160.0, 4096.0), (1000.0, 4096.0)]
+)
 def test_tones_are_integrated_within_half_a_percent(hertz, rate_hz):
     time = np.arange(int(16.0 * rate_hz)) / rate_hz
     turning = 2.0 * np.pi * hertz
