@@ -82,5 +82,5 @@ def hammer_command(
     from .hammer_tables import analysis_of_hammer
 
     target = printing.target(out or Path("reports") / file.stem)
-    found = hammer_test(file)
-    return target.outcome(analysis_of_hammer(found), broken=found.faults)
+    results = hammer_test(file)
+    return target.outcome(analysis_of_hammer(results), broken=results.faults)

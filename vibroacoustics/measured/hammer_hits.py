@@ -77,8 +77,8 @@ def pulses(force_n: Array) -> Pulses:
     --------
     >>> force = np.zeros(1000)
     >>> force[300:321] = 50.0 * np.sin(np.pi * np.arange(21) / 20.0)
-    >>> found = pulses(force)
-    >>> found.sample.tolist(), found.width
+    >>> detected = pulses(force)
+    >>> detected.sample.tolist(), detected.width
     ([310], 13)
     """
     centred = force_n - np.median(force_n)
@@ -100,52 +100,52 @@ def _width(pushes: Array, highest: int) -> int:
     """Width of the highest pulse at half of its height, samples."""
     below = pushes < 0.5 * pushes[highest]
     before, after = below[:highest][::-1], below[highest:]
-    left = int(np.argmax(before)) if before.any() else before.size
-    right = int(np.argmax(after)) if after.any() else after.size
-    return max(left + right, 1)
+    rising = int(np.argmax(before)) if before.any() else before.size
+    falling = int(np.argmax(after)) if after.any() else after.size
+    return max(rising + falling, 1)
 
 
-def hits_of(found: Pulses, block: int) -> list[Hit]:
+def hits_of(detected: Pulses, block: int) -> list[Hit]:
     """Hits with the second pulses in their blocks.
 
     Parameters
     ----------
-    found : pulses of a record
+    detected : pulses of a record
     block : length of a block, samples
     """
     hits: list[Hit] = []
-    for first in _leading(found, block):
-        peak, height_n = int(found.sample[first]), float(found.height_n[first])
-        begin = peak - round(BEFORE * found.width)
-        later = (found.sample > peak) & (found.sample < begin + block)
-        second = float(np.max(found.height_n[later], initial=0.0)) / height_n
+    for first in _leading(detected, block):
+        peak, height_n = int(detected.sample[first]), float(detected.height_n[first])
+        begin = peak - round(BEFORE * detected.width)
+        later = (detected.sample > peak) & (detected.sample < begin + block)
+        second = float(np.max(detected.height_n[later], initial=0.0)) / height_n
         hits.append(Hit(peak, begin, height_n, second if second >= LEAST_SECOND else 0.0))
     return hits
 
 
-def _leading(found: Pulses, block: int) -> list[int]:
+def _leading(detected: Pulses, block: int) -> list[int]:
     """Numbers of the pulses that begin a hit: none before is within a block."""
     leading: list[int] = []
-    high = np.flatnonzero(found.height_n >= LEAST_HIT * found.height_n.max(initial=0.0))
+    high = np.flatnonzero(detected.height_n >= LEAST_HIT * detected.height_n.max(initial=0.0))
     for number in high.tolist():
-        if not leading or found.sample[number] - found.sample[leading[-1]] >= block:
+        if not leading or detected.sample[number] - detected.sample[leading[-1]] >= block:
             leading.append(number)
     return leading
 
 
-def longest_block(found: Pulses, samples: int, sample_rate_hz: float) -> int:
+def longest_block(detected: Pulses, samples: int, sample_rate_hz: float) -> int:
     """Length that blocks of the hits of a record can have, samples.
 
     Parameters
     ----------
-    found : its pulses
+    detected : its pulses
     samples : number of its samples
     sample_rate_hz : its sample rate
     """
-    peaks = found.sample[_leading(found, round(LONGEST_BOUNCE_S * sample_rate_hz))]
+    peaks = detected.sample[_leading(detected, round(LONGEST_BOUNCE_S * sample_rate_hz))]
     if not peaks.size:
         return 0
-    to_end = samples - int(peaks[-1]) + round(BEFORE * found.width)
+    to_end = samples - int(peaks[-1]) + round(BEFORE * detected.width)
     gaps: list[int] = [int(SPARE * gap) for gap in np.diff(peaks)]
     lengths = [*gaps, to_end]
     return min(length for length in lengths if 2 * length > np.median(gaps or lengths))

@@ -64,8 +64,8 @@ def estimates(force: ComplexArray, response: ComplexArray) -> Estimates:
         nothing = np.full(h1.shape, np.nan)
         return Estimates(h1, h2, nothing, nothing)
     coherence = np.abs(cross) ** 2 / (force_power * response_power)
-    own = response / np.where(force == 0.0, 1e-300, force)
-    scatter = np.std(own, axis=0, ddof=1) / np.abs(h1).clip(min=1e-300)
+    by_hit = response / np.where(force == 0.0, 1e-300, force)
+    scatter = np.std(by_hit, axis=0, ddof=1) / np.abs(h1).clip(min=1e-300)
     return Estimates(h1, h2, coherence, scatter)
 
 

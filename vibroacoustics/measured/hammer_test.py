@@ -78,6 +78,12 @@ class HammerResults:
     faults : a line for each fault of the records that leaves functions wrong
     remarks : a line for each fault that was corrected
     block_s : length of the blocks
+
+    Examples
+    --------
+    >>> test = va.hammer_test("bench/hammer.toml")
+    >>> [hit.omitted for hit in test.hits], test.faults
+    (['', '', '', '', '', ''], ())
     """
 
     title: str
@@ -120,13 +126,13 @@ class _Read:
     signal: Array
     units: list[str]
     rate_hz: float
-    found: Pulses
+    detected: Pulses
 
 
 def hammer_test(path: str | Path) -> HammerResults:
     """Find frequency responses between points from time records of hammer hits.
 
-    Hits are found in the force. Double and overloaded ones are left out. H1, H2, coherence and
+    Hits are found in the force. Double and overloaded ones are omitted. H1, H2, coherence and
     scatter are of the others; docs/measured_changes.md, section Hammer records.
 
     Parameters
@@ -142,8 +148,8 @@ def hammer_test(path: str | Path) -> HammerResults:
 
     Examples
     --------
-    >>> found = va.hammer_test("bench/hammer.toml")
-    >>> str(found.pairs[0].h1), found.pairs[0].hits
+    >>> test = va.hammer_test("bench/hammer.toml")
+    >>> str(test.pairs[0].h1), test.pairs[0].hits
     ('frequency response 1+z/1+z', 3)
     """
     path = Path(path)
@@ -177,16 +183,16 @@ def _read(record: Record, test: HammerTest) -> _Read:
 
 
 def _block_s(reads: Sequence[_Read]) -> float:
-    """Length that the blocks of all records can have; those of less than half are left out."""
+    """Length that the blocks of all records can have; those of less than half are omitted."""
     lengths = [
-        longest_block(read.found, read.signal.shape[1], read.rate_hz) / read.rate_hz
+        longest_block(read.detected, read.signal.shape[1], read.rate_hz) / read.rate_hz
         for read in reads
     ]
     return min(length for length in lengths if 2.0 * length > np.median(lengths))
 
 
 def _reversed(reads: Sequence[_Read]) -> Iterator[str]:
-    names = [read.record.path.name for read in reads if read.found.is_reversed]
+    names = [read.record.path.name for read in reads if read.detected.is_reversed]
     if names:
         yield f"force pulls in {', '.join(names)}: it was reversed, as a hammer can only push"
 
@@ -196,9 +202,9 @@ def _cut(
 ) -> Iterator[HitOutcome]:
     """Cut the blocks of the good hits of a record, and give the outcome of all."""
     length = round(block_s * read.rate_hz)
-    sign = -1.0 if read.found.is_reversed else 1.0
+    sign = -1.0 if read.detected.is_reversed else 1.0
     reference = Node(read.record.hits.node, read.record.hits.direction)
-    hits = hits_of(read.found, length)
+    hits = hits_of(read.detected, length)
     for hit in hits:
         part = read.signal[:, max(hit.first, 0) : hit.first + length]
         omitted = _omitted(hit, part, length)
@@ -215,7 +221,7 @@ def _cut(
                 clipped.append(name)
             elif not omitted:
                 peak = hit.peak - hit.first
-                kept.force_n.append(sign * windowed_force(part[0], peak, read.found.width))
+                kept.force_n.append(sign * windowed_force(part[0], peak, read.detected.width))
                 time_s = (hit.first + np.arange(length)) / read.rate_hz
                 kept.response.append(part[number] * np.exp(time_s / (window_s or np.inf)))
                 if len(hits) == 1 and window_s is None:
@@ -263,13 +269,13 @@ def _pairs(used: dict[tuple[Node, Node], _Blocks], test: HammerTest) -> Iterator
                 f"hammer.highest_frequency_hz = {highest_hz:g} Hz: must be {frequency_hz[1]:g} Hz "
                 "or above"
             )
-        found = estimates(force[:, kept], values[:, kept])
+        estimate = estimates(force[:, kept], values[:, kept])
         h1 = MeasuredFunction(
-            "frequency response", frequency_hz[kept], found.h1, response, reference,
+            "frequency response", frequency_hz[kept], estimate.h1, response, reference,
             used[response, reference].unit, "N",
         )  # fmt: skip
-        h2 = replace(h1, values=found.h2)
-        yield HammerFunction(h1, h2, found.coherence, found.scatter, len(force))
+        h2 = replace(h1, values=estimate.h2)
+        yield HammerFunction(h1, h2, estimate.coherence, estimate.scatter, len(force))
 
 
 def _faults(used: dict[tuple[Node, Node], _Blocks]) -> Iterator[str]:

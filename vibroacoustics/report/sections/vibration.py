@@ -32,15 +32,15 @@ def _blocks(results: xr.Dataset) -> list[Block]:
 def _row(velocity: xr.DataArray, results: xr.Dataset) -> tuple[Cell, ...]:
     # Of equal ones the first, whatever rounding does.
     shares = (velocity / max(float(velocity.max()), 1e-300)).round(9)
-    at = {name: each.item() for name, each in shares.argmax(("foot", "axis")).items()}
-    worst = velocity.isel(at)
-    place = {name: worst[name].item() for name in ("speed", "option", "foot", "axis")}
-    micrometres = 1e6 * results["foot_displacement"].sel(place).item()
+    position = {name: each.item() for name, each in shares.argmax(("foot", "axis")).items()}
+    worst = velocity.isel(position)
+    label = {name: worst[name].item() for name in ("speed", "option", "foot", "axis")}
+    micrometres = 1e6 * results["foot_displacement"].sel(label).item()
     largest = 1e3 * worst.item()
     text = rounding.significant(largest, 3)
-    number = Number(largest, "mm/s", "foot_velocity", place, text=text)
-    first = (f"{place['speed']:g}", str(place["option"]), number)
-    return (*first, place["foot"], place["axis"], rounding.significant(micrometres, 3))
+    number = Number(largest, "mm/s", "foot_velocity", label, text=text)
+    first = (f"{label['speed']:g}", str(label["option"]), number)
+    return (*first, label["foot"], label["axis"], rounding.significant(micrometres, 3))
 
 
 def _applies(results: xr.Dataset) -> bool:
