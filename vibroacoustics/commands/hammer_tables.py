@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from ..measured.hammer_test import HammerFunction, HammerResults
+from ..measured.hammer_results import HammerFunction, HammerResults
 from ..recordings import functions_csv, functions_uff
 from ..report.analysis import Analysis
 from ..report.blocks import Bullets, Part
