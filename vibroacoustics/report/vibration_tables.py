@@ -6,10 +6,9 @@ import numpy as np
 import xarray as xr
 
 from ..base import rounding
-from ..results.number import Number
 from ..results.over_speed.level_curves import is_run_up
 from .charts.marks import Axis, Chart, Line, Panel
-from .tables import Cell, DataTable, Table, columns_of
+from .tables import DataTable, Table, columns_of
 
 _HEAD = ("Channel", "mm/s RMS", "largest block, mm/s", "at rpm", "largest block, µm p-p", "at rpm")
 
@@ -37,11 +36,9 @@ def _channels(results: xr.Dataset) -> list[str]:
     return [str(name) for name in velocity["channel"].values[np.isfinite(velocity.values)]]
 
 
-def _row(of_channel: xr.Dataset) -> tuple[Cell, ...]:
+def _row(of_channel: xr.Dataset) -> tuple[str, ...]:
     name = str(of_channel["channel"].item())
-    overall = 1e3 * of_channel["velocity_rms"].item()
-    text = rounding.significant(overall, 3)
-    row: list[Cell] = [name, Number(overall, "mm/s", "velocity_rms", {"channel": name}, text=text)]
+    row = [name, rounding.significant(1e3 * of_channel["velocity_rms"].item(), 3)]
     for variable, factor in (("block_velocity_rms", 1e3), ("block_displacement", 1e6)):
         values = of_channel[variable].values if variable in of_channel else np.empty(0)
         if not np.isfinite(values).any():

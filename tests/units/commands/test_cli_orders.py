@@ -54,6 +54,7 @@ def test_orders_writes_everything(analysed: Path) -> None:
         "files.json",
         "orders.csv",
         "levels.csv",
+        "vibration.csv",
         "spectrum_1_shell.svg",
         "spectrum_2_microphone_1.svg",
         "map_1_shell.svg",

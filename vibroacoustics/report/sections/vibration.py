@@ -4,7 +4,6 @@ import xarray as xr
 
 from ...base import rounding
 from ...base.registry import register
-from ...results.number import Number
 from ..blocks import Block, Text
 from ..shown_speeds import chosen_speeds, few_speeds
 from ..tables import Cell, DataTable, Table, data_table
@@ -36,10 +35,11 @@ def _row(velocity: xr.DataArray, results: xr.Dataset) -> tuple[Cell, ...]:
     worst = velocity.isel(position)
     label = {name: worst[name].item() for name in ("speed", "option", "foot", "axis")}
     micrometres = 1e6 * results["foot_displacement"].sel(label).item()
-    largest = 1e3 * worst.item()
-    text = rounding.significant(largest, 3)
-    number = Number(largest, "mm/s", "foot_velocity", label, text=text)
-    first = (f"{label['speed']:g}", str(label["option"]), number)
+    first = (
+        f"{label['speed']:g}",
+        str(label["option"]),
+        rounding.significant(1e3 * worst.item(), 3),
+    )
     return (*first, label["foot"], label["axis"], rounding.significant(micrometres, 3))
 
 
