@@ -48,6 +48,7 @@ it (ISO 3744), on a `MeasurementSurface`.
 `SpeedChannel`, `NominalSpeed`, `TacholessSpeed`, `SpeedLine` say where the speed comes from.
 
 **Measurements alone.**
+`hammer_test(path)` makes frequency responses of time records of hammer hits, `HammerResults`.
 `predict(path)` predicts levels after a change of mounts, an added mass or an absorber, with a band;
 `changed_response(...)` is its formula for arrays.
 `blocked_forces(path)` finds the blocked forces of a source where it stands (ISO 20270);

@@ -59,6 +59,8 @@ from .measured.campaign_settings import Campaign as Campaign
 from .measured.campaign_settings import CampaignRun as CampaignRun
 from .measured.campaign_settings import load_campaign as load_campaign
 from .measured.change import changed_response as changed_response
+from .measured.hammer_results import HammerResults as HammerResults
+from .measured.hammer_test import hammer_test as hammer_test
 from .measured.inversion import inverted_forces as inverted_forces
 from .measured.prediction import predict as predict
 from .measured.recorded_orders import analyse_orders as analyse_orders

@@ -125,6 +125,7 @@ loss_factor_percent = 10.0
 # %%
 # On the command line
 # -------------------
+# ``vibroacoustics hammer`` makes such functions of time records of force and responses.
 # ``vibroacoustics check-functions`` asks before whether the functions can be those of a passive
 # structure: each point by itself, then each pair.
 command = [sys.executable, "-m", "vibroacoustics", "check-functions", "bench.toml"]

@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 import pytest
 from design_studies import WEIGHT
+from hammer_records import write as write_hammer
 from in_situ_bench import BELOW
 from in_situ_bench import write as write_blocked
 from measured_bench import AS_MEASURED, FREQUENCY, state
@@ -53,6 +54,7 @@ CASES: Final = {
     "permit": ("permit.toml",),
     "blocked-forces": ("in_situ/in_situ.toml",),
     "check-functions": ("bench.toml",),
+    "hammer": ("hammer/hammer.toml",),
     "cache": (),
     "doctor": (),
     "schema": (),
@@ -124,6 +126,7 @@ def write_inputs(folder: Path) -> None:
     (folder / "permit.toml").write_text(PERMIT)
     (folder / "in_situ").mkdir()
     write_blocked(folder / "in_situ", BELOW)
+    write_hammer(folder / "hammer")
 
 
 def made_up_fields(patch: pytest.MonkeyPatch) -> None:

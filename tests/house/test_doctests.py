@@ -11,6 +11,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import hammer_records
 import in_situ_bench
 import measured_bench
 import numpy as np
@@ -65,6 +66,7 @@ def workplace(tmp_path_factory: pytest.TempPathFactory) -> Path:
     inner = va.curves(va.load_study(ROOT / "pipelines" / "copeland_thesis.toml"))
     storage.write_results(inner, folder / "curves.nc")
     storage.write_results(_predicted(folder / "bench"), folder / "prediction.nc")
+    hammer_records.write(folder / "bench")
     (folder / "fan").mkdir()
     (folder / "fan" / "balancing.toml").write_text(TEMPLATE)
     (folder / "heat_pump").mkdir()

@@ -102,6 +102,8 @@ FEATURES = {
     "change of mounts from measurements": "command predict",
     "change of mounts from measurements, in Python": "va.predict",
     "faults of hammer tests": "command check-functions",
+    "records of hammer tests": "command hammer",
+    "records of hammer tests, in Python": "va.hammer_test",
     "blocked forces": "command blocked-forces",
     "blocked forces, in Python": "va.blocked_forces",
     "blocked forces, for arrays": "va.inverted_forces",

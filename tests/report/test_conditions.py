@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from command_lines import write_inputs
+from hammer_records import write as write_hammer
 from replay_study import replay_study
 from support import command_here, made_up_radiation, tiny_run
 from test_report_sources import with_sources
@@ -19,6 +20,7 @@ import vibroacoustics as va
 from vibroacoustics.base.vocabulary import stamp
 from vibroacoustics.commands.balancing.page import analysis_of_balancing
 from vibroacoustics.commands.balancing.template import TEMPLATE
+from vibroacoustics.commands.hammer_tables import analysis_of_hammer
 from vibroacoustics.commands.permits.page import analysis_of_permit
 from vibroacoustics.commands.permits.template import TEMPLATE as PERMIT
 from vibroacoustics.commands.tone_tables import analysis_of_tones
@@ -233,6 +235,15 @@ def balancing(folder: Path, line: str) -> Pair:
     return pair[0], pair[1]
 
 
+def hammered(folder: Path, single: bool = False, **lacking: Any) -> Pair:
+    """A clean hammer test, and one with a single hit of a point, or with faults."""
+    write_hammer(folder)
+    whole = va.hammer_test(folder / "hammer.toml")
+    if single:
+        lacking["pairs"] = (replace(whole.pairs[0], hits=1), *whole.pairs[1:])
+    return analysis_of_hammer(whole), analysis_of_hammer(replace(whole, **lacking))
+
+
 def permits(folder: Path, old: str, new: str) -> Pair:
     pair = []
     for text in (PERMIT, PERMIT.replace(old, new)):
@@ -274,6 +285,8 @@ CASES: dict[tuple[str, str], Case] = {
     ("level with the option", "samples"): lambda **_: replayed("samples"),
     ("90 % band", "faults"): lambda inputs, **_: bands(inputs),
     ("choice of the truncation", "responses"): lambda inputs, **_: truncations(inputs),
+    ("frequency responses", "hits"): lambda folder, **_: hammered(folder, single=True),
+    ("frequency responses", "records"): lambda folder, **_: hammered(folder, faults=("f is cut",)),
     ("balance quality grade", "mass"): lambda folder, **_: balancing(folder, "mass_kg"),
     ("balance quality grade", "scatter"): lambda folder, **_: balancing(
         folder, 'readings.1480 = { drive_end = "4.66@39"'

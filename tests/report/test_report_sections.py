@@ -72,6 +72,7 @@ BUILT_IN = [
     "unknowns",
     "tones",
     "orders",
+    "vibration",
     "forces",
     "mounts",
     "radiation",
@@ -85,6 +86,7 @@ BUILT_IN = [
     "provenance",
 ]
 NOT_HERE = {
+    "vibration",
     "rating",
     "alternatives",
     "example",

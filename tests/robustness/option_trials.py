@@ -83,7 +83,7 @@ CONTROL: Final = re.compile(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u202e\ud800-\udfff]")
 
 FEW_NUMBERS: Final = ("1e-300", "1e300", "nan")
 FEW_TEXTS: Final = ("a\nb\x1b[31m\x07" + "x" * 10_000,)
-TABLES: Final = ("blocked-forces", "check-functions", "predict")
+TABLES: Final = ("blocked-forces", "check-functions", "hammer", "predict")
 """Commands that read a table from a file of any name."""
 FEW_PATHS: Final = ("x" * 300,)
 QUICKEST: Final = ("export", "map", "track", "replay", "sound-power", "datasheet", "listen", "new")

@@ -59,6 +59,7 @@ REPORT_FILES: Final = (
             "structure_borne",
             "tones",
             "uncertainty",
+            "vibration",
         )
     ),
     "figures/*.png",

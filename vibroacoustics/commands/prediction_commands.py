@@ -78,3 +78,19 @@ def check_functions_command(
     text = "\n".join([*words, f"{file}: {stated(claim)}"])
     tables = {"points": columns(checked.rows), "functions_conditions": condition_table([claim])}
     return Outcome(text, tables=tables, broken=checked.faults)
+
+
+@command("hammer", "Measurements", "hammer.toml")
+def hammer_command(
+    file: Annotated[Path, "FILE: File, .toml, of channels, points and records."],
+    out: FileOut = None,
+    *,
+    printing: Printing,
+) -> Outcome:
+    """Find frequency responses from time records of hammer hits: H1, H2, coherence, faults."""
+    from ..measured.hammer_test import hammer_test
+    from .hammer_tables import analysis_of_hammer
+
+    target = printing.target(out or Path("reports") / file.stem)
+    results = hammer_test(file)
+    return target.outcome(analysis_of_hammer(results), broken=results.faults)

@@ -1,6 +1,6 @@
 """One pass over the blocks of a recording: orders, their average and levels."""
 
-from collections import Counter
+from collections import ChainMap, Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
@@ -20,7 +20,9 @@ from ..orders.crank_motion import CrankMotion
 from ..orders.fitted_orders import FittedOrders
 from ..orders.loud_lines import MOST_LOUDEST
 from ..orders.synchronous_average import RevolutionAverage
+from ..recordings.measured_function import DERIVATIVES
 from ..study.order_analysis import OrderAnalysis
+from .vibration import VibrationLevels
 
 _PARTS: Final = 16
 """Parts of a long recording in which its loudest orders are looked for."""
@@ -51,8 +53,9 @@ def passed_over(
     stream = AngularStream(plan, len(names))
     orders = BlockOrders(plan, len(names), settings)
     average = RevolutionAverage(plan.samples_per_revolution)
-    offsets = _offsets(recording, names)
-    levels = PressureLevels(channel, samples, rate_hz, offsets, settings.bands)
+    sound, vibration = _offsets(recording, names)
+    levels = PressureLevels(channel, samples, rate_hz, sound, settings.bands)
+    severity = VibrationLevels(channel, samples, rate_hz, vibration)
     passed = 0
     for block in block_by_block(recording, names):
         progress("orders", passed, samples)
@@ -60,6 +63,7 @@ def passed_over(
         orders.add(angular)
         average.add(angular)
         levels.add(block)
+        severity.add(block)
         passed += block.shape[1]
     progress("orders", samples, samples)
     of_blocks = orders.result(channel["channel_unit"].values == "Pa")
@@ -67,8 +71,10 @@ def passed_over(
     averages = of_recording.synchronous_average(channel, average)
     in_db = levels.result()
     over_blocks = levels.over_blocks(of_blocks.time_s, of_blocks.duration_s)
-    results = results.merge(averages).merge(in_db).merge(over_blocks)
-    results.attrs = {**of_recording.resolution(of_blocks), **averages.attrs, **in_db.attrs}
+    moving = severity.result(of_blocks.time_s, of_blocks.duration_s)
+    results = results.merge(averages).merge(in_db).merge(over_blocks).merge(moving)
+    about = (averages.attrs, in_db.attrs, moving.attrs)
+    results.attrs = {**of_recording.resolution(of_blocks), **ChainMap(*about)}
     return results
 
 
@@ -99,16 +105,20 @@ def _fitted(
     rate_hz, samples = recording.sample_rate_hz, recording.samples
     channel = _labels(recording, names)
     orders = FittedOrders(rate_hz, samples, len(names), motion, settings)
-    levels = PressureLevels(channel, samples, rate_hz, _offsets(recording, names), settings.bands)
+    sound, vibration = _offsets(recording, names)
+    levels = PressureLevels(channel, samples, rate_hz, sound, settings.bands)
+    severity = VibrationLevels(channel, samples, rate_hz, vibration)
     for block in block_by_block(recording, names):
         orders.add(block)
         levels.add(block)
-    fitted, in_db = orders.result(), levels.result()
-    results = of_recording.recorded_orders(channel, fitted, settings).merge(in_db)
+        severity.add(block)
+    fitted, in_db, moving = orders.result(), levels.result(), severity.result()
+    results = of_recording.recorded_orders(channel, fitted, settings).merge(in_db).merge(moving)
     window = "least squares, hann" if orders.is_tapered else "least squares, rectangular"
     omitted = {"left_out": "synchronous average: orders are fitted to the whole recording"}
     results.attrs = {
-        **of_recording.resolution(fitted), "window": window, **omitted, **in_db.attrs
+        **of_recording.resolution(fitted), "window": window, **omitted, **in_db.attrs,
+        **moving.attrs,
     }  # fmt: skip
     return results
 
@@ -124,12 +134,22 @@ def _labels(recording: RecordingBlocks, names: Sequence[str]) -> xr.DataArray:
     return xr.Dataset(coords=coords)["channel"]
 
 
-def _offsets(recording: RecordingBlocks, names: Sequence[str]) -> dict[int, float]:
-    """Means of the channels of sound pressure, by position among the names."""
+def _offsets(
+    recording: RecordingBlocks, names: Sequence[str]
+) -> tuple[dict[int, float], dict[int, float]]:
+    """Means of the channels of sound pressure, and of vibration, by position among the names."""
     units = dict(zip(recording.channels, recording.channel_units, strict=True))
-    pressures = [name for name in names if units[name] == "Pa"]
-    if not pressures:
-        return {}
-    sums = [block.sum(axis=1) for block in block_by_block(recording, pressures)]
-    means = np.sum(sums, axis=0) / recording.samples
-    return {names.index(name): float(mean) for name, mean in zip(pressures, means, strict=True)}
+    averaged = [name for name in names if units[name] in ("Pa", *DERIVATIVES)]
+    if not averaged:
+        return {}, {}
+    sums = [block.sum(axis=1) for block in block_by_block(recording, averaged)]
+    means = dict(zip(averaged, np.sum(sums, axis=0) / recording.samples, strict=True))
+    sound, vibration = (
+        {
+            names.index(name): float(mean)
+            for name, mean in means.items()
+            if (units[name] == "Pa") is is_sound
+        }
+        for is_sound in (True, False)
+    )
+    return sound, vibration

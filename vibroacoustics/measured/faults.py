@@ -13,11 +13,20 @@ from ..recordings.measured_function import DERIVATIVES
 from .fault import Fault
 from .grouped import Key
 from .physics_tests import (
+    LEAST_GIVING,
     causality,
+    driving_delay_s,
     parallel_mass_kg,
+    share_giving_power,
     unexplained,
-)  # fmt: skip
-from .reciprocal_faults import ResponseMatrix, likely_units, next_fault
+)
+from .reciprocal_faults import (
+    SHORTEST_DELAY_S,
+    ResponseMatrix,
+    delayed,
+    likely_units,
+    next_fault,
+)
 
 LARGEST_RESIDUAL: Final = 0.05
 """Largest share of power by which H12 and H21 differ: 32 % of the amplitude; assumed."""
@@ -51,6 +60,7 @@ def function_faults(
         return []
     faults, functions = _of_convention(functions)
     matrix = _matrix(functions)
+    faults += _of_all_forces(matrix)
     limit = max(LARGEST_RESIDUAL, 5.0 * noise_ratio**2)
     while pairs := matrix.bad_pairs(limit):
         fault, matrix = next_fault(matrix, pairs, limit)
@@ -143,6 +153,24 @@ def _of_convention(
         for pair, function in functions.items()
     }
     return [Fault("convention", nodes, words)], right
+
+
+def _of_all_forces(matrix: ResponseMatrix) -> list[Fault]:
+    """Find a force channel that is late in all hits, and correct its functions.
+
+    Reciprocity does not show it: driving points do, of which most give power.
+    """
+    driving = [value for (node, other), value in matrix.values.items() if node == other]
+    giving = [value for value in driving if share_giving_power(value) > LEAST_GIVING]
+    if 2 * len(giving) <= len(driving):
+        return []
+    delay_s = driving_delay_s(matrix.frequency_hz, driving)
+    if abs(delay_s) < SHORTEST_DELAY_S:
+        return []
+    for node in dict.fromkeys(reference for _, reference in matrix.values):
+        matrix.scale_references(node, np.exp(-2j * np.pi * matrix.frequency_hz * delay_s))
+    channel = "force channel" if delay_s > 0.0 else "channel of responses"
+    return [delayed((), f"{channel} of all hits", abs(delay_s), "about ")]
 
 
 def _of_driving_points(matrix: ResponseMatrix) -> Iterator[Fault]:

@@ -1,5 +1,6 @@
 """Tests of frequency responses against physics: causality, passivity, reciprocity, mass line."""
 
+from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -8,6 +9,14 @@ from ..base.arrays import Array, ComplexArray
 
 LONGEST_DELAY_S: Final = 0.05
 """Longest lag that is searched for; assumed."""
+LONGEST_DRIVING_DELAY_S: Final = 0.01
+"""Longest delay of all forces that is searched for; assumed."""
+PHASE_MARGIN: Final = np.radians(20.0)
+"""Angle beyond 90° that noise turns no line by: five deviations of 10 % noise; assumed."""
+LEAST_GIVING: Final = 0.1
+"""Least share of lines that give power in a delayed driving point; assumed."""
+MOST_LEFT: Final = 0.1
+"""Largest part of them that may be left with the delay corrected; assumed."""
 OVERSAMPLING: Final = 32
 """Tried lags per period of the highest frequency; assumed."""
 
@@ -49,6 +58,48 @@ def passivity(mobility: ComplexArray) -> float:
     """
     size = np.abs(mobility)
     return float(np.sum(size * mobility.real) / max(float(np.sum(size**2)), 1e-300))
+
+
+def share_giving_power(mobility: ComplexArray) -> float:
+    """Share of the lines of a driving point that give power by more than noise turns them, 0 to 1.
+
+    The phase of a driving-point mobility is -90° to 90°; lines beyond by `PHASE_MARGIN` count.
+
+    Parameters
+    ----------
+    mobility : Y, m/(N s), shape (frequency,)
+    """
+    cosine = mobility.real / np.abs(mobility).clip(min=1e-300)
+    return float(np.mean(cosine < -np.sin(PHASE_MARGIN)))
+
+
+def driving_delay_s(frequency_hz: Array, mobilities: Sequence[ComplexArray]) -> float:
+    """Delay τ of the force that makes driving points Y exp(jωτ) passive again, s; 0 without.
+
+    Of all τ that leave the fewest lines giving power it is the one at which the points take up the
+    most, as resonances do at the phase zero. There is none where the points are passive as they
+    are, or where no τ makes them so.
+
+    Parameters
+    ----------
+    frequency_hz : shape (frequency,)
+    mobilities : Y of driving points, each of shape (frequency,)
+    """
+    phase = np.angle(np.concatenate(list(mobilities)))
+    hz = np.tile(frequency_hz, len(mobilities))
+    tried_s = _tried_lags(frequency_hz)
+    tried_s = tried_s[np.abs(tried_s) <= LONGEST_DRIVING_DELAY_S]
+    limit = -np.sin(PHASE_MARGIN)
+    parts = np.array_split(tried_s, 1 + tried_s.size * hz.size // 1_000_000)
+    turned = [np.cos(phase - 2.0 * np.pi * np.outer(part, hz)) < limit for part in parts]
+    shares = np.concatenate([np.mean(each, axis=1) for each in turned])
+    present, least = share_giving_power(np.exp(1j * phase)), float(shares.min())
+    if present < LEAST_GIVING or least > MOST_LEFT * present:
+        return 0.0
+    best = tried_s[shares <= least + 0.5 / hz.size]
+    powers = [each * np.abs(each) / np.sum(np.abs(each) ** 2) for each in mobilities]
+    taken_up = np.exp(-2j * np.pi * np.outer(best, frequency_hz)) @ np.sum(powers, axis=0)
+    return float(best[np.argmax(taken_up.real)])
 
 
 def reciprocity_residual(

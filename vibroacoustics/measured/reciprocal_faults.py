@@ -9,7 +9,14 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray
 from ..recordings import Node
 from .fault import Fault
-from .physics_tests import lag, passivity, real_factor, reciprocity_residual, second_hit
+from .physics_tests import (
+    lag,
+    passivity,
+    real_factor,
+    reciprocity_residual,
+    second_hit,
+    share_giving_power,
+)
 
 SHORTEST_DELAY_S: Final = 1e-4
 KNOWN_FACTORS: Final = {
@@ -70,6 +77,12 @@ class ResponseMatrix:
             if pair[0] == node:
                 self.values[pair] = self.values[pair] * factor
 
+    def scale_references(self, node: Node, factor: complex | ComplexArray) -> None:
+        """Multiply all functions of the hits at a node."""
+        for pair in self.values:
+            if pair[1] == node:
+                self.values[pair] = self.values[pair] * factor
+
     def exchanged(self, node: Node, other: Node) -> "ResponseMatrix":
         """Return the functions with two sensors exchanged."""
         names = {node: other, other: node}
@@ -95,7 +108,10 @@ def next_fault(
         for node in worst:
             fault = explain(matrix, node, limit)
             if fault is not None:
-                is_ambiguous = len(worst) == 2 and fault.name in ("factor", "delay")
+                is_ambiguous = len(worst) == 2 and (
+                    fault.name == "factor"
+                    or (fault.name == "delay" and not _decides(matrix, worst))
+                )
                 return (fault._replace(nodes=tuple(worst)) if is_ambiguous else fault), matrix
     for node, other in combinations(dict.fromkeys(named), 2):
         exchanged = matrix.exchanged(node, other)
@@ -109,6 +125,11 @@ def next_fault(
         "in its direction, and measure again"
     )
     return Fault("reciprocity", tuple(nodes), words), matrix
+
+
+def _decides(matrix: ResponseMatrix, nodes: Sequence[Node]) -> bool:
+    """Whether the driving points of all nodes are measured: they show whose delay it is."""
+    return all((node, node) in matrix.values for node in nodes)
 
 
 def _polarity(matrix: ResponseMatrix, node: Node, limit: float) -> Fault | None:
@@ -137,13 +158,31 @@ def likely_units(factor: float) -> str:
 
 
 def _delay(matrix: ResponseMatrix, node: Node, limit: float) -> Fault | None:
+    """Delay of a sensor, or of the force of the hits at its point: its driving point decides."""
     estimate = lag(matrix.frequency_hz, *matrix.stacked(node))
-    shift = estimate.factor * np.exp(-2j * np.pi * matrix.frequency_hz * estimate.delay_s)
+    turn = np.exp(-2j * np.pi * matrix.frequency_hz * estimate.delay_s)
+    shift = estimate.factor * turn
     if abs(estimate.delay_s) < SHORTEST_DELAY_S or matrix.residual(node, shift) > limit:
         return None
-    matrix.scale_responses(node, 1.0 / shift)
-    words = f"channel is {1e3 * estimate.delay_s:.3g} ms late; align channels, or export them again"
-    return Fault("delay", (node,), words)
+    driving = matrix.values.get((node, node))
+    is_of_force = driving is not None and (
+        share_giving_power(driving * turn) < share_giving_power(driving / turn)
+    )
+    matrix.scale_responses(node, 1.0 / estimate.factor)
+    if is_of_force:
+        matrix.scale_references(node, turn)
+    else:
+        matrix.scale_responses(node, 1.0 / turn)
+    unknown = "sensor, or the force of the hits here," if driving is None else "sensor"
+    return delayed((node,), "force of the hits here" if is_of_force else unknown, estimate.delay_s)
+
+
+def delayed(nodes: tuple[Node, ...], channel: str, delay_s: float, about: str = "") -> Fault:
+    """Return the fault of a channel that is late, or early."""
+    words = (
+        f"{channel} is {about}{1e3 * abs(delay_s):.2g} ms {'late' if delay_s > 0.0 else 'early'}"
+    )
+    return Fault("delay", nodes, f"{words}; align channels, or export them again")
 
 
 def _double_hit(matrix: ResponseMatrix, node: Node, limit: float) -> Fault | None:
@@ -152,9 +191,7 @@ def _double_hit(matrix: ResponseMatrix, node: Node, limit: float) -> Fault | Non
     comb = 1.0 + estimate.factor * np.exp(-2j * np.pi * matrix.frequency_hz * estimate.delay_s)
     if estimate.factor < 0.1 or matrix.residual(node, 1.0 / comb) > limit:
         return None
-    for pair in matrix.values:
-        if pair[1] == node:
-            matrix.values[pair] = matrix.values[pair] / comb
+    matrix.scale_references(node, 1.0 / comb)
     words = (
         f"hits are double, the second after {1e3 * estimate.delay_s:.3g} ms; hit this point again"
     )

@@ -45,6 +45,7 @@ from .tables import (
     table_of,
     without_nan,
 )
+from .vibration_tables import vibration_charts, vibration_data, vibration_table
 
 _MOST_CHANNELS: Final = 4
 """Channels whose pictures are all unfolded."""
@@ -111,6 +112,12 @@ def analysis_of_orders(
     shown: list[Block] = [facts, *in_db, *tables]
     if "equivalent_level" in results:
         data["levels.csv"] = levels_data(results)
+    if "velocity_rms" in results:
+        severity = vibration_table(results)
+        pictures = [Pictures((chart,)) for chart in vibration_charts(results)]
+        parts.insert(-1, Part("vibration", "Vibration severity", (severity, *pictures)))
+        data["vibration.csv"] = vibration_data(results)
+        shown.append(severity)
     if "order_limit" in results:
         data["orders_limits.csv"] = limits_data(results)
         limits: tuple[Block, ...] = (order_limits_table(results), *map(Text, limits_words(results)))

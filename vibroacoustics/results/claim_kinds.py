@@ -152,6 +152,14 @@ FUNCTIONS: Final = ClaimKind(
         Condition("reciprocity", "pairs", "remark", "reciprocity not tested at {finding}"),
     ),
 )
+HAMMERED: Final = ClaimKind(
+    "frequency responses",
+    ("hammer",),
+    (
+        Condition("hits", "2 hits of each point", "remark", "no coherence of {finding}"),
+        Condition("records", "no fault of the records", "remark", "faults: {finding}"),
+    ),
+)
 BALANCE_GRADE: Final = ClaimKind(
     "balance quality grade",
     ("balance",),
@@ -175,7 +183,7 @@ LEAST_DISTANCE: Final = ClaimKind(
 KINDS: Final = (
     GRADE, POWER_LEVEL, LOUDNESS, SHARPNESS, ADJUSTMENT, INTERVAL, CHANGE, KWAVE, RANKING,
     UNCERTAINTY, SHEET_LEVEL, PROMISE, COHERENCE, MEAN_INTERVAL, REPLAYED, BAND, TRUNCATION,
-    FUNCTIONS, BALANCE_GRADE, PROBABILITY, LEAST_DISTANCE,
+    FUNCTIONS, HAMMERED, BALANCE_GRADE, PROBABILITY, LEAST_DISTANCE,
 )  # fmt: skip
 """All kinds."""
 UNCONDITIONAL: Final = {

@@ -55,6 +55,7 @@ def test_orders_writes_everything(analysed: Path) -> None:
         "orders.csv",
         "orders_conditions.csv",
         "levels.csv",
+        "vibration.csv",
         "spectrum_1_shell.svg",
         "spectrum_2_microphone_1.svg",
         "map_1_shell.svg",

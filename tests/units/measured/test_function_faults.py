@@ -84,14 +84,25 @@ def with_mistake(structure, mistake, point):
         values[[point, other]] = values[[other, point]]
     if mistake == "double":
         values[:, point] *= 1.0 + 0.5 * np.exp(-1j * OMEGA * 0.012)
-    whole = {"pull": -1.0, "all in g": 1.0 / 9.80665}
+    if mistake == "late force":
+        values[:, point] *= np.exp(1j * OMEGA * 0.001)
+    whole = {"pull": -1.0, "all in g": 1.0 / 9.80665, "late hammer": np.exp(1j * OMEGA * 0.001),
+             "late sensors": np.exp(-1j * OMEGA * 0.001)}  # fmt: skip
     values = values * whole.get(mistake, 1.0)
     return values.conj() if mistake == "conjugated" else values
 
 
 NAMES = {"upside down": "polarity", "g": "factor", "mm": "factor", "delay": "delay",
-         "swapped": "swapped", "double": "double-hit", "moved": "reciprocity"}  # fmt: skip
-EVERYWHERE = {"pull": "polarity", "conjugated": "convention"}
+         "late force": "delay", "swapped": "swapped", "double": "double-hit",
+         "moved": "reciprocity"}  # fmt: skip
+EVERYWHERE = {"pull": "polarity", "conjugated": "convention", "late hammer": "delay",
+              "late sensors": "delay"}  # fmt: skip
+LATE = {
+    "delay": "sensor is 1 ms late",
+    "late force": "force of the hits here is 1 ms late",
+    "late hammer": "force channel of all",
+    "late sensors": "channel of responses of all",
+}
 
 
 @pytest.mark.parametrize("mistake", NAMES)
@@ -101,6 +112,7 @@ def test_mistake_at_a_point_is_named_there(structure, mistake):
         found = faults_of(with_mistake(structure, mistake, point))
         nodes = {NODES[point]} | ({NODES[(point + 2) % 5]} if mistake == "swapped" else set())
         assert [(fault.name, set(fault.nodes)) for fault in found] == [(NAMES[mistake], nodes)]
+        assert found[0].words.startswith(LATE.get(mistake, ""))
 
 
 @pytest.mark.parametrize("mistake", EVERYWHERE)
@@ -108,6 +120,10 @@ def test_mistake_at_a_point_is_named_there(structure, mistake):
 def test_mistake_of_all_points_is_named(structure, mistake):
     found = faults_of(with_mistake(structure, mistake, 0))
     assert [(fault.name, fault.nodes) for fault in found] == [(EVERYWHERE[mistake], ())]
+    assert found[0].words.startswith(LATE.get(mistake, ""))
+    if mistake in LATE:
+        delay_ms = float(re.search(r"about ([\d.]+) ms late", found[0].words)[1])
+        assert delay_ms == pytest.approx(1.0, abs=0.2)
 
 
 def test_mass_line_finds_a_wrong_mass_and_a_common_factor():

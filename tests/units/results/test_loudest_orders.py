@@ -125,7 +125,8 @@ def test_table_and_charts_of_the_page(orders):
     analysis = analysis_of_orders(orders)
     charts = [chart["name"] for chart in analysis.json()["charts"]]
     assert charts == ["run_up_1_mic", "map_1_mic", "spectrum_1_mic",
-                      "run_up_2_foot", "map_2_foot", "spectrum_2_foot"]  # fmt: skip
+                      "run_up_2_foot", "map_2_foot", "spectrum_2_foot",
+                      "velocity_over_speed"]  # fmt: skip
     rows = {row[:2]: row[2:] for row in loudest_table(every_loudest(orders)).rows}
     level, reference, rpm, hertz = rows["mic", "7.5×"]
     assert reference == "dB(A)"
