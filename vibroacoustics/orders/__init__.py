@@ -9,7 +9,6 @@ array([0.707])
 """
 
 from ..base.ellipse import semi_major_axis
-from ..base.fourier import FFT_ENGINE
 from .angular import AngularSignal, whole_revolutions
 from .angular_stream import angular_resample
 from .crank_motion import CrankMotion, constant_speed, from_angle, from_speed
@@ -27,7 +26,6 @@ from .tacholess import TacholessResult, tacholess_motion
 from .vold_kalman import Track, TrackedOrders, vold_kalman
 
 __all__ = [
-    "FFT_ENGINE",
     "AngularSignal",
     "CrankMotion",
     "FrequencyMap",
