@@ -11,6 +11,7 @@ array([0.707])
 from ..base.ellipse import semi_major_axis
 from .angular import AngularSignal, whole_revolutions
 from .angular_stream import angular_resample
+from .block_maps import order_map_of_blocks
 from .crank_motion import CrankMotion, constant_speed, from_angle, from_speed
 from .frequency_map import FrequencyMap, frequency_map
 from .order_cut import OrderCut, OrderResolutionWarning, order_cut, order_lines
@@ -49,6 +50,7 @@ __all__ = [
     "order_cut",
     "order_lines",
     "order_map",
+    "order_map_of_blocks",
     "order_spectra",
     "order_spectrum",
     "order_spectrum_at_speed",
