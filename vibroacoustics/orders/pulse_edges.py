@@ -20,8 +20,8 @@ _HYSTERESIS: Final = 0.4
 three samples, which a converter's filter rounds, still reaches 70 % of the swing."""
 _STEEPER: Final = 0.5
 """Time of the falling edge over that of the rising one, below which the falling one is taken."""
-_BLOCK_SAMPLES: Final = 2**18
-"""Samples of an array that are worked on at a time: 2 MiB."""
+_BLOCK_SAMPLES: Final = 2**16
+"""Samples of an array that are worked on at a time: half a MiB."""
 _ROUNDS: Final = 5
 """Rounds in which the threshold follows the height: each reaches pulses of a fifth of the last
 height."""
