@@ -44,6 +44,8 @@ _LEAST_SCALE: Final = 1e-3
 _LEAST_SLOPE: Final = 0.02
 """Distances of lines from orders that have one scale, relative, and f'/f in 1/s from which a lag
 follows from it."""
+_DECAY: Final = 0.05
+"""Scatter of f'/f, relative, below which it is constant: noise alone then correlates with it."""
 _ON_ORDER: Final = 0.01
 _OFF_ORDER: Final = 0.03
 """Distance from multiples of 1/2 by which a lag may move lines: one line of the spectra."""
@@ -88,7 +90,9 @@ def confirmed(
     if np.ptp(speeds_hz) < _VARIES * highest_hz:
         if shaft.kind == "nominal":
             signals = _signals(recording, names, highest_hz)
-            notes = [note for each in signals for note in _scale_notes(*each, motion)][:1]
+            checked = [_scale_notes(*each, motion) for each in signals]
+            is_confirmed = any(each is None for each in checked)
+            notes = [] if is_confirmed else [note for each in checked for note in each or ()][:1]
     else:
         lags = list(_lags(_signals(recording, names, highest_hz), motion))
         if lags:
@@ -97,6 +101,8 @@ def confirmed(
             notes += _departures(lag)
         if shaft.kind == "recorded" and not any(_in_place(each.lines).any() for _, each in lags):
             notes = _unit_notes(recording, names, motion, _LEAST_LINES if lags else 1) or notes
+        if shaft.kind == "recorded" and not notes:
+            notes = [note for _, lag in lags for note in _ratio_notes(lag.unmoved_lines)][:1]
     for note in notes:
         warnings.warn(f"speed: {note}", UncertainSpeedWarning, stacklevel=3)
     return replace(shaft, motion=motion, source="; ".join([shaft.source, *notes]))
@@ -147,7 +153,7 @@ def _corrected(shaft: RecordedSpeed, lag: SpeedLag) -> tuple[CrankMotion, list[s
     is_lag = abs(lag.lag_s) > max(LEAST_LAG_S, _ERRORS * lag.error_s)
     motion, held_s = shaft.motion, shaft.held_s
     lag_s = _scale_lag(lag) if shaft.kind == "recorded" else 0.0
-    if is_lag and lag.bend > _BENDS and not _moves_off(lag):
+    if is_lag and lag.bend > _BENDS and not _moves_off(lag) and _is_supported(lag):
         lag_s = lag.lag_s
     shifted = late(motion, lag_s)
     if abs(lag_s) < LEAST_LAG_S or shifted is None:
@@ -184,8 +190,19 @@ def _scale_lag(lag: SpeedLag) -> float:
         return 0.0
     weight = np.where(most, lines**2, 0.0)
     scale = float(np.sum(weight * off) / max(float(np.sum(weight)), 1e-30))
-    least = max(_LEAST_SCALE, 2.0 * float(error[most].min())) if most.any() else np.inf
+    least = max(_LEAST_SCALE, 3.0 * float(error[most].min())) if most.any() else np.inf
     return scale / lag.slope_per_s if abs(scale) > least else 0.0
+
+
+def _is_supported(lag: SpeedLag) -> bool:
+    """Whether a lag is no chance: in a decay it must bring lines to orders."""
+    if lag.slope_scatter > _DECAY * abs(lag.slope_per_s):
+        return True
+    before, behind = (
+        np.count_nonzero(_off_orders(lines) < _line_error(lines))
+        for lines in (lag.unmoved_lines, lag.lines)
+    )
+    return bool(behind > before)
 
 
 def _moves_off(lag: SpeedLag) -> bool:
@@ -227,12 +244,34 @@ def _unit_notes(
     signals = list(_signals(recording, names, max(factors.values()) * highest_hz))
     for unit, factor in factors.items():
         for _, lag in _lags(signals, motion.geared(factor)):
-            if np.isfinite(lag.error_s) and np.sum(_in_place(lag.lines)) >= least_lines:
+            are_orders = _off_orders(lag.lines) < np.minimum(_line_error(lag.lines), _OFF_ORDER)
+            if lag.lines.size >= least_lines and are_orders.all():
                 lines = ", ".join(f"{order:.4g}" for order in np.sort(lag.lines))
                 return [
                     f"no line of the sound is an order of it; as a speed in {unit} it has lines at "
                     f"orders {lines}: orders are wrong; state its unit"
                 ]
+    return []
+
+
+def _ratio_notes(lines: Array) -> list[str]:
+    """Name the speed whose orders all lines are, where none is an order of the recorded one.
+
+    The orders have no common divisor: multiples of one line would fit many speeds.
+    """
+    error = _line_error(lines)
+    if lines.size < _LEAST_LINES or np.any(_off_orders(lines) < error):
+        return []
+    for order in range(max(round(lines[0]) - 1, 1), round(lines[0]) + 2):
+        ratio = lines[0] / order
+        nearest = np.rint(lines / ratio)
+        ratio = float(np.sum(lines * nearest) / max(np.sum(nearest**2), 1.0))
+        is_sure = np.all(np.abs(lines - ratio * nearest) < error) and nearest.min() > 0.0
+        if is_sure and np.gcd.reduce(nearest.astype(int)) == 1 and abs(ratio - 1.0) < _NEAR:
+            return [
+                f"no line of the sound is an order of it, all {lines.size} are of {ratio:.4g} "
+                "times the speed: orders read too low; check its factor, or find it in the signal"
+            ]
     return []
 
 
@@ -247,13 +286,18 @@ def _off_orders(lines: Array) -> Array:
     return np.asarray(np.abs(lines - 0.5 * np.rint(2.0 * lines)))
 
 
+def _line_error(lines: Array) -> Array:
+    """Error of the orders of lines, shape (line,): of the spectrum, and of a speed that varies."""
+    return _LINE_ERROR * (1.0 + lines)
+
+
 def _in_place(lines: Array) -> NDArray[np.bool_]:
     """Whether lines are multiples of 1/2, shape (line,)."""
     return np.asarray(_off_orders(lines) < _OFF_ORDER)
 
 
-def _scale_notes(signal: Array, rate_hz: float, motion: CrankMotion) -> list[str]:
-    """Name the speed that the lines fit where a nominal one explains none of them."""
+def _scale_notes(signal: Array, rate_hz: float, motion: CrankMotion) -> list[str] | None:
+    """Name the speed that the lines fit; None where a nominal one explains some of them."""
     first = int(np.ceil(motion.start_s * rate_hz))
     samples = signal[first : int(motion.end_s * rate_hz) + 1]
     hertz = float(motion.frequency_hz(np.array([motion.start_s]))[0])
@@ -264,7 +308,9 @@ def _scale_notes(signal: Array, rate_hz: float, motion: CrankMotion) -> list[str
     lines = clear_lines(samples, per_revolution, length, 4.0)
     in_place = lines_in_place(lines, _HALF_ORDERS)[0]
     scales, worths = best_speeds(lines, _COMB, 1.0 - _NEAR, 1.0 + _NEAR, _APART)
-    if in_place or scales.size == 0 or mains_of(np.array([scales[0] * hertz])) is not None:
+    if in_place:
+        return None
+    if scales.size == 0 or mains_of(np.array([scales[0] * hertz])) is not None:
         return []
     explained = lines_in_place(lines, scales[0] * _COMB)[0]
     gain = worths[0] - evidence(lines, _COMB, np.ones(1))[0]

@@ -1,5 +1,7 @@
 """Order map of a recording in blocks: the same as of the whole."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -13,7 +15,7 @@ SIGNAL = np.random.default_rng(3).standard_normal((2, int(8.0 * RATE_HZ)))
 
 def in_blocks(lengths):
     edges = np.cumsum([0, *lengths])
-    return (SIGNAL[:, first:last] for first, last in zip(edges[:-1], edges[1:], strict=True))
+    return (SIGNAL[:, first:last] for first, last in pairwise(edges))
 
 
 @pytest.mark.parametrize("lengths", [[32768], [1, 8191, 16384, 8192], [1024] * 32])
