@@ -120,8 +120,9 @@ def test_start_times_of_both_files_are_used():
 def test_settings_name_a_second_file_for_each_recording(tmp_path):
     """One recording with its settings, and two that are averaged, each with a tacho of its own."""
     for name in ("a", "b"):
-        soundfile.write(tmp_path / f"{name}.wav", sound(times(RATE_HZ)), int(RATE_HZ), "FLOAT")
-        tacho = pulses(times(TACHO_HZ, 0.001 * ord(name)))
+        samples = 0.01 * ord(name) * sound(times(RATE_HZ))
+        soundfile.write(tmp_path / f"{name}.wav", samples, int(RATE_HZ), "FLOAT")
+        tacho = pulses(times(TACHO_HZ, 1e-5 * ord(name)))
         soundfile.write(tmp_path / f"{name}_tacho.wav", tacho, int(TACHO_HZ), "PCM_16")
     (tmp_path / "settings.toml").write_text(
         '[channels]\n"channel 1" = { unit = "Pa", calibration = 2.0 }\n'
