@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..base.arrays import Array
+from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 from .angular import AngularSignal, joined
 from .angular_plan import AngularPlan
@@ -83,7 +83,8 @@ def order_map_of_blocks(
     starts = block_starts(spanned, revolutions * per_revolution, overlap_ratio)
     mapping = OrderMapBlocks(resolution_order, window, overlap_ratio)
     time_s, shaft_frequency_hz = np.empty(starts.size), np.empty(starts.size)
-    amplitude, spectra, done = np.empty(0, dtype=complex), None, 0
+    amplitude: ComplexArray = np.empty(0, dtype=complex)
+    spectra, done = None, 0
     for part in angular_parts(plan, blocks):
         added = mapping.add(part)
         if added is None:

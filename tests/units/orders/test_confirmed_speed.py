@@ -7,7 +7,7 @@ import pytest
 from clean_recordings import clean_recordings, clean_tacholess
 
 import vibroacoustics as va
-from vibroacoustics.orders.confirmed_speed import _scale_lag
+from vibroacoustics.orders.lag_evidence import scale_lag
 from vibroacoustics.orders.recorded_speed import recorded_speed
 from vibroacoustics.orders.speed_lag import SpeedLag
 from vibroacoustics.recordings import LabelledBlocks
@@ -188,7 +188,7 @@ def test_a_lag_without_lines_before_has_no_scale():
     lag = SpeedLag(
         0.3, 0.001, 5.0, np.array([2.0]), np.empty(0), -0.07, 0.0, TIME_S[:1], RPM[:1], 1.0
     )
-    assert _scale_lag(lag) == 0.0
+    assert scale_lag(lag) == 0.0
 
 
 def sentences_of(clean):
