@@ -47,7 +47,7 @@ def angular_resample(
     blocks = (rows[:, begin : begin + step] for begin in range(0, rows.shape[1], step))
     plan = AngularPlan(sample_rate_hz, rows.shape[1], motion, maximum_order)
     first, last = plan.grid
-    whole = AngularSignal(
+    resampled = AngularSignal(
         values=np.empty((rows.shape[0], last + 1 - first)),
         samples_per_revolution=plan.samples_per_revolution,
         first_sample=first,
@@ -56,8 +56,8 @@ def angular_resample(
     )
     for part in angular_parts(plan, blocks):
         of_part = slice(part.first_sample - first, part.first_sample - first + part.time_s.size)
-        whole.values[:, of_part], whole.time_s[of_part] = part.values, part.time_s
-    return replace(whole, values=whole.values.reshape(*signal.shape[:-1], -1))
+        resampled.values[:, of_part], resampled.time_s[of_part] = part.values, part.time_s
+    return replace(resampled, values=resampled.values.reshape(*signal.shape[:-1], -1))
 
 
 def angular_parts(plan: AngularPlan, blocks: Iterable[Array]) -> Iterator[AngularSignal]:

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, ComplexArray, IndexArray
+from ..base.decibel import level_of_power
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
 from ..study.order_analysis import LEAST_BLOCKS, OrderAnalysis
@@ -81,7 +82,7 @@ def _warn_of_load(branch: str, square: Array) -> None:
     if levels is not None:
         low, high, louder = levels
         warnings.warn(
-            f"{branch}: the orders stay at two levels, {10.0 * np.log10(high / low):.3g} dB apart, "
+            f"{branch}: the orders stay at two levels, {level_of_power(high / low):.3g} dB apart, "
             f"in {louder} and {square.size - louder} blocks, as of two loads: the mean is of "
             "neither; choose a part by from_s and to_s",
             LoadWarning,
