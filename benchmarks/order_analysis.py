@@ -12,6 +12,7 @@ run-up. How much of that smoothing wins back depends on the shaft: from a swing 
 all; with SWING_PERIOD_S = 0.5 `tacho_motion` takes the pulses as they are. The other two methods
 smooth over a fixed number of pulses, and the swing costs them more: see SWING_HZ = 0 as well.
 
+This package reads the files in blocks of 1.3 s; its row "arrays" and the other methods hold all.
 Each method runs in a process of its own, so that its peak memory is its own, and they take turns.
 rota-order (GPL) is no part of this package and runs under another interpreter only: one that is
 given, or a virtual environment that is made here with pip.
@@ -26,7 +27,8 @@ import sys
 import tempfile
 import time
 import venv
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +43,7 @@ SWING_HZ = 0.5
 SWING_PERIOD_S = 2.0
 MAXIMUM_ORDER = 120
 REVOLUTIONS_IN_BLOCK = 8
+BLOCK_SAMPLES = 2**16
 AMPLITUDES = {1: 1.0, 2: 0.5, 4: 0.25, MAXIMUM_ORDER: 1.0}
 TONES_HZ = (13_500.0, 20_000.0)
 """Above order 120 at every speed; alone in their channels, as large as order 1 in channel 0."""
@@ -78,8 +81,37 @@ def write_signals(folder: Path, duration_s: float) -> None:
     np.save(folder / "tacho.npy", tacho)
 
 
-def by_vibroacoustics(channels: np.ndarray, tacho: np.ndarray) -> Map:
-    """This package."""
+def write_short(folder: Path) -> Path:
+    """Short signals, with which the package compiles what it keeps for later runs."""
+    folder.mkdir()
+    write_signals(folder, QUICK_DURATION_S)
+    return folder
+
+
+def in_blocks(file: Path, samples: int) -> Iterator[np.ndarray]:
+    """Blocks of the channels of a file; the mapping ends with the block, and its memory."""
+    for first in range(0, samples, BLOCK_SAMPLES):
+        yield np.array(np.load(file, mmap_mode="r")[:, first : first + BLOCK_SAMPLES])
+
+
+def by_vibroacoustics(folder: Path) -> Map:
+    """This package, which reads the recording in blocks."""
+    from vibroacoustics.orders import order_map_of_blocks, pulse_times, tacho_motion
+
+    tacho = np.load(folder / "tacho.npy", mmap_mode="r")
+    samples = tacho.size
+    motion = tacho_motion(pulse_times(tacho, SAMPLE_RATE_HZ)).motion
+    del tacho
+    blocks = in_blocks(folder / "channels.npy", samples)
+    resolution = 1.5 / REVOLUTIONS_IN_BLOCK
+    spectra = order_map_of_blocks(
+        blocks, samples, SAMPLE_RATE_HZ, motion, MAXIMUM_ORDER, resolution
+    )
+    return spectra.amplitude, spectra.order
+
+
+def by_vibroacoustics_arrays(channels: np.ndarray, tacho: np.ndarray) -> Map:
+    """This package, with the whole recording and its signal over the angle in memory."""
     from vibroacoustics.orders import angular_resample, order_map, pulse_times, tacho_motion
 
     motion = tacho_motion(pulse_times(tacho, SAMPLE_RATE_HZ)).motion
@@ -140,8 +172,9 @@ def by_rota(channels: np.ndarray, tacho: np.ndarray) -> Map:
     return np.moveaxis(spectra.values, (2, 1, 0), (0, 1, 2)), spectra.axis
 
 
-METHODS: dict[str, Callable[[np.ndarray, np.ndarray], Map]] = {
-    "vibroacoustics": by_vibroacoustics,
+ARRAYS = "vibroacoustics, arrays"
+OF_ARRAYS: dict[str, Callable[[np.ndarray, np.ndarray], Map]] = {
+    ARRAYS: by_vibroacoustics_arrays,
     "scipy": by_scipy,
     "rota-order": by_rota,
 }
@@ -161,12 +194,15 @@ def accuracy(amplitude: np.ndarray, order: np.ndarray) -> dict[str, float]:
 def work(method: str, folder: Path) -> None:
     """Process of one method: a run, its seconds and those of the processors for each line read,
     then the accuracy."""
-    channels, tacho = np.load(folder / "channels.npy"), np.load(folder / "tacho.npy")
+    run = partial(by_vibroacoustics, folder)
+    if method in OF_ARRAYS:
+        files = (np.load(folder / name) for name in ("channels.npy", "tacho.npy"))
+        run = partial(OF_ARRAYS[method], *files)
     spectra: Map | None = None
     for _ in sys.stdin:
         spectra = None
         start, start_cpu = time.perf_counter(), time.process_time()
-        spectra = METHODS[method](channels, tacho)
+        spectra = run()
         print(time.perf_counter() - start, time.process_time() - start_cpu, flush=True)
     peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
     assert spectra is not None
@@ -221,7 +257,7 @@ def main() -> None:
     made.add_argument("--rota-python", help="interpreter of an environment with rota-order")
     made.add_argument("--skip-rota", action="store_true")
     made.add_argument("--rounds", type=int, default=3)
-    made.add_argument("--work", choices=METHODS, help=argparse.SUPPRESS)
+    made.add_argument("--work", choices=["vibroacoustics", *OF_ARRAYS], help=argparse.SUPPRESS)
     made.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
     options = made.parse_args()
     if options.work:
@@ -231,9 +267,10 @@ def main() -> None:
         write_signals(folder, QUICK_DURATION_S if options.quick else DURATION_S)
         pythons = {"vibroacoustics": sys.executable}
         if not options.quick:
-            pythons["scipy"] = sys.executable
+            pythons |= {ARRAYS: sys.executable, "scipy": sys.executable}
         if not (options.skip_rota or options.quick):
             pythons["rota-order"] = options.rota_python or rota_environment(folder / "venv")
+        compare({"vibroacoustics": sys.executable}, write_short(folder / "short"), 0)
         load = os.getloadavg()[0]
         results = compare(pythons, folder, 1 if options.quick else options.rounds)
     print(f"{os.cpu_count()} processors; load before {load:.1f}, after {os.getloadavg()[0]:.1f}\n")

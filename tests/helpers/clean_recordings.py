@@ -31,6 +31,7 @@ def _speeds(rng) -> dict[str, Callable]:
         "coast-down": lambda t: high * np.exp(-t / DURATION_S * np.log(high / low)),
         "up and down": lambda t: high - (high - low) * np.abs(2.0 * t / DURATION_S - 1.0),
         "steps": lambda t: np.interp(t, [0, 5, 6, 11, 12, 16], [low, low, 35, 35, high, high]),
+        "slow steps": lambda t: np.interp(t, [0, 4, 7, 9, 12, 16], [low, low, 30, 30, high, high]),
         "dwell": lambda t: np.full_like(t, high),
         "swing": lambda t: high * (1.0 + 0.03 * np.sin(2.0 * np.pi * 0.3 * t)),
     }
@@ -103,7 +104,7 @@ def clean_recordings(count: int, seed: int = 0) -> Iterator[Clean]:
         sounds = _sounds(rng, angle, time_s)
         sound = list(sounds)[(number // len(histories) + number) % len(sounds)]
         channels = _channels(rng, time_s, speed_hz, angle)
-        channel = list(channels)[number % len(channels)]
+        channel = list(channels)[(number + number // 7) % len(channels)]
         samples, unit, source = channels[channel]
         if history == "dwell" and number % 4 == 0:
             source = va.NominalSpeed(60.0 * float(speed_hz[0]))
@@ -111,3 +112,23 @@ def clean_recordings(count: int, seed: int = 0) -> Iterator[Clean]:
             [sounds[sound], samples], RATE_HZ, ["front", "speed"], ["Pa", unit]
         )
         yield Clean(f"{number}: {history}, {sound}, {channel}", recording, source)
+
+
+def clean_tacholess(count: int, seed: int = 0) -> Iterator[Clean]:
+    """Yield so many recordings of a machine whose speed its sound gives.
+
+    Parameters
+    ----------
+    count : number of recordings
+    seed : seed of levels, phases and noise
+    """
+    time_s = _time()
+    for number in range(count):
+        rng = np.random.default_rng([seed, number])
+        histories = _speeds(rng)
+        history = ("run-up", "coast-down", "dwell", "swing")[number % 4]
+        speed_hz = histories[history](time_s)
+        sounds = _sounds(rng, 2.0 * np.pi * np.cumsum(speed_hz) / RATE_HZ, time_s)
+        recording = va.label_recording([sounds["machine"]], RATE_HZ, ["front"], ["Pa"])
+        source = va.TacholessSpeed("front", 500.0, 5000.0, (1.0, 2.0, 3.0, 6.0, 12.0))
+        yield Clean(f"{number}: {history}, machine, tacholess", recording, source)

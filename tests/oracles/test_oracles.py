@@ -16,7 +16,6 @@ from scipy.special import iv
 from support import CRANK_ANGLE, balancing, turning, wrench_orders
 
 from vibroacoustics.balancers.spring_mass import sprung_mass_response, tuned_mass
-from vibroacoustics.base import fourier
 from vibroacoustics.base.arrays import ComplexArray
 from vibroacoustics.base.revolution import capped_cylinder
 from vibroacoustics.levels import a_weighting, sound_pressure_level
@@ -314,23 +313,15 @@ def test_natural_frequencies_against_the_energy_of_the_springs(thesis_study):
 # --- order spectrum ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("library", ["pyfftw", "scipy"])
 class TestOrderSpectrum:
-    @pytest.fixture(autouse=True)
-    def _library(self, library, monkeypatch):
-        if library == "scipy":
-            monkeypatch.setattr(fourier, "pyfftw", None)
-        else:
-            pytest.importorskip("pyfftw")
-
-    def test_against_bessel_functions(self, library):
+    def test_against_bessel_functions(self):
         """e^{cos θ} = I0(1) + 2 Σ I_k(1) cos kθ (Abramowitz & Stegun 9.6.34)."""
         ours = order_spectrum(np.exp(np.cos(CRANK_ANGLE)), 40)
         exact = 2.0 * iv(np.arange(41), 1.0)
         exact[0] /= 2.0
         np.testing.assert_allclose(ours, exact, atol=10.0 * EPSILON)
         claim(
-            f"Orders of e^cos θ by {library}", kind="exact", source=ABRAMOWITZ("9.6.34"),
+            "Orders of e^cos θ", kind="exact", source=ABRAMOWITZ("9.6.34"),
             computed=ours, reference=exact, tolerance=1e-12, unit="1", topics=("receivers",),
         )  # fmt: skip
 
@@ -353,14 +344,6 @@ class TestOrderSpectrum:
         again = 2.0 / samples * np.fft.rfft(signal, axis=-1)[..., :41]
         again[..., 0] /= 2.0
         np.testing.assert_allclose(order_spectrum(signal, 40), again, atol=20.0 * EPSILON)
-
-
-def test_fftw_and_scipy_agree(monkeypatch):
-    pytest.importorskip("pyfftw")
-    signal = np.random.default_rng(2).standard_normal((4, 256))
-    by_fftw = order_spectrum(signal, 40)
-    monkeypatch.setattr(fourier, "pyfftw", None)
-    np.testing.assert_allclose(order_spectrum(signal, 40), by_fftw, atol=10.0 * EPSILON)
 
 
 # --- scoring -------------------------------------------------------------------------------------

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from ..base.recording_blocks import RecordingBlocks
     from ..measured.campaign_settings import Campaign, CampaignRun
+    from ..recordings.second_file import SpeedFile
     from ..study.order_analysis import OrderAnalysis, SpeedSource
 
 SampleRate = Annotated[float | None, "Actual sample rate, Hz, instead of the file's."]
@@ -125,23 +126,29 @@ class Reading:
 
         load_plugins(plugins)
         recording = read_recording(file, **self.arguments(file))
-        if speed is None or speed.speed_file is None:
+        second = None if speed is None else self.speed_file(speed, file)
+        if second is None:
             return recording
         from ..recordings.second_file import with_second_file
 
-        names = [name for name in (speed.speed_channel, speed.index) if name is not None]
-        return with_second_file(recording, speed.speed_file, names)
+        return with_second_file(recording, second)
 
     def in_blocks(
         self, file: Path, plugins: list[Path] | None, speed: "SpeedOptions"
     ) -> "RecordingBlocks":
         """Hold the same in memory as the file stores it; what is too large stays in the file."""
-        from ..recordings.blocks import LabelledBlocks, recording_blocks
+        from ..recordings.blocks import recording_blocks
+        from ..recordings.second_file import blocks_with_speed
 
-        if speed.speed_file is not None:
-            return LabelledBlocks(self.at_once(file, plugins, speed))
         load_plugins(plugins)
-        return recording_blocks(file, **self.arguments(file))
+        recording = recording_blocks(file, **self.arguments(file))
+        return blocks_with_speed(recording, self.speed_file(speed, file))
+
+    def speed_file(self, speed: "SpeedOptions", file: Path) -> "SpeedFile | None":
+        """Return the second file with the speed of a recording: of the options, or the settings."""
+        if speed == SpeedOptions() and self.settings is not None:
+            return self.campaign.speed_file_of(file)
+        return speed.second_file()
 
     def run(
         self, speed: "SpeedOptions", orders: "OrderOptions", plugins: list[Path] | None, file: Path
@@ -156,7 +163,8 @@ class Reading:
         from ..measured.campaign_settings import CampaignRun
 
         analysis = orders.analysis(self.source(speed, file, plugins), self.stated_analysis())
-        return CampaignRun(file, *self.campaign.labels_of(file), self.arguments(file), analysis)
+        labels, second = self.campaign.labels_of(file), self.speed_file(speed, file)
+        return CampaignRun(file, *labels, self.arguments(file), analysis, second)
 
     def arguments(self, file: Path) -> dict[str, Any]:
         """Return the arguments of `read_recording`: those of options override the settings."""
@@ -285,6 +293,15 @@ class SpeedOptions:
         "motor, or the limits of --tacholess; its poles and teeth are the comb.",
     ] = None
 
+    def second_file(self) -> "SpeedFile | None":
+        """Return the second file with the channels of the speed, None without one."""
+        if self.speed_file is None:
+            return None
+        from ..recordings.second_file import SpeedFile
+
+        names = (self.speed_channel, self.index)
+        return SpeedFile(self.speed_file, tuple(name for name in names if name is not None))
+
     def source(self) -> "SpeedSource":
         """Make the source of the speed that the options give.
 
@@ -336,9 +353,9 @@ class SpeedOptions:
         if self.rpm is not None:
             return NominalSpeed(self.rpm)
         edge = None if self.edge is None else chosen("--edge", self.edge, EDGES)
-        names = [self.speed_channel, self.index]
-        if self.speed_file is not None:
-            names = [name and f"{self.speed_file.name} {name}" for name in names]
+        names, second = [self.speed_channel, self.index], self.second_file()
+        if second is not None:
+            names = [name and second.name_of(name) for name in names]
         return SpeedChannel(str(names[0]), self.pulses, names[1], self.threshold, edge)
 
     def _of_machine(self, file: Path) -> "SpeedSource":

@@ -56,8 +56,8 @@ def orders_command(
         from ..measured.campaign import analyse_campaign
         from ..results.order_limits import with_limits
 
-        if listen is not None or orders.with_map or speed.speed_file is not None:
-            raise ParameterError("--speed-file, --listen, --map: need one recording: give one file")
+        if listen is not None or orders.with_map:
+            raise ParameterError("--listen, --map: need one recording: give one file")
         target = printing.target(folder)
         load_plugins(plugin)
         run_of = partial(reading.run, speed, replace(orders, with_map=False), plugin)

@@ -121,11 +121,12 @@ def band_mean_square(signal: Array, sample_rate_hz: float, bands: Sequence[Band]
     check_measurable(bands, sample_rate_hz)
     samples = signal.shape[-1]
     spectrum = fft.rfft(signal)
-    for part in (spectrum.real, spectrum.imag):  # in place: of a long recording it is large
-        np.square(part, out=part)
+    squares = spectrum.view(float)
+    np.square(squares, out=squares)  # in place: of a long recording it is large
     energy = spectrum.real + spectrum.imag
-    energy /= samples**2
-    energy[..., 1 : (samples + 1) // 2] *= 2.0
+    energy *= 2.0 / samples**2
+    energy[..., 0] *= 0.5
+    energy[..., (samples + 1) // 2 :] *= 0.5
     return band_sums(energy, sample_rate_hz, samples, bands)
 
 

@@ -16,6 +16,7 @@ from ..orders.analysed import analysed_channels
 from ..orders.recorded_speed import check_speed_channels
 from ..recordings.blocks import recording_blocks
 from ..recordings.equality import identities
+from ..recordings.second_file import blocks_with_speed
 from ..results.mean_of_runs import OMITTED, mean_of_runs
 from ..study.wording import first_lines
 from .campaign_settings import CampaignRun
@@ -145,7 +146,8 @@ def _analysed(run: CampaignRun) -> AnalysedRun:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
-            blocks = recording_blocks(run.file, **run.reading)
+            sound = recording_blocks(run.file, **run.reading)
+            blocks = blocks_with_speed(sound, run.speed_file)
             check_speed_channels(blocks.channels, run.analysis.speed)
             names = analysed_channels(blocks.channels, run.analysis.speed)
             results = analyse_orders(blocks, run.analysis)
@@ -158,8 +160,8 @@ def _analysed(run: CampaignRun) -> AnalysedRun:
         "",
         [(each.category, str(each.message)) for each in caught],
         {name: units[name] for name in names},
-        {name: each for name, each in blocks.deviations.items() if name in names},
-        blocks.suspects,
+        {name: each for name, each in sound.deviations.items() if name in names},
+        sound.suspects,
         identities(blocks, names),
     )
 

@@ -14,6 +14,7 @@ from ..base.parameters import Contradictions, Parameters
 from ..recordings import read_calibrator
 from ..recordings.asked import ALL_CHANNELS
 from ..recordings.calibrator import LEVELS_DB
+from ..recordings.second_file import SpeedFile
 from ..study.loading import load_machine
 from ..study.order_analysis import (
     DEFAULT_COMB,
@@ -68,6 +69,7 @@ class SpeedSettings(Parameters):
     """Source of the speed: a channel, a nominal speed, or the orders in a channel."""
 
     channel: str | None = None
+    channel_file: str | None = None
     pulses_per_revolution: float = Field(default=1, ge=0.001, le=100_000)
     index_channel: str | None = None
     threshold: float | None = None
@@ -86,7 +88,7 @@ class SpeedSettings(Parameters):
         by_channel = self.channel is not None and not any(without_tacho)
         if sum([self.nominal_rpm is not None, by_channel, *without_tacho]) != 1:
             yield "give one of channel, nominal_rpm, minimum_rpm with maximum_rpm, machine_file"
-        of_tacho = {"pulses_per_revolution", "index_channel", "threshold", "edge"}
+        of_tacho = {"channel_file", "pulses_per_revolution", "index_channel", "threshold", "edge"}
         if not by_channel and of_tacho & self.model_fields_set:
             yield f"{', '.join(sorted(of_tacho & self.model_fields_set))}: belong to a tacho"
         if not any(without_tacho) and {"comb", "mains_hz"} & self.model_fields_set:
@@ -96,8 +98,19 @@ class SpeedSettings(Parameters):
         except ParameterError as error:
             yield str(error)
 
-    def source(self) -> SpeedSource:
-        """Make the source of the speed."""
+    def file_of(self, path: Path) -> SpeedFile | None:
+        """Return the second file with the channels of the speed of a recording, None without.
+
+        In the name of the file `{recording}` is that of the recording without its suffix.
+        """
+        if self.channel_file is None:
+            return None
+        named = self.channel_file.replace("{recording}", path.stem)
+        channels = (self.channel, self.index_channel)
+        return SpeedFile(Path(named), tuple(name for name in channels if name is not None))
+
+    def source(self, path: Path = Path()) -> SpeedSource:
+        """Make the source of the speed of a recording."""
         if self.nominal_rpm is not None:
             return NominalSpeed(self.nominal_rpm)
         if self.machine_file is not None:
@@ -108,8 +121,12 @@ class SpeedSettings(Parameters):
             comb = DEFAULT_COMB if self.comb is None else self.comb
             limits = (self.minimum_rpm, self.maximum_rpm)
             return TacholessSpeed(self.channel, *limits, comb, self.mains_hz)
-        tacho = (self.pulses_per_revolution, self.index_channel, self.threshold, self.edge)
-        return SpeedChannel(str(self.channel), *tacho)
+        names: list[str | None] = [self.channel, self.index_channel]
+        file = self.file_of(path)
+        if file is not None:
+            names = [name and file.name_of(name) for name in names]
+        tacho = (self.pulses_per_revolution, names[1], self.threshold, self.edge)
+        return SpeedChannel(str(names[0]), *tacho)
 
 
 class AnalysisSettings(Parameters):
@@ -152,6 +169,7 @@ class CampaignRun(NamedTuple):
     machine, run : labels
     reading : arguments of `read_recording`
     analysis : speed and orders
+    speed_file : second file with the channels of the speed
 
     Examples
     --------
@@ -166,6 +184,7 @@ class CampaignRun(NamedTuple):
     run: str
     reading: Mapping[str, Any]
     analysis: OrderAnalysis
+    speed_file: SpeedFile | None = None
 
     @property
     def label(self) -> str:
@@ -258,8 +277,16 @@ class Campaign(Parameters):
 
     def speed_of(self, path: Path) -> SpeedSource | None:
         """Return the source of the speed of a file, None where the settings give none."""
-        speed = self.settings_of(path)[0].speed or self.speed
-        return None if speed is None else speed.source()
+        speed = self._speed_settings(path)
+        return None if speed is None else speed.source(path)
+
+    def speed_file_of(self, path: Path) -> SpeedFile | None:
+        """Return the second file with the speed of a recording, None where there is none."""
+        speed = self._speed_settings(path)
+        return None if speed is None else speed.file_of(path)
+
+    def _speed_settings(self, path: Path) -> SpeedSettings | None:
+        return self.settings_of(path)[0].speed or self.speed
 
     def run_of(self, path: Path) -> CampaignRun:
         """Return the run of a file, with the labels and settings that are its own.
@@ -273,7 +300,8 @@ class Campaign(Parameters):
         if speed is None:
             raise ParameterError(f"{path}: speed is missing in the settings: add a table [speed]")
         analysis = OrderAnalysis(speed, **self.analysis.stated())
-        return CampaignRun(path, *self.labels_of(path), self.reading_of(path), analysis)
+        labels, second = self.labels_of(path), self.speed_file_of(path)
+        return CampaignRun(path, *labels, self.reading_of(path), analysis, second)
 
     def _factor(self, channel: str, settings: ChannelSettings) -> float | None:
         if settings.calibrator_file is None:
@@ -312,7 +340,7 @@ def resolve_settings_files(path: Path, content: dict[str, Any]) -> None:
     for key, value in content.items():
         if isinstance(value, dict):
             resolve_settings_files(path, value)
-        elif key in ("calibrator_file", "machine_file") and isinstance(value, str):
+        elif key in ("calibrator_file", "channel_file", "machine_file") and isinstance(value, str):
             content[key] = str(beside(path, value))
 
 

@@ -13,10 +13,9 @@ from ..orders import recorded as of_recording
 from ..orders.analysed import analysed_channels, channels_without_speed
 from ..orders.analysis_defaults import with_defaults
 from ..orders.crank_motion import CrankMotion
-from ..orders.frequency_map import labelled_map, mapped_spectra
 from ..orders.recorded_speed import recorded_speed
 from ..orders.shaft_speed import RecordedSpeed
-from ..orders.tracked import tracked_orders
+from ..orders.tracked import labelled_map, mapped_spectra, tracked_orders
 from ..recordings import LabelledBlocks
 from ..results import provenance
 from ..study.order_analysis import OrderAnalysis, SpeedSource

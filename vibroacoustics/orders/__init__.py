@@ -9,9 +9,9 @@ array([0.707])
 """
 
 from ..base.ellipse import semi_major_axis
-from ..base.fourier import FFT_ENGINE
 from .angular import AngularSignal, whole_revolutions
 from .angular_stream import angular_resample
+from .block_maps import order_map_of_blocks
 from .crank_motion import CrankMotion, constant_speed, from_angle, from_speed
 from .frequency_map import FrequencyMap, frequency_map
 from .order_cut import OrderCut, OrderResolutionWarning, order_cut, order_lines
@@ -27,7 +27,6 @@ from .tacholess import TacholessResult, tacholess_motion
 from .vold_kalman import Track, TrackedOrders, vold_kalman
 
 __all__ = [
-    "FFT_ENGINE",
     "AngularSignal",
     "CrankMotion",
     "FrequencyMap",
@@ -51,6 +50,7 @@ __all__ = [
     "order_cut",
     "order_lines",
     "order_map",
+    "order_map_of_blocks",
     "order_spectra",
     "order_spectrum",
     "order_spectrum_at_speed",

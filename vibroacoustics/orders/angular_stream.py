@@ -1,5 +1,6 @@
 """A signal over the crank angle, block by block: the same samples as in one piece."""
 
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Final
@@ -14,6 +15,8 @@ from .low_pass import add_samples
 
 _CHUNK_OUTPUTS: Final = 2**14
 """Work arrays of a few channels then stay in the cache."""
+_BLOCK_SAMPLES: Final = 2**20
+"""Samples of all channels that are worked on at a time: 8 MiB."""
 _THREADS: Final = 2
 
 
@@ -40,10 +43,29 @@ def angular_resample(
         shorter than the kernel, or a sample is not finite.
     """
     rows = signal.reshape(-1, signal.shape[-1])
-    check_finite(rows)
-    plan = AngularPlan(sample_rate_hz, signal.shape[-1], motion, maximum_order)
-    angular = AngularStream(plan, rows.shape[0]).add(rows)
-    return replace(angular, values=angular.values.reshape(*signal.shape[:-1], -1))
+    step = max(_BLOCK_SAMPLES // max(rows.shape[0], 1), 1)
+    blocks = (rows[:, begin : begin + step] for begin in range(0, rows.shape[1], step))
+    plan = AngularPlan(sample_rate_hz, rows.shape[1], motion, maximum_order)
+    first, last = plan.grid
+    resampled = AngularSignal(
+        values=np.empty((rows.shape[0], last + 1 - first)),
+        samples_per_revolution=plan.samples_per_revolution,
+        first_sample=first,
+        maximum_order=maximum_order,
+        time_s=np.empty(last + 1 - first),
+    )
+    for part in angular_parts(plan, blocks):
+        of_part = slice(part.first_sample - first, part.first_sample - first + part.time_s.size)
+        resampled.values[:, of_part], resampled.time_s[of_part] = part.values, part.time_s
+    return replace(resampled, values=resampled.values.reshape(*signal.shape[:-1], -1))
+
+
+def angular_parts(plan: AngularPlan, blocks: Iterable[Array]) -> Iterator[AngularSignal]:
+    """Parts of the signal over the angle that blocks end."""
+    stream = None
+    for block in blocks:
+        stream = stream or AngularStream(plan, block.shape[0])
+        yield stream.add(block)
 
 
 class AngularStream:

@@ -8,12 +8,13 @@ import numpy as np
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
 from ..study.order_analysis import OrderAnalysis
-from .angular import AngularSignal, joined
+from .angular import AngularSignal
 from .angular_plan import AngularPlan
-from .block_spectra import block_hop, block_starts
+from .block_maps import OrderMapBlocks
+from .block_spectra import block_starts
 from .loud_lines import loud_orders
 from .order_cut import order_bands, order_lines, rms_in_bands
-from .order_map import OrderMap, block_phasors, block_revolutions, order_map, rms_of_lines
+from .order_map import OrderMap, block_phasors, block_revolutions, rms_of_lines
 from .windows import window_by_name
 
 WINDOW: Final = "hann"
@@ -75,16 +76,14 @@ class BlockOrders:
 
     def __init__(self, plan: AngularPlan, channels: int, settings: OrderAnalysis) -> None:
         self._settings = settings
-        self._resolution = settings.resolution_or_default
-        revolutions, blocks, lines = map_size(plan, settings)
-        self._length = revolutions * plan.samples_per_revolution
+        _, blocks, lines = map_size(plan, settings)
         if settings.with_map:
             _check_map(channels, blocks, lines)
         is_small = 16 * channels * blocks * lines <= MOST_UNASKED_MAP_BYTES
         chooses = not settings.orders  # from the map
         self._keeps_map = chooses or (is_small if settings.with_map is None else settings.with_map)
         self._shows_map = is_small if settings.with_map is None else settings.with_map
-        self._pending: AngularSignal | None = None
+        self._mapping = OrderMapBlocks(settings.resolution_or_default, WINDOW, OVERLAP_RATIO)
         self._spectra: list[OrderMap] = []  # without amplitudes where no map is wanted
         self._bands: list[range] = []
         self._phasors: list[ComplexArray] = []
@@ -99,11 +98,10 @@ class BlockOrders:
         OrderResolutionWarning
             Orders that are wanted leak into each other.
         """
-        signal = joined(self._pending, signal)
-        self._pending = signal
-        if signal.time_s.size < self._length:
+        added = self._mapping.add(signal)
+        if added is None:
             return
-        spectra = order_map(signal, self._resolution, WINDOW, OVERLAP_RATIO)
+        signal, spectra = added
         if self._settings.orders:
             self._phasors.append(block_phasors(signal, spectra, self._settings.orders))
             self._bands = self._bands or order_bands(spectra, self._settings.orders)
@@ -112,8 +110,6 @@ class BlockOrders:
         if not self._keeps_map:
             spectra = replace(spectra, amplitude=np.empty(0, dtype=complex))
         self._spectra.append(spectra)
-        hop = block_hop(self._length, OVERLAP_RATIO)
-        self._pending = signal.behind(int(spectra.starts[-1]) + hop)
 
     def result(self, is_sound: Array) -> OrdersOfBlocks:
         """Return the orders of all blocks added; of settings without orders, the loudest.

@@ -6,10 +6,10 @@ from typing import Final
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
+from scipy import fft
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
-from ..base.fourier import real_transform
 
 _CHUNK_SAMPLES: Final = 2**18
 """Windowed at once in each thread: 2 MB, and 2 MB of their spectra."""
@@ -67,7 +67,7 @@ def block_spectra(
         begins, of_block = np.unique(grid_index[blocks] % length, return_inverse=True)
         turns = np.outer(begins, np.arange(lines)) % length / length
         turned = np.exp(-2j * np.pi * turns)[of_block]
-        np.multiply(real_transform(windowed)[..., :lines], turned, out=amplitude[some, blocks])
+        np.multiply(fft.rfft(windowed)[..., :lines], turned, out=amplitude[some, blocks])
 
     each = [slice(row, row + 1) for row in range(len(rows))]
     jobs = [(row, begin) for row in each for begin in range(0, starts.size, chunk)]

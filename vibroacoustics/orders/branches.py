@@ -34,6 +34,10 @@ _RUNNING_RATIO: Final = 0.5
 """Mean square of one that starts or stops, at most."""
 _MOST_BETWEEN: Final = 0.2
 """Share of the blocks between both: a machine starts and stops faster than a beat of two tones."""
+_LOUDER: Final = 1.26
+"""Ratio of the mean squares of two levels: 1 dB."""
+_CLEARLY: Final = 8.0
+"""Distance of two levels, over the scatter of the blocks; of a beat it is below 5."""
 _SMOOTHED_BLOCKS: Final = 5
 _RAMP_BLOCKS: Final = 4
 """Blocks beside a start or stop whose orders are near the speed, with a phase that turns."""
@@ -82,6 +86,30 @@ def states_of_blocks(order_square: Array) -> Names:
     if min(lengths, default=0) < LEAST_BLOCKS or np.mean(is_between) > _MOST_BETWEEN:
         return np.full(smooth.size, DWELL)
     return states
+
+
+def load_levels(order_square: Array) -> tuple[float, float, int] | None:
+    """Mean squares of two levels at which the orders of a dwell stay, and blocks at the second.
+
+    Two levels are 1 dB or more apart, eight times as far as the blocks scatter about them, and
+    change at most a few times: those of noise, a beat or a slow drift are not. None of one level.
+
+    Parameters
+    ----------
+    order_square : mean square of the orders in each block, shape (block,)
+    """
+    smooth = median_filter(order_square, min(_SMOOTHED_BLOCKS, order_square.size), mode="nearest")
+    ranked = np.sort(smooth)
+    jumps = np.diff(ranked)[LEAST_BLOCKS - 1 : ranked.size - LEAST_BLOCKS]
+    if not jumps.any():
+        return None
+    is_high = smooth > ranked[LEAST_BLOCKS - 1 + int(np.argmax(jumps))]
+    low, high = (float(smooth[part].mean()) for part in (~is_high, is_high))
+    scatter = max(float(smooth[part].std()) for part in (~is_high, is_high))
+    changes = np.count_nonzero(is_high[1:] != is_high[:-1])
+    if changes > _MOST_NUMBERED or high < _LOUDER * low or high - low < _CLEARLY * scatter:
+        return None
+    return low, high, int(np.count_nonzero(is_high))
 
 
 Piece = tuple[str, int, int]

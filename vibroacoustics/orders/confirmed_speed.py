@@ -7,12 +7,22 @@ from typing import Final
 
 import numpy as np
 import scipy  # loads its subpackages when they are needed
-from numpy.typing import NDArray
 
 from ..base.arrays import Array
 from ..base.recording_blocks import RecordingBlocks, block_by_block
 from .comb_evidence import best_speeds, clear_lines, evidence, lines_in_place
 from .crank_motion import CrankMotion
+from .lag_evidence import (
+    LEAST_LINES,
+    OFF_ORDER,
+    departures,
+    in_place,
+    is_supported,
+    line_error,
+    moves_off,
+    off_orders,
+    scale_lag,
+)
 from .mains import mains_of
 from .shaft_speed import RecordedSpeed, UncertainSpeedWarning
 from .speed_lag import HIGHEST_ORDER, LEAST_LAG_S, SpeedLag, late, speed_lag
@@ -26,27 +36,10 @@ _VARIES: Final = 0.05
 _ERRORS: Final = 5.0
 """Standard errors of a lag that is one."""
 _OVERSAMPLING: Final = 2.5
-_DEPARTURE_TURNS: Final = 1.0
-"""Change of the phase within a block that a resonance or a filter cannot make."""
-_BLOCK_REVOLUTIONS: Final = 16.0
-_DEPARTURE_SCATTER: Final = 10.0
-_DEPARTURE_BLOCKS: Final = 4
-"""Blocks in a row that depart: a line that crosses is not as long in all orders."""
 _MOST_LAG_S: Final = 0.9
 """Largest lag that is corrected: trials end at 1 s."""
 _BENDS: Final = 2.0
 """Change of the orders that a lag explains, over the scatter of the lines."""
-_FINE_ORDERS: Final = 5.0
-_NEAR_ORDER: Final = 0.03
-_ALIKE: Final = 0.15
-_LINE_ERROR: Final = 4e-3
-_LEAST_SCALE: Final = 1e-3
-_LEAST_SLOPE: Final = 0.02
-"""Distances of lines from orders that have one scale, relative, and f'/f in 1/s from which a lag
-follows from it."""
-_ON_ORDER: Final = 0.01
-_OFF_ORDER: Final = 0.03
-"""Distance from multiples of 1/2 by which a lag may move lines: one line of the spectra."""
 _NEAR: Final = 0.1
 """Distance of a nominal speed from the actual one, relative."""
 _APART: Final = 0.004
@@ -59,7 +52,6 @@ _UNITS: Final = {
 """Factors between units of a speed that may be confused."""
 _LEAST_HZ: Final = 2.0
 _LEAST_EVIDENCE: Final = 8.0
-_LEAST_LINES: Final = 2
 _LEAST_TURNS: Final = 4.0
 """Revolutions below which no line can be compared."""
 
@@ -88,15 +80,19 @@ def confirmed(
     if np.ptp(speeds_hz) < _VARIES * highest_hz:
         if shaft.kind == "nominal":
             signals = _signals(recording, names, highest_hz)
-            notes = [note for each in signals for note in _scale_notes(*each, motion)][:1]
+            checked = [_scale_notes(*each, motion) for each in signals]
+            is_confirmed = any(each is None for each in checked)
+            notes = [] if is_confirmed else [note for each in checked for note in each or ()][:1]
     else:
         lags = list(_lags(_signals(recording, names, highest_hz), motion))
         if lags:
             lag = max(lags, key=lambda pair: pair[0])[1]
             motion, notes = _corrected(shaft, lag)
-            notes += _departures(lag)
-        if shaft.kind == "recorded" and not any(_in_place(each.lines).any() for _, each in lags):
-            notes = _unit_notes(recording, names, motion, _LEAST_LINES if lags else 1) or notes
+            notes += departures(lag)
+        if shaft.kind == "recorded" and not any(in_place(each.lines).any() for _, each in lags):
+            notes = _unit_notes(recording, names, motion, LEAST_LINES if lags else 1) or notes
+        if shaft.kind == "recorded" and not notes:
+            notes = [note for _, lag in lags for note in _ratio_notes(lag.unmoved_lines)][:1]
     for note in notes:
         warnings.warn(f"speed: {note}", UncertainSpeedWarning, stacklevel=3)
     return replace(shaft, motion=motion, source="; ".join([shaft.source, *notes]))
@@ -146,8 +142,8 @@ def _corrected(shaft: RecordedSpeed, lag: SpeedLag) -> tuple[CrankMotion, list[s
     """Motion without its lag, and a sentence on it; the motion as it is without a clear lag."""
     is_lag = abs(lag.lag_s) > max(LEAST_LAG_S, _ERRORS * lag.error_s)
     motion, held_s = shaft.motion, shaft.held_s
-    lag_s = _scale_lag(lag) if shaft.kind == "recorded" else 0.0
-    if is_lag and lag.bend > _BENDS and not _moves_off(lag):
+    lag_s = scale_lag(lag) if shaft.kind == "recorded" else 0.0
+    if is_lag and lag.bend > _BENDS and not moves_off(lag) and is_supported(lag):
         lag_s = lag.lag_s
     shifted = late(motion, lag_s)
     if abs(lag_s) < LEAST_LAG_S or shifted is None:
@@ -164,60 +160,11 @@ def _corrected(shaft: RecordedSpeed, lag: SpeedLag) -> tuple[CrankMotion, list[s
     return shifted, [f"{note}: corrected"]
 
 
-def _scale_lag(lag: SpeedLag) -> float:
-    """Lag in s by which lines are beside orders, of a speed that decays; 0 without one.
-
-    Where f'/f is constant, a lag changes the scale of the orders only: at least two lines must be
-    at the same distance, relative, from multiples of 1/2 below order 5 and of 1 above.
-    """
-    lines = lag.unmoved_lines
-    if not lines.size:
-        return 0.0
-    nearest = np.where(lines < _FINE_ORDERS, 0.5 * np.rint(2.0 * lines), np.rint(lines))
-    off = np.log(lines / np.maximum(nearest, 0.5))
-    error = _LINE_ERROR / lines
-    alike = np.abs(off - off[:, None]) < _ALIKE * np.abs(off)[:, None] + error
-    most = alike[int(np.argmax(alike @ lines))] & (np.abs(off) < _NEAR_ORDER)
-    is_sure = np.count_nonzero(most) >= max(_LEAST_LINES, 0.5 * lines.size)
-    is_sure |= lines.size == 1 and lines[0] > _FINE_ORDERS
-    if not is_sure or abs(lag.slope_per_s) < _LEAST_SLOPE:
-        return 0.0
-    weight = np.where(most, lines**2, 0.0)
-    scale = float(np.sum(weight * off) / max(float(np.sum(weight)), 1e-30))
-    least = max(_LEAST_SCALE, 2.0 * float(error[most].min())) if most.any() else np.inf
-    return scale / lag.slope_per_s if abs(scale) > least else 0.0
-
-
-def _moves_off(lag: SpeedLag) -> bool:
-    """Whether a lag moves lines that are orders: in a decay it only changes their scale."""
-    lines = lag.unmoved_lines
-    are_orders = lines.size > 0 and bool(np.all(_off_orders(lines) < _ON_ORDER))
-    farthest = np.abs(lag.lines[:, None] - lines).min(axis=1, initial=np.inf).max(initial=0.0)
-    return are_orders and bool(farthest > _OFF_ORDER)
-
-
-def _departures(lag: SpeedLag) -> list[str]:
-    """Name the longest part in which lines depart from the speed alike."""
-    least = _DEPARTURE_TURNS / (_BLOCK_REVOLUTIONS * float(lag.lines.min()))
-    threshold = max(least, _DEPARTURE_SCATTER * lag.scatter)
-    departs = np.concatenate([[False], np.abs(lag.departure) > threshold, [False]])
-    borders = np.flatnonzero(departs[1:] != departs[:-1])
-    runs = list(zip(borders[::2].tolist(), borders[1::2].tolist(), strict=True))
-    first, last = max(runs, key=lambda run: run[1] - run[0], default=(0, 0))
-    if last - first < _DEPARTURE_BLOCKS:
-        return []
-    worst = lag.departure[first:last][np.argmax(np.abs(lag.departure[first:last]))]
-    return [
-        f"from {lag.time_s[first]:.4g} to {lag.time_s[last - 1]:.4g} s the sound is at "
-        f"{1.0 + worst:.3f} times the speed: orders read too low there"
-    ]
-
-
 def _unit_notes(
     recording: RecordingBlocks, names: Sequence[str], motion: CrankMotion, least_lines: int
 ) -> list[str]:
     """Name the unit in which a recorded speed has lines at its orders, and else none."""
-    most_hz = recording.sample_rate_hz / (2.0 * _LEAST_LINES)
+    most_hz = recording.sample_rate_hz / (2.0 * LEAST_LINES)
     highest_hz = float(_speeds_hz(motion).max())
     factors = {
         unit: each for unit, each in _UNITS.items() if _LEAST_HZ < each * highest_hz < most_hz
@@ -227,12 +174,34 @@ def _unit_notes(
     signals = list(_signals(recording, names, max(factors.values()) * highest_hz))
     for unit, factor in factors.items():
         for _, lag in _lags(signals, motion.geared(factor)):
-            if np.isfinite(lag.error_s) and np.sum(_in_place(lag.lines)) >= least_lines:
+            are_orders = off_orders(lag.lines) < np.minimum(line_error(lag.lines), OFF_ORDER)
+            if lag.lines.size >= least_lines and are_orders.all():
                 lines = ", ".join(f"{order:.4g}" for order in np.sort(lag.lines))
                 return [
                     f"no line of the sound is an order of it; as a speed in {unit} it has lines at "
                     f"orders {lines}: orders are wrong; state its unit"
                 ]
+    return []
+
+
+def _ratio_notes(lines: Array) -> list[str]:
+    """Name the speed whose orders all lines are, where none is an order of the recorded one.
+
+    The orders have no common divisor: multiples of one line would fit many speeds.
+    """
+    error = line_error(lines)
+    if lines.size < LEAST_LINES or np.any(off_orders(lines) < error):
+        return []
+    for order in range(max(round(lines[0]) - 1, 1), round(lines[0]) + 2):
+        ratio = lines[0] / order
+        nearest = np.rint(lines / ratio)
+        ratio = float(np.sum(lines * nearest) / max(np.sum(nearest**2), 1.0))
+        is_sure = np.all(np.abs(lines - ratio * nearest) < error) and nearest.min() > 0.0
+        if is_sure and np.gcd.reduce(nearest.astype(int)) == 1 and abs(ratio - 1.0) < _NEAR:
+            return [
+                f"no line of the sound is an order of it, all {lines.size} are of {ratio:.4g} "
+                "times the speed: orders read too low; check its factor, or find it in the signal"
+            ]
     return []
 
 
@@ -242,18 +211,8 @@ def _speeds_hz(motion: CrankMotion) -> Array:
     return motion.frequency_hz(np.asarray(times))
 
 
-def _off_orders(lines: Array) -> Array:
-    """Distance of lines from multiples of 1/2, shape (line,)."""
-    return np.asarray(np.abs(lines - 0.5 * np.rint(2.0 * lines)))
-
-
-def _in_place(lines: Array) -> NDArray[np.bool_]:
-    """Whether lines are multiples of 1/2, shape (line,)."""
-    return np.asarray(_off_orders(lines) < _OFF_ORDER)
-
-
-def _scale_notes(signal: Array, rate_hz: float, motion: CrankMotion) -> list[str]:
-    """Name the speed that the lines fit where a nominal one explains none of them."""
+def _scale_notes(signal: Array, rate_hz: float, motion: CrankMotion) -> list[str] | None:
+    """Name the speed that the lines fit; None where a nominal one explains some of them."""
     first = int(np.ceil(motion.start_s * rate_hz))
     samples = signal[first : int(motion.end_s * rate_hz) + 1]
     hertz = float(motion.frequency_hz(np.array([motion.start_s]))[0])
@@ -262,13 +221,15 @@ def _scale_notes(signal: Array, rate_hz: float, motion: CrankMotion) -> list[str
     if length < 24.0 * per_revolution:
         return []
     lines = clear_lines(samples, per_revolution, length, 4.0)
-    in_place = lines_in_place(lines, _HALF_ORDERS)[0]
+    explained = lines_in_place(lines, _HALF_ORDERS)[0]
     scales, worths = best_speeds(lines, _COMB, 1.0 - _NEAR, 1.0 + _NEAR, _APART)
-    if in_place or scales.size == 0 or mains_of(np.array([scales[0] * hertz])) is not None:
+    if explained:
+        return None
+    if scales.size == 0 or mains_of(np.array([scales[0] * hertz])) is not None:
         return []
     explained = lines_in_place(lines, scales[0] * _COMB)[0]
     gain = worths[0] - evidence(lines, _COMB, np.ones(1))[0]
-    if explained < _LEAST_LINES or gain < _LEAST_EVIDENCE or abs(scales[0] - 1.0) < _APART:
+    if explained < LEAST_LINES or gain < _LEAST_EVIDENCE or abs(scales[0] - 1.0) < _APART:
         return []
     rpm = 60.0 * hertz
     return [

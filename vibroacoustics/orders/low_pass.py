@@ -11,6 +11,8 @@ from ..base.arrays import Array
 _PHASES: Final = 512
 """Tabulated positions between two outputs. Linear interpolation errs by at most h'' / (8 · 512²):
 1e-6 of the kernel's peak, -120 dB."""
+_TOGETHER: Final = 4
+"""Samples between two outputs that are added at a time."""
 
 
 @dataclass(frozen=True)
@@ -62,17 +64,37 @@ def add_samples(signal: Array, position: Array, width: Array, table: Array, outp
     table : values of the kernel, shape (position between two outputs, output)
     output : y, shape (channel, output); it is changed
     """
-    taps = table.shape[1]
-    weight = np.empty(taps)
-    for n in range(signal.shape[1]):
-        floor = np.floor(position[n])
-        phase = (position[n] - floor) * (table.shape[0] - 1)
-        row = int(phase)
-        share = phase - row
-        for tap in range(taps):
-            weight[tap] = table[row, tap] + share * (table[row + 1, tap] - table[row, tap])
-        first = int(floor)
+    weight = np.empty((_TOGETHER, table.shape[1]))
+    n = 0
+    while n < signal.shape[1]:
+        floor, count = np.floor(position[n]), 0
+        while (
+            count < _TOGETHER
+            and n + count < signal.shape[1]
+            and np.floor(position[n + count]) == floor
+        ):
+            _weigh(position[n + count] - floor, width[n + count], table, weight[count])
+            count += 1
         for channel in range(signal.shape[0]):
-            value = signal[channel, n] * width[n]
-            for tap in range(taps):
-                output[channel, first + tap] += value * weight[tap]
+            samples, sums = signal[channel, n : n + count], output[channel, int(floor) :]
+            if count == _TOGETHER:  # a sum is then read and written once for all
+                a, b, c, d = samples[0], samples[1], samples[2], samples[3]
+                for tap in range(weight.shape[1]):
+                    sums[tap] += (a * weight[0, tap] + b * weight[1, tap]) + (
+                        c * weight[2, tap] + d * weight[3, tap]
+                    )
+            else:
+                for k in range(count):
+                    for tap in range(weight.shape[1]):
+                        sums[tap] += samples[k] * weight[k, tap]
+        n += count
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+def _weigh(share: float, width: float, table: Array, weight: Array) -> None:
+    """Kernel of a sample at a share of a step behind an output, times its width: into `weight`."""
+    phase = share * (table.shape[0] - 1)
+    row = int(phase)
+    for tap in range(table.shape[1]):
+        value = table[row, tap] + (phase - row) * (table[row + 1, tap] - table[row, tap])
+        weight[tap] = width * value

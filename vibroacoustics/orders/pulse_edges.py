@@ -20,6 +20,8 @@ _HYSTERESIS: Final = 0.4
 three samples, which a converter's filter rounds, still reaches 70 % of the swing."""
 _STEEPER: Final = 0.5
 """Time of the falling edge over that of the rising one, below which the falling one is taken."""
+_BLOCK_SAMPLES: Final = 2**16
+"""Samples of an array that are worked on at a time: half a MiB."""
 _ROUNDS: Final = 5
 """Rounds in which the threshold follows the height: each reaches pulses of a fifth of the last
 height."""
@@ -76,10 +78,12 @@ def pulse_times(
     """
     if signal.ndim != 1 or signal.size == 0:
         raise ParameterError(f"tacho: needs samples of one channel, got shape {signal.shape}")
-    once = (np.asarray(signal, dtype=float),)
-    return pulses_of(
-        lambda: iter(once), signal.size, sample_rate_hz, edge, threshold, hysteresis
-    ).time_s
+
+    def blocks() -> Iterator[Array]:
+        for first in range(0, signal.size, _BLOCK_SAMPLES):
+            yield np.asarray(signal[first : first + _BLOCK_SAMPLES], dtype=float)
+
+    return pulses_of(blocks, signal.size, sample_rate_hz, edge, threshold, hysteresis).time_s
 
 
 def pulses_of(

@@ -1,5 +1,6 @@
 """Orders of a recording, labelled: by block, at operating points, over the revolution."""
 
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -7,13 +8,14 @@ import numpy as np
 import xarray as xr
 
 from ..base.arrays import Array, ComplexArray, IndexArray
+from ..base.decibel import level_of_power
 from ..base.errors import ParameterError
 from ..base.vocabulary import stamp
 from ..study.order_analysis import LEAST_BLOCKS, OrderAnalysis
 from .analysis_defaults import highest_order
 from .angular_plan import AngularPlan
 from .block_orders import WINDOW, OrdersOfBlocks, is_steady
-from .branches import Names, branch_of_blocks
+from .branches import DWELL, Names, branch_of_blocks, load_levels
 from .crank_motion import CrankMotion
 from .pulse_faults import PulseFault
 from .synchronous_average import RevolutionAverage
@@ -39,6 +41,8 @@ def recorded_orders(
     """
     block_speed = 60.0 * blocks.shaft_frequency_hz
     branch = branch_of_blocks(block_speed, order_square(blocks.phasor))
+    for name in np.unique(branch[np.char.startswith(branch, DWELL)]):
+        _warn_of_load(str(name), order_square(blocks.phasor)[branch == name])
     speeds, branches, point = points_of_branches(block_speed, branch, settings.speed_step_rpm)
     at_points = mean_orders(blocks.phasor, blocks.rms, point, speeds.size)
     by_line = {"channel": channel["channel"], "map_order": blocks.map_order}
@@ -66,6 +70,24 @@ def recorded_orders(
         "calibration_factor": channel["calibration_factor"],
     }
     return xr.Dataset(labelled, coords=coords)
+
+
+class LoadWarning(UserWarning):
+    """The orders of a steady speed stay at two levels: their mean is of neither."""
+
+
+def _warn_of_load(branch: str, square: Array) -> None:
+    """Name two levels of the orders of a branch of steady speed."""
+    levels = load_levels(square)
+    if levels is not None:
+        low, high, louder = levels
+        warnings.warn(
+            f"{branch}: the orders stay at two levels, {level_of_power(high / low):.3g} dB apart, "
+            f"in {louder} and {square.size - louder} blocks, as of two loads: the mean is of "
+            "neither; choose a part by from_s and to_s",
+            LoadWarning,
+            stacklevel=4,
+        )
 
 
 def operating_points(block_speed_rpm: Array, speed_step_rpm: float) -> tuple[Array, IndexArray]:

@@ -16,6 +16,7 @@ _NEIGHBOURS: Final = 20
 _LEAST_NEIGHBOURS: Final = 3
 _FROZEN: Final = 6
 """Intervals of one value from which a speed that then jumps was frozen."""
+_ROUNDING: Final = 1e-9
 _JUMP_STEPS: Final = 5.0
 _JUMP: Final = 0.002
 """Jump behind a frozen part: over the median step of the speed, and relative."""
@@ -85,7 +86,8 @@ def _strays_of_intervals(mean_rpm: Array) -> NDArray[np.bool_]:
 
 def _frozen(mean_rpm: Array, is_constant: NDArray[np.bool_]) -> NDArray[np.bool_]:
     steps = np.abs(np.diff(mean_rpm))
-    moving = steps[steps > 0.0]
+    moving = steps[steps > _ROUNDING * np.abs(mean_rpm[1:])]
+    step = float(np.median(moving)) if moving.size else 0.0
     is_frozen = np.zeros(mean_rpm.size, dtype=bool)
     alike = np.concatenate([[False], is_constant[1:] & is_constant[:-1] & (steps == 0.0), [False]])
     starts = np.flatnonzero(~alike[:-1] & alike[1:])
@@ -94,7 +96,7 @@ def _frozen(mean_rpm: Array, is_constant: NDArray[np.bool_]) -> NDArray[np.bool_
         if last - first < _FROZEN or last + 1 >= mean_rpm.size:
             continue
         jump = abs(mean_rpm[last + 1] - mean_rpm[first])
-        is_jump = jump > max(_JUMP_STEPS * float(np.median(moving)), _JUMP * abs(mean_rpm[first]))
+        is_jump = jump > max(_JUMP_STEPS * step, _JUMP * abs(mean_rpm[first]))
         # The interval behind has values before and behind the jump.
         is_frozen[first : last + 1] = is_jump
     return is_frozen

@@ -91,8 +91,7 @@ def order_spectra(signal: Array, speed_rad_per_s: Array, maximum_order: int) -> 
 
 
 def _series(signal: Array, maximum_order: int, revolutions: int = 1) -> ComplexArray:
-    """One-sided Fourier series of short time histories; by scipy, as FFTW plans longer than it
-    computes.
+    """One-sided Fourier series of short time histories.
 
     Parameters
     ----------

@@ -62,6 +62,7 @@ class SpeedLag:
     lines : orders of the lines that it comes from, shape (line,)
     unmoved_lines : orders of clear lines without the lag, shape (line,)
     slope_per_s : median of f'/f
+    slope_scatter : median deviation of f'/f from it
     time_s : mid-time of each block, shape (block,)
     departure : speed of the sound over that of the shaft less 1, lag aside, shape (block,); 0 where
         fewer than two lines agree on it
@@ -74,6 +75,7 @@ class SpeedLag:
     lines: Array
     unmoved_lines: Array
     slope_per_s: float
+    slope_scatter: float
     time_s: Array
     departure: Array
     scatter: float
@@ -273,6 +275,7 @@ def _regression(blocks: _Blocks, motion: CrankMotion) -> SpeedLag | None:
         lines=orders,
         unmoved_lines=orders,
         slope_per_s=float(np.median(slope)),
+        slope_scatter=float(np.median(np.abs(slope - np.median(slope)))),
         time_s=blocks.middle_s,
         departure=departure,
         scatter=float(scatter.max()),

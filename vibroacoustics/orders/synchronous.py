@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from ..base.arrays import Array, ComplexArray
 from ..base.errors import ParameterError
-from ..base.fourier import real_transform
 from .angular import AngularSignal
 from .low_pass import LowPass, kaiser_low_pass
 from .order_cut import warn_of_neighbours
@@ -83,7 +82,7 @@ def synchronous_demodulation(
     rows = signal.values.reshape(-1, size)
     amplitude = np.empty((len(rows), wanted.size, output.size), dtype=complex)
     for row, values in enumerate(rows):
-        spectrum = real_transform(np.pad(values, (0, lines * step - size)))
+        spectrum = scipy.fft.rfft(np.pad(values, (0, lines * step - size)))
         for number, cycles in enumerate(wanted / per_revolution):
             nearest = round(cycles * lines * step)
             envelope = _around(spectrum, nearest, response, lines * step)[output]
@@ -142,7 +141,7 @@ def _response(low_pass: LowPass, lines: int, step: int) -> Array:
     distance = np.arange(-low_pass.half_length, low_pass.half_length + 1)
     circular = np.zeros(lines * step)
     circular[distance] = low_pass.kernel(distance.astype(float))
-    gain = real_transform(circular).real
+    gain = scipy.fft.rfft(circular).real
     return np.asarray(gain[np.abs(_offsets(lines))])
 
 

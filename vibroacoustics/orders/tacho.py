@@ -34,6 +34,8 @@ _FALL: Final = 0.5
 _ONE_PULSE: Final = 0.5
 """Deviation of an interval from that of its mark, in pitches, by a pulse missing or too much."""
 _ALIKE: Final = 0.1
+_FEW: Final = 0.05
+"""Different intervals, over the number of pulses, of times that are not between the samples."""
 _REPEATED: Final = 0.8
 """Share of the revolutions in which a joint has its size, within a tenth of a pitch."""
 
@@ -63,7 +65,8 @@ def joint_sizes(time_s: Array, marks: int) -> Array | None:
         return None
     scatter = 1.4826 * np.median(np.abs(folded - middle), axis=0)
     size = middle / median_filter(middle, _NEIGHBOURS, mode="wrap")
-    least = np.maximum(_LEAST_SIZE, _CLEAR * scatter / np.sqrt(revolutions))
+    sampled = _sampling_interval(time_s) / float(np.median(np.diff(time_s)))
+    least = np.maximum(max(_LEAST_SIZE, sampled), _CLEAR * scatter / np.sqrt(revolutions))
     deviation = np.abs(size - 1.0)
     is_clear = (deviation > least) & (np.mean(np.abs(folded - middle) < _ALIKE, axis=0) > _REPEATED)
     # Joints are few, and larger than the errors of all other marks.
@@ -78,6 +81,12 @@ def joint_sizes(time_s: Array, marks: int) -> Array | None:
     sizes = np.where(is_joint, mean_size / _even(mean_size, is_joint), 1.0)
     is_tape = bool(np.all((sizes > _SIZES[0]) & (sizes < _SIZES[1])))
     return np.roll(sizes, half) if is_tape else None
+
+
+def _sampling_interval(time_s: Array) -> float:
+    """Step between the times of pulses that have the samples' times; 0 where they are between."""
+    steps = np.diff(np.unique(np.round(np.diff(time_s), 9)))
+    return float(steps.min()) if 0 < steps.size < _FEW * time_s.size else 0.0
 
 
 def _even(values: Array, is_joint: NDArray[np.bool_]) -> Array:

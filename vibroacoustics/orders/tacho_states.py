@@ -35,7 +35,7 @@ class TachoStates:
         self._every = -(-samples // _MEDIAN_SAMPLES)
         parts = -(-samples // self._length)
         self._bottom, self._top = np.full(parts, np.inf), np.full(parts, -np.inf)
-        self._some: list[Array] = []
+        self._some: Array = np.empty(-(-samples // self._every))  # in any order
 
     @property
     def lowest(self) -> float:
@@ -65,7 +65,8 @@ class TachoStates:
         starts = np.maximum(np.arange(parts.start, parts.stop) * self._length - first, 0)
         for extremes, extreme in ((self._bottom, np.minimum), (self._top, np.maximum)):
             extremes[parts] = extreme(extremes[parts], extreme.reduceat(block, starts))
-        self._some.append(block[-first % self._every :: self._every].copy())
+        some = slice(-(-first // self._every), -(-self._added // self._every))
+        self._some[some] = block[-first % self._every :: self._every]
 
     def levels(self) -> tuple[float, float, bool]:
         """Low and high level, after all samples have been added, and whether they are two states.
@@ -78,11 +79,11 @@ class TachoStates:
             The signal is constant.
         """
         bottom, top = self.extremes()
-        some = np.concatenate(self._some)
+        some = self._some
         above = some >= 0.5 * (bottom + top)
         if above.all() or not above.any():
             return (bottom, top, True) if self._every > 1 else (self.lowest, self.highest, True)
-        low, high = float(np.median(some[~above])), float(np.median(some[above]))
+        low, high = (float(np.median(some[part], overwrite_input=True)) for part in (~above, above))
         if high - low > _TWO_STATES * (top - bottom):
             return low, high, True
         return bottom, top, False
@@ -105,9 +106,9 @@ class TachoStates:
     def is_inverted(self) -> bool:
         """Whether the signal is high but for pulses: at most 40 % of the time it is low."""
         bottom, top = self.extremes()
-        low = float(np.quantile(np.concatenate(self._some), _MOST_LOW))
+        low = float(np.quantile(self._some, _MOST_LOW, overwrite_input=True))
         return low >= 0.5 * (bottom + top)
 
     def idle(self) -> float:
         """Median of the samples, about which the height of pulses changes."""
-        return float(np.median(np.concatenate(self._some)))
+        return float(np.median(self._some, overwrite_input=True))

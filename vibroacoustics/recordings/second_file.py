@@ -5,7 +5,6 @@ the second clock; else the start times that the files state give the start, and 
 unknown.
 """
 
-from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import Final, NamedTuple
@@ -16,6 +15,8 @@ import xarray as xr
 
 from ..base.arrays import Array
 from ..base.errors import ParameterError
+from ..base.recording_blocks import RecordingBlocks
+from .blocks import FileBlocks, LabelledBlocks
 from .reading import read_recording
 from .recorded import MissingError, Request, listed
 from .recording import label_in_place
@@ -36,6 +37,23 @@ _SAMPLES: Final = 2**21
 """Samples of a signal that are compared; of longer ones every n-th is taken."""
 
 
+class SpeedFile(NamedTuple):
+    """Second file with channels of the speed.
+
+    Attributes
+    ----------
+    path : the file
+    channels : names of its channels that are wanted
+    """
+
+    path: Path
+    channels: tuple[str, ...]
+
+    def name_of(self, channel: str) -> str:
+        """Return the name of one of its channels beside those of a recording."""
+        return f"{self.path.name} {channel}"
+
+
 class Clock(NamedTuple):
     """Clock of a second file beside that of a recording.
 
@@ -51,14 +69,13 @@ class Clock(NamedTuple):
     note: str
 
 
-def with_second_file(recording: xr.Dataset, path: Path, channels: Sequence[str]) -> xr.Dataset:
+def with_second_file(recording: xr.Dataset, file: SpeedFile) -> xr.Dataset:
     """Recording with channels of a second file, named `FILE CHANNEL`, on their common time.
 
     Parameters
     ----------
     recording : from `read_recording`
-    path : second file; where it states no unit or calibration its samples are taken as V
-    channels : names of its channels that are wanted
+    file : second file; where it states no unit or calibration its samples are taken as V
 
     Raises
     ------
@@ -70,6 +87,7 @@ def with_second_file(recording: xr.Dataset, path: Path, channels: Sequence[str])
     RecordingWarning
         Says how the clocks of both files are brought together.
     """
+    path, channels = file
     second = _read(path)
     names = [str(name) for name in second["channel"].values]
     for name in channels:
@@ -77,7 +95,7 @@ def with_second_file(recording: xr.Dataset, path: Path, channels: Sequence[str])
             raise ParameterError(f"{path}: no channel {name!r} among {listed(names)}")
     clock = clock_of(recording, second)
     chosen = second.sel(channel=list(channels))
-    renamed = [f"{path.name} {name}" for name in channels]
+    renamed = [file.name_of(name) for name in channels]
     names = [*map(str, recording["channel"].values), *renamed]
     clocks = [(recording, 0.0, 0.0), (chosen, clock.start_s, clock.drift)]
     starts = [(part, start_s, drift) for part, start_s, drift in clocks for _ in part["channel"]]
@@ -97,11 +115,26 @@ def with_second_file(recording: xr.Dataset, path: Path, channels: Sequence[str])
     before = recording.attrs.get("reading_remarks")
     texts = [*([before] if before else []), *(f"{path.name}: {each}" for each in remarks)]
     joined.attrs = recording.attrs | {
-        "sample_rate_hz": line.rate_hz, "reading_remarks": "; ".join(texts)
-    }  # fmt: skip
+        "sample_rate_hz": line.rate_hz,
+        "reading_remarks": "; ".join(texts),
+        "speed_file": path.name,
+        "speed_file_sha256": second.attrs["source_sha256"],
+    }
     if line.start_s > 0.0:
         joined.attrs["part_start_s"] = recording.attrs.get("part_start_s", 0.0) + line.start_s
     return joined
+
+
+def blocks_with_speed(sound: FileBlocks, file: SpeedFile | None) -> RecordingBlocks:
+    """Recording from its file, with the channels of the speed that a second file has, if any."""
+    if file is None:
+        return sound
+    samples, units = sound.read(sound.channels, 0, sound.samples), sound.channel_units
+    recording = label_in_place(samples, sound.sample_rate_hz, sound.channels, units, {})
+    factors = ("channel", list(sound.calibration_factors))
+    recording = recording.assign_coords(calibration_factor=factors)
+    recording.attrs = dict(sound.attributes)
+    return LabelledBlocks(with_second_file(recording, file))
 
 
 def _read(path: Path) -> xr.Dataset:

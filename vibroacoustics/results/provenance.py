@@ -74,7 +74,7 @@ def of_recording(recording: Mapping[str, Any], what: str) -> dict[str, Any]:
     name = recording_name(recording)
     kept = (
         "source_sha256", "part_sha256", "part_start_s", "start_time", "sample_rate_hz",
-        "reading_remarks",
+        "reading_remarks", "speed_file", "speed_file_sha256",
     )  # fmt: skip
     return {
         **software_attributes(f"{what} of {name}", RECORDING_SCHEMA_VERSION),

@@ -7,6 +7,7 @@ from support import command_here, tiny_run
 import vibroacoustics as va
 from vibroacoustics.base.errors import SchemaError
 from vibroacoustics.measured.recorded_rows import of_each_speed
+from vibroacoustics.orders.recorded import LoadWarning
 from vibroacoustics.report import analysis_of_comparison
 from vibroacoustics.report.compared.validation import validations_of
 from vibroacoustics.report.recordings import analysis_of_orders
@@ -151,3 +152,12 @@ def test_a_start_and_a_stop_are_in_no_mean():
     assert results["branch"].values.tolist() == ["idle 1", "dwell", "idle 2"]
     peak = np.abs(results["channel_order"].sel(channel="front", order=1.0).values)
     np.testing.assert_allclose(peak[1], 1.0, atol=0.02)
+
+
+def test_two_loads_at_one_speed_are_named():
+    time_s = np.arange(int(20.0 * RATE_HZ)) / RATE_HZ
+    sound = np.where(time_s < 10.0, 1.0, 0.5) * np.cos(8.0 * 2.0 * np.pi * 40.0 * time_s)
+    sound += 0.01 * np.random.default_rng(0).standard_normal(time_s.size)
+    recording = va.label_recording([sound], RATE_HZ, ["front"], ["Pa"])
+    with pytest.warns(LoadWarning, match=r"dwell: the orders stay at two levels, 6\.\d* dB apart"):
+        va.analyse_orders(recording, va.OrderAnalysis(va.NominalSpeed(2400.0), (8.0,)))

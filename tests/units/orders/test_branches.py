@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vibroacoustics.orders.branches import branch_of_blocks, states_of_blocks
+from vibroacoustics.orders.branches import branch_of_blocks, load_levels, states_of_blocks
 
 
 def block_speeds(points, revolutions=6.0):
@@ -100,3 +100,21 @@ def test_noise_and_beats_are_not_idle(seed):
     rng = np.random.default_rng(seed)
     assert set(states(rng.chisquare(4, 500))) == {"dwell"}
     assert set(states(np.cos(np.linspace(0.0, 6.0 + seed, 400)) ** 2)) == {"dwell"}
+
+
+def test_two_loads_have_two_levels():
+    """Half of the blocks at half the amplitude: 6 dB."""
+    noise = 1.0 + 0.05 * np.random.default_rng(0).standard_normal(200)
+    low, high, louder = load_levels(np.where(np.arange(200) < 80, 1.0, 0.25) * noise)
+    assert high / low == pytest.approx(4.0, rel=0.05)
+    assert louder == pytest.approx(80, abs=1)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_noise_beats_and_drifts_have_one_level(seed):
+    rng = np.random.default_rng(seed)
+    assert load_levels(rng.chisquare(4, 500)) is None
+    assert load_levels(rng.chisquare(40, 30)) is None
+    assert load_levels(np.cos(np.linspace(0.0, 6.0 + seed, 400)) ** 2) is None
+    assert load_levels(np.linspace(1.0, 2.0 + seed, 300)) is None
+    assert load_levels(np.ones(40)) is None

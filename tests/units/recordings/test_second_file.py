@@ -1,5 +1,6 @@
 """A tacho in a second file: on the time line of the sound, clocks compared where they can be."""
 
+import hashlib
 import warnings
 
 import numpy as np
@@ -9,7 +10,7 @@ from support import assert_refused, command_here
 
 import vibroacoustics as va
 from vibroacoustics.base.errors import ParameterError
-from vibroacoustics.recordings.second_file import clock_of, with_second_file
+from vibroacoustics.recordings.second_file import SpeedFile, clock_of, with_second_file
 
 RATE_HZ, TACHO_HZ = 8192.0, 11025.0
 DURATION_S = 12.0
@@ -83,7 +84,7 @@ def test_clocks_are_found_by_a_signal_that_both_have(tmp_path, start_s, drift):
     va.export_recording(second, tmp_path / "second.nc")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        joined = with_second_file(first, tmp_path / "second.nc", ["tacho"])
+        joined = with_second_file(first, SpeedFile(tmp_path / "second.nc", ("tacho",)))
     assert "by channel 'ring' of both" in joined.attrs["reading_remarks"]
     found, _ = peak(joined, "second.nc tacho")
     np.testing.assert_allclose(found, 0.5, rtol=0.01)
@@ -116,11 +117,38 @@ def test_start_times_of_both_files_are_used():
     assert "as both files state" in clock.note
 
 
+def test_settings_name_a_second_file_for_each_recording(tmp_path):
+    """One recording with its settings, and two that are averaged, each with a tacho of its own."""
+    for name in ("a", "b"):
+        samples = 0.01 * ord(name) * sound(times(RATE_HZ))
+        soundfile.write(tmp_path / f"{name}.wav", samples, int(RATE_HZ), "FLOAT")
+        tacho = pulses(times(TACHO_HZ, 1e-5 * ord(name)))
+        soundfile.write(tmp_path / f"{name}_tacho.wav", tacho, int(TACHO_HZ), "PCM_16")
+    (tmp_path / "settings.toml").write_text(
+        '[channels]\n"channel 1" = { unit = "Pa", calibration = 2.0 }\n'
+        '[speed]\nchannel = "channel 1"\nchannel_file = "{recording}_tacho.wav"\n'
+        "[analysis]\norders = [8]\n"
+    )
+    options = ["--settings", tmp_path / "settings.toml", "--out", tmp_path / "out"]
+    outcome = command_here("orders", tmp_path / "a.wav", *options)
+    assert outcome.returncode == 0, outcome.stderr
+    orders = va.open_results(tmp_path / "out" / "orders.nc")
+    digest = hashlib.sha256((tmp_path / "a_tacho.wav").read_bytes()).hexdigest()
+    assert orders.attrs["speed_file_sha256"] == digest
+    assert "a_tacho.wav channel 1" in orders.attrs["speed_source"]
+    outcome = command_here("orders", tmp_path / "a.wav", tmp_path / "b.wav", *options)
+    assert outcome.returncode == 0, outcome.stderr
+    mean = va.open_results(tmp_path / "out" / "campaign.nc")
+    assert mean.sizes["run"] == 2
+    outcome = command_here("track", tmp_path / "a.wav", *options, "--bandwidth", 3, "--orders", 8)
+    assert outcome.returncode == 0, outcome.stderr
+
+
 def test_a_channel_that_the_second_file_does_not_have(tmp_path):
     first = recording(times(RATE_HZ), RATE_HZ, (sound,), {"front": "Pa"})
     va.export_recording(first, tmp_path / "second.nc")
     with pytest.raises(ParameterError, match=r"second.nc: no channel 'tacho' among 'front'"):
-        with_second_file(first, tmp_path / "second.nc", ["tacho"])
+        with_second_file(first, SpeedFile(tmp_path / "second.nc", ("tacho",)))
 
 
 def test_a_second_file_belongs_to_a_channel(tmp_path):
