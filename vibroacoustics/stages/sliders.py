@@ -12,7 +12,6 @@ from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.axes import LevelAxes
 from ..levels.nominal import NominalSound
 from ..machine.cases import Cases
-from ..results.estimates import sample_weights, weighted_estimate
 from ..study.selection import at_speeds
 from ..study.study import Study
 from ..transfer.contributions import Transmission
@@ -23,13 +22,7 @@ from ..uncertainty.evidence import Evidence
 from ..uncertainty.prior_ensemble import PriorEnsemble
 from ..uncertainty.sample_bands import SampleBands
 from ..uncertainty.slider_variables import slider_variables
-from ..uncertainty.sliders import (
-    Compute,
-    Setting,
-    candidates,
-    chosen_sliders,
-    spread_pairs,
-)
+from ..uncertainty.sliders import Compute, Setting, candidates, chosen_sliders, spread_pairs, starts
 from .chain import Chain
 from .sampled import timed_sounds
 from .stage import Given, Stage, Trial
@@ -59,20 +52,15 @@ class Sliders(Stage):
         study, ensemble, results = chain.study, chain[PriorEnsemble], chain.results
         ranges = candidates(study.ranges, ensemble.modelled_db, ensemble.samples)
         receiver = list(chain[NominalSound].axes.receivers).index(study.catalogue_receiver)
-        weight, values = sample_weights(results), results["sampled_value"]
-        chosen = spread_pairs(results, weight)
+        chosen = spread_pairs(results, study.uncertainty.random_samples)
         pairs = [(computed.numbers[row], pair) for row, pair in chosen]
         with stage(chain.progress, self.name):
             alone = _computing(chain, pairs, _axes(chain, [REFERENCE_OPTION]))
             sliders = chosen_sliders(ranges, len(pairs), receiver, alone)
-            axes = _axes(chain, list(study.options))
+            axes, seed = _axes(chain, list(study.options)), study.uncertainty.seed
             every = _computing(chain, pairs, axes)
-            starts = {
-                name: weighted_estimate(values.sel(uncertain_parameter=name).values, weight).value
-                for name in (slider.limits.name for slider in sliders)
-            }
-            seed = study.uncertainty.seed
-            variables = slider_variables(sliders, starts, len(pairs), seed, every, axes.by_receiver)
+            begin = starts(sliders, results)
+            variables = slider_variables(sliders, begin, len(pairs), seed, every, axes.by_receiver)
         return Given(variables)
 
     def tried(self, chain: Chain, study: Study) -> Trial:
@@ -80,7 +68,7 @@ class Sliders(Stage):
         alone = cases.some(key for key in cases.cases if key[1] == REFERENCE_OPTION)
         _, alone_s = timed_sounds(chain.having(alone), study, _TIMED)
         _, every_s = timed_sounds(chain, study, _TIMED)
-        return Trial(chain, (sliders_cost(_TIMED, alone_s, every_s),))
+        return Trial(chain, (sliders_cost(study, _TIMED, alone_s, every_s),))
 
 
 def _axes(chain: Chain, options: Sequence[str]) -> LevelAxes:

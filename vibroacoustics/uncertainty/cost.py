@@ -14,7 +14,7 @@ from ..study.study import Study
 from .evidence import Evidence
 from .prior_ensemble import MOST_ROUNDS, MOST_SAMPLES
 from .slider_variables import SETTINGS
-from .sliders import MACHINES, MOST_CANDIDATES, MOST_SLIDERS, NODES, TRIED
+from .sliders import MOST_CANDIDATES, MOST_SLIDERS, NODES, TRIED, machine_count
 
 _LEAST_BATCHES: Final = 2
 _MOST_BATCHES: Final = 10
@@ -56,23 +56,25 @@ def samples_cost(study: Study, count: int, seconds: float) -> Cost:
     return Cost("samples of all cases", _LEAST_SHARE * wanted * all_s, wanted * all_s, how)
 
 
-def sliders_cost(count: int, alone_s: float, every_s: float) -> Cost:
+def sliders_cost(study: Study, count: int, alone_s: float, every_s: float) -> Cost:
     """Estimate the cost of the sliders.
 
     Parameters
     ----------
+    study : with the number of samples
     count : number of samples that were timed, at one speed
     alone_s : processor time that they took without an option
     every_s : processor time that they took with all options
     """
     one_s, all_s = alone_s / count, every_s / count
-    low = MACHINES + 2 * TRIED * MOST_CANDIDATES
-    high = low + (NODES * MACHINES + (NODES - 1) * TRIED) * MOST_SLIDERS
+    machines = machine_count(study.uncertainty.random_samples)
+    low = machines + 2 * TRIED * MOST_CANDIDATES
+    high = low + (NODES * machines + (NODES - 1) * TRIED) * MOST_SLIDERS
     how = (
         f"{one_s:.2g} s for one of {low} to {high} values without an option and {all_s:.2g} s for "
-        f"one of {SETTINGS + MACHINES} settings with all, {count} measured"
+        f"one of {SETTINGS + machines} settings with all, {count} measured"
     )
-    others_s = (SETTINGS + MACHINES) * all_s
+    others_s = (SETTINGS + machines) * all_s
     return Cost("sliders", low * one_s + others_s, high * one_s + others_s, how)
 
 

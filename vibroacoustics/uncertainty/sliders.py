@@ -13,6 +13,7 @@ from ..base.arrays import Array
 from ..base.vocabulary import REFERENCE_OPTION
 from ..levels.changes import change_at, total_change
 from ..levels.labelled import level
+from ..results.estimates import sample_weights, weighted_estimate
 from ..study.sampling import Sample, sample_at
 from ..study.uncertainty import Range
 from .evidence import PAIRS, systematic
@@ -28,7 +29,7 @@ MOST_SLIDERS: Final = 5
 NODES: Final = 7
 """Values over the range of a slider."""
 MACHINES: Final = 8
-"""Weighted samples that the sliders change."""
+"""Weighted samples that the sliders change, at most."""
 TRIED: Final = 2
 """Samples among them with which candidates are tried."""
 _SHARES: Final[Array] = np.arange(2 * NODES - 1) / (2.0 * NODES - 2.0)
@@ -66,15 +67,30 @@ class Slider:
         return {(self.limits.table, self.limits.field): value}
 
 
-def spread_pairs(results: xr.Dataset, weight: Array) -> list[tuple[int, int]]:
+def machine_count(random_samples: int) -> int:
+    """Number of weighted samples that sliders change: one of four that a study wants."""
+    return int(np.clip(random_samples // 4, TRIED, MACHINES))
+
+
+def starts(sliders: Sequence[Slider], results: xr.Dataset) -> dict[str, float]:
+    """Return the weighted median of each slider's parameter by its name."""
+    weight, values = sample_weights(results), results["sampled_value"]
+    names = [slider.limits.name for slider in sliders]
+    columns = [values.sel(uncertain_parameter=name).values for name in names]
+    medians = [weighted_estimate(column, weight).value for column in columns]
+    return dict(zip(names, medians, strict=True))
+
+
+def spread_pairs(results: xr.Dataset, random_samples: int) -> list[tuple[int, int]]:
     """Weighted samples, one for each equal part of the weight by the modelled level.
 
     Each has its row among those that were computed, and the number of its pair.
     """
+    weight, count = sample_weights(results), machine_count(random_samples)
     level_db = results["level_modelled_by_sample"].sel(option=REFERENCE_OPTION)
     others = [dim for dim in level_db.dims if dim != "sample"]
     order = np.argsort(level_db.mean(others).values)
-    picks = order[systematic(weight[order], MACHINES, 0.5)]
+    picks = order[systematic(weight[order], count, 0.5)]
     picks = np.roll(picks, TRIED + 1)  # candidates are tried with loud ones, not the loudest
     return [divmod(row, PAIRS) for row in picks.tolist()]
 
@@ -176,6 +192,8 @@ def _slider(limits: Range, before: Array, receiver: int, compute: Compute) -> Sl
     largest_db = float(np.abs(error[..., receiver]).max())
     if largest_db > MOST_ERROR_DB:
         return None
+    if not others.size:
+        return Slider(limits, nodes, change[::2], largest_db)
     more = _swept(limits, _SHARES[::2], others.tolist(), compute)
     if more is None:
         return None

@@ -9,7 +9,6 @@ from vibroacoustics.levels.nominal import NominalSound, by_source
 from vibroacoustics.levels.remainder import remaining
 from vibroacoustics.levels.sample_levels import lines_of
 from vibroacoustics.machine.cases import Cases
-from vibroacoustics.results.estimates import sample_weights
 from vibroacoustics.stages.chain import Chain
 from vibroacoustics.stages.forces import with_published
 from vibroacoustics.stages.stage import advanced, applying
@@ -24,7 +23,6 @@ from vibroacoustics.uncertainty.prior_ensemble import PriorEnsemble
 from vibroacoustics.uncertainty.slider_variables import HOOD, slider_variables
 from vibroacoustics.uncertainty.sliders import (
     LEAST_DB,
-    MACHINES,
     MOST_CANDIDATES,
     MOST_ERROR_DB,
     NODES,
@@ -221,7 +219,7 @@ def chain_total(chain, pair, changed):
 
 def pairs_of(chain):
     """Number and pair of each sample of the sliders."""
-    chosen = spread_pairs(chain.results, sample_weights(chain.results))
+    chosen = spread_pairs(chain.results, chain.study.uncertainty.random_samples)
     return [(chain[ComputedSamples].numbers[row], pair) for row, pair in chosen]
 
 
@@ -264,14 +262,14 @@ def test_one_slider_is_within_a_decibel_of_the_chain(chain):
 def test_the_error_of_several_sliders_covers_new_settings(chain):
     error = chain.results["slider_addition_error"].sel(option="none").values
     pairs, covered = pairs_of(chain), 0
-    for number, setting in enumerate(random_settings(chain, 20, seed=12)):
-        machine = number % MACHINES
+    for number, setting in enumerate(random_settings(chain, 12, seed=12)):
+        machine = number % len(pairs)
         together = {key: value for sample in setting.values() for key, value in sample.items()}
         values = {name: next(iter(sample.values())) for name, sample in setting.items()}
         before, after = (chain_total(chain, pairs[machine], each) for each in ({}, together))
         difference = interpolated(chain.results, machine, values) - (after - before)
         covered += abs(difference[0]) <= error[0] + 0.01
-    assert covered >= 18
+    assert covered >= 10
 
 
 @pytest.mark.long
