@@ -164,11 +164,12 @@ def of_run_up(results: xr.Dataset) -> Iterator[Place]:
             for source in map(str, results["sound_source"].values):
                 for name, place in (("source_level", "sources"), ("run_up_source_level", "run-up")):
                     yield ("source", *key, source), place, float(one.sel(sound_source=source)[name])
-            for order in np.intersect1d(one["run_up_order"].values, one["order"].values):
-                level = float(one["order_level"].sel(order=order, weighting="A"))
+            orders = np.intersect1d(one["run_up_order"].values, one["order"].values)
+            levels = one["order_level"].sel(order=orders, weighting="A").values.tolist()
+            mapped = one["run_up_order_level"].sel(run_up_order=orders).values.tolist()
+            for order, level, of_map in zip(orders.tolist(), levels, mapped, strict=True):
                 yield ("order, A", *key, order), "orders", level
-                level = float(one["run_up_order_level"].sel(run_up_order=order))
-                yield ("order, A", *key, order), "map over speed", level
+                yield ("order, A", *key, order), "map over speed", of_map
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -119,7 +119,8 @@ def test_changes_of_all_sliders_add_by_third_octave(opened, results, option):
     change = changes(results, name, setting)
     expected = results["level_total"].sel(option=name, speed=2900.0)
     expected = expected + change.median("slider_machine")
-    np.testing.assert_allclose(got, expected.sel(receiver=microphones(opened)), atol=2e-3)
+    # Levels of bands have 10 bits, 0.03 dB: changes by them err by less than 0.01 dB.
+    np.testing.assert_allclose(got, expected.sel(receiver=microphones(opened)), atol=1e-2)
     error = results["slider_addition_error"].isel(option=option).sel(receiver="front_1m")
     low, middle, high = np.quantile(change.sel(receiver="front_1m"), (0.1, 0.5, 0.9))
     words = [written(value) for value in (middle, low - float(error), high + float(error))]

@@ -167,9 +167,17 @@ def _stays(summary: xr.Dataset) -> Iterable[str]:
         yield "The option changes the noise too, in the study. Here the noise stays."
     for channel, reasons in _unchanged(summary).items():
         for reason in dict.fromkeys(reasons.values()):
-            names = [line for line, why in reasons.items() if why == reason]
+            names = sorted(
+                (line for line, why in reasons.items() if why == reason), key=_line_number
+            )
             more = f" and {len(names) - _MOST_LINES} more" if len(names) > _MOST_LINES else ""
             yield f"{channel}, {reason}: {', '.join(names[:_MOST_LINES])}{more}."
+
+
+def _line_number(line: str) -> tuple[float, str]:
+    """Order of a line by its number; others come last."""
+    number = line.removeprefix("order ")
+    return (float(number), "") if number.replace(".", "", 1).isdigit() else (np.inf, line)
 
 
 def _facts(summary: xr.Dataset) -> Iterable[str]:

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..base.remembered import remembered
-from ..results.stored_study import quoted_speed, speeds
+from ..results.stored_study import nearest_speed, speeds
 from .blocks import Text
 
 MOST_SPEEDS: Final = 6
@@ -29,14 +29,14 @@ def over_speed(results: xr.Dataset) -> bool:
 def few_speeds(results: xr.Dataset) -> xr.Dataset:
     """The results at the speeds that are shown one by one: all, or six evenly chosen.
 
-    These are the lowest, the highest, the catalogue's where it is among them, and others between.
+    These are the lowest, the highest, the nearest to the published one, and others between.
     """
     if not many_speeds(results):
         return results
     order = np.argsort(speeds(results))
     chosen = np.linspace(0, order.size - 1, MOST_SPEEDS).round().astype(int)
-    published = np.flatnonzero(results["speed"].values[order] == quoted_speed(results))
-    if published.size and published[0] not in chosen:
+    published = np.flatnonzero(results["speed"].values[order] == nearest_speed(results))
+    if published[0] not in chosen:
         between = np.abs(chosen - published[0])
         between[[0, -1]] = order.size  # lowest and highest stay
         chosen[np.argmin(between)] = published[0]
