@@ -27,6 +27,8 @@ from .chain import Chain
 from .sampled import timed_sounds
 from .stage import Given, Stage, Trial
 
+_LEAST_SAMPLES: Final = 8
+"""Random samples that a study wants at least, so that two of them are changed."""
 _TIMED: Final = 6
 """Number of samples that are timed."""
 
@@ -43,7 +45,8 @@ class Sliders(Stage):
     gives = ("slider_*",)
 
     def applies(self, study: Study) -> bool:
-        return bool(study.ranges) and study.baseline is None and not study.coarsened
+        enough = study.uncertainty.random_samples >= _LEAST_SAMPLES
+        return bool(study.ranges) and enough and study.baseline is None and not study.coarsened
 
     def run(self, chain: Chain) -> Given:
         computed = chain.get(ComputedSamples)
